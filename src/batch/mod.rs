@@ -1,0 +1,1 @@
+//! Folders of images: walking, pairing, isolating failures.

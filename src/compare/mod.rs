@@ -1,0 +1,1 @@
+//! A mosaic against samplers; detections against reference marks.

@@ -1,0 +1,98 @@
+use crate::geometry::Point;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::str::FromStr;
+
+/// How the image was taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Modality {
+    /// Confocal adaptive-optics ophthalmoscopy: a cone is a bright spot.
+    Confocal,
+    /// Split-detector adaptive-optics ophthalmoscopy: an inner segment is a dark–bright pair along x.
+    Split,
+    /// Histology: an inner segment is a disc, brighter or darker than what surrounds it.
+    Histology,
+}
+
+impl Modality {
+    /// Every modality.
+    pub const ALL: [Self; 3] = [Self::Confocal, Self::Split, Self::Histology];
+
+    /// As it is written in options and tables.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Confocal => "confocal",
+            Self::Split => "split",
+            Self::Histology => "histology",
+        }
+    }
+}
+
+impl fmt::Display for Modality {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for Modality {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Self::ALL
+            .into_iter()
+            .find(|m| m.name() == text)
+            .ok_or_else(|| format!("“{text}” is none of confocal, split, histology"))
+    }
+}
+
+/// Which way round the contrast of a cone runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Polarity {
+    /// Cones brighter than what surrounds them; in split detection, dark on the left and bright on the right.
+    Positive,
+    /// The same with the sign turned.
+    Negative,
+}
+
+impl Polarity {
+    /// +1 or −1.
+    pub const fn sign(self) -> f32 {
+        match self {
+            Self::Positive => 1.,
+            Self::Negative => -1.,
+        }
+    }
+}
+
+/// One cone found in an image.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Detection {
+    /// Its centre in px.
+    pub centre: Point,
+    /// Height of the filter's response there, in the unit of that filter; comparable within one image only.
+    pub score: f64,
+}
+
+/// What was found in one image.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Detections {
+    /// The cones, from the highest score to the lowest.
+    pub cones: Vec<Detection>,
+    /// How the image was taken to be made.
+    pub modality: Modality,
+    /// Which way round its contrast was taken to run.
+    pub polarity: Polarity,
+    /// Cone spacing estimated from Yellott's ring alone, in px.
+    pub ring_spacing: f64,
+    /// Cone spacing after refinement by the density of the detections, in px.
+    pub spacing: f64,
+}
+
+impl Detections {
+    /// The centres in px, in the order of `cones`.
+    pub fn centres(&self) -> Vec<Point> {
+        self.cones.iter().map(|d| d.centre).collect()
+    }
+}

@@ -1,0 +1,7 @@
+//! Points and the windows in which they could have been seen. Knows nothing of cones, images or files.
+
+mod point;
+mod window;
+
+pub use point::Point;
+pub use window::{Rectangle, Window, WindowError};

@@ -1,0 +1,1 @@
+//! Reading and writing coordinate files in every dialect a lab has.

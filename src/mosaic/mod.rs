@@ -1,0 +1,156 @@
+//! The type that travels: points, the window they were seen in, and the scale of that window.
+
+pub mod io;
+mod scale;
+
+pub use scale::{MICROMETRES_PER_DEGREE, Scale, ScaleError, micrometres_per_degree};
+
+use crate::geometry::{Point, Window};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// The unit of a mosaic's coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum LengthUnit {
+    /// Image pixels; pixel (0, 0) is the centre of the top-left pixel.
+    #[serde(rename = "px")]
+    Pixel,
+    /// Micrometres on the retina.
+    #[serde(rename = "um")]
+    Micrometre,
+    /// A length without a physical meaning: the side of the unit square.
+    #[serde(rename = "unit")]
+    Unit,
+}
+
+impl LengthUnit {
+    /// As it stands in column headers: `px`, `um`, `unit`.
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::Pixel => "px",
+            Self::Micrometre => "um",
+            Self::Unit => "unit",
+        }
+    }
+}
+
+/// Points that cannot be a mosaic.
+#[derive(Debug, Error, PartialEq)]
+pub enum MosaicError {
+    /// A coordinate is infinite or not a number.
+    #[error("point {index} is ({x}, {y}): coordinates must be finite numbers")]
+    NotFinite {
+        /// 0-based index of the point.
+        index: usize,
+        /// Its x.
+        x: f64,
+        /// Its y.
+        y: f64,
+    },
+}
+
+/// Cone centres, where they could have been seen, and how large that is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mosaic {
+    points: Vec<Point>,
+    window: Window,
+    unit: LengthUnit,
+    scale: Option<Scale>,
+}
+
+impl Mosaic {
+    /// The points that lie in `window` (border included), and how many did not.
+    /// `scale` counts for pixels only; without it results stay in pixels and say so.
+    ///
+    /// # Errors
+    /// If a coordinate is not finite.
+    pub fn new(
+        points: Vec<Point>,
+        window: Window,
+        unit: LengthUnit,
+        scale: Option<Scale>,
+    ) -> Result<(Self, usize), MosaicError> {
+        if let Some((index, p)) = points.iter().enumerate().find(|(_, p)| !p.is_finite()) {
+            return Err(MosaicError::NotFinite { index, x: p.x, y: p.y });
+        }
+        let given = points.len();
+        let mut points = points;
+        points.retain(|&p| window.contains(p));
+        let dropped = given - points.len();
+        Ok((Self { points, window, unit, scale }, dropped))
+    }
+
+    /// The points, in the order given.
+    pub fn points(&self) -> &[Point] {
+        &self.points
+    }
+
+    /// Where points could have been seen.
+    pub const fn window(&self) -> &Window {
+        &self.window
+    }
+
+    /// The unit of the coordinates and of the window.
+    pub const fn unit(&self) -> LengthUnit {
+        self.unit
+    }
+
+    /// Micrometres per unit of the coordinates, if known.
+    pub fn micrometres_per_unit(&self) -> Option<f64> {
+        match self.unit {
+            LengthUnit::Pixel => self.scale.map(|s| s.micrometres_per_pixel()),
+            LengthUnit::Micrometre => Some(1.),
+            LengthUnit::Unit => None,
+        }
+    }
+
+    /// Pixels to micrometres and degrees, if known.
+    pub const fn scale(&self) -> Option<Scale> {
+        self.scale
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Whether there is no point.
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
+    /// Points per squared unit: n / A, without edge correction.
+    pub fn density(&self) -> f64 {
+        self.points.len() as f64 / self.window.area()
+    }
+
+    /// Hexagonal spacing of this density, in units of the coordinates; `None` without points.
+    pub fn hexagonal_spacing(&self) -> Option<f64> {
+        hexagonal_spacing(self.points.len(), self.window.area())
+    }
+}
+
+/// Distance of neighbours in the perfect triangular lattice of n points in `area`:
+/// s = √(2 A / (√3 n)), twice the r_max of Gamito & Maddock (2009, eq. 5). `None` for n = 0.
+pub fn hexagonal_spacing(n: usize, area: f64) -> Option<f64> {
+    (n > 0).then(|| (2. * area / (3f64.sqrt() * n as f64)).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_outside_the_window_are_counted_and_left_out() {
+        let points = vec![Point::new(0.5, 0.5), Point::new(1.5, 0.5), Point::new(1., 1.)];
+        let (mosaic, dropped) = Mosaic::new(points, Window::unit_square(), LengthUnit::Unit, None).unwrap();
+        assert_eq!((mosaic.len(), dropped), (2, 1));
+    }
+
+    #[test]
+    fn coordinates_that_are_not_numbers_are_refused() {
+        let points = vec![Point::new(0., 0.), Point::new(f64::NAN, 0.)];
+        let error = Mosaic::new(points, Window::unit_square(), LengthUnit::Unit, None).unwrap_err();
+        assert!(matches!(error, MosaicError::NotFinite { index: 1, .. }));
+    }
+}

@@ -1,0 +1,88 @@
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// Retinal micrometres per degree of visual angle in the average eye (Drasdo & Fowler 1974, as Lanaro et al. use it).
+pub const MICROMETRES_PER_DEGREE: f64 = 288.;
+
+/// Axial length, in mm, of the eye in which a degree spans 291 µm (the rule of the Metricks package).
+const REFERENCE_AXIAL_LENGTH_MM: f64 = 24.;
+const REFERENCE_MICROMETRES_PER_DEGREE: f64 = 291.;
+
+/// A scale that is not a positive number.
+#[derive(Debug, Error, PartialEq)]
+#[error("{quantity} is {value}: it must be a positive number")]
+pub struct ScaleError {
+    quantity: &'static str,
+    value: f64,
+}
+
+fn positive(quantity: &'static str, value: f64) -> Result<f64, ScaleError> {
+    if value.is_finite() && value > 0. { Ok(value) } else { Err(ScaleError { quantity, value }) }
+}
+
+/// Retinal micrometres per degree in an eye of the given axial length: 291 µm × length / 24 mm.
+///
+/// # Errors
+/// If the length is not a positive number.
+pub fn micrometres_per_degree(axial_length_mm: f64) -> Result<f64, ScaleError> {
+    let length = positive("axial length in mm", axial_length_mm)?;
+    Ok(REFERENCE_MICROMETRES_PER_DEGREE * length / REFERENCE_AXIAL_LENGTH_MM)
+}
+
+/// How large a pixel is on the retina.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Scale {
+    um_per_px: f64,
+    um_per_degree: f64,
+}
+
+impl Scale {
+    /// From µm per pixel and µm per degree.
+    ///
+    /// # Errors
+    /// If either is not a positive number.
+    pub fn new(um_per_px: f64, um_per_degree: f64) -> Result<Self, ScaleError> {
+        Ok(Self {
+            um_per_px: positive("µm per pixel", um_per_px)?,
+            um_per_degree: positive("µm per degree", um_per_degree)?,
+        })
+    }
+
+    /// From pixels per degree and µm per degree.
+    ///
+    /// # Errors
+    /// If either is not a positive number.
+    pub fn from_pixels_per_degree(pixels_per_degree: f64, um_per_degree: f64) -> Result<Self, ScaleError> {
+        let per_degree = positive("pixels per degree", pixels_per_degree)?;
+        Self::new(um_per_degree / per_degree, um_per_degree)
+    }
+
+    /// Micrometres per pixel.
+    pub const fn micrometres_per_pixel(&self) -> f64 {
+        self.um_per_px
+    }
+
+    /// Micrometres per degree of visual angle.
+    pub const fn micrometres_per_degree(&self) -> f64 {
+        self.um_per_degree
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn average_eye_and_individual_eye_use_their_own_rule() {
+        let average = Scale::from_pixels_per_degree(576., MICROMETRES_PER_DEGREE).unwrap();
+        assert_eq!(average.micrometres_per_pixel(), 0.5);
+        assert_eq!(micrometres_per_degree(24.).unwrap(), 291.);
+    }
+
+    #[test]
+    fn scales_that_are_not_positive_are_refused() {
+        assert!(Scale::new(0., 288.).is_err());
+        assert!(Scale::new(f64::NAN, 288.).is_err());
+        assert!(micrometres_per_degree(-24.).is_err());
+    }
+}

@@ -1,0 +1,1 @@
+//! A mosaic becomes a simulated retinal image with known truth.

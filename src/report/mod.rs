@@ -1,0 +1,1 @@
+//! Tables and figures. Does not know how the numbers were made.
