@@ -1,1 +1,28 @@
-//! Folders of images: walking, pairing, isolating failures.
+//! Folders of files: finds them, names them, gives them their scale, works through them on all cores, keeps
+//! failures apart. Knows nothing of mathematics.
+
+mod coordinates;
+mod crop;
+mod detection;
+mod error;
+mod failures;
+mod inputs;
+mod measured;
+mod outputs;
+mod pairing;
+mod progress;
+mod run;
+mod scales;
+mod validation;
+mod work;
+
+pub use coordinates::{CoordinatesOptions, CoordinatesOutcome, Region, compare_files, measure_files};
+pub use crop::Crop;
+pub use detection::{DetectionOutcome, detect_files};
+pub use error::BatchError;
+pub use failures::Failure;
+pub use inputs::{Input, coordinate_files, image_files};
+pub use progress::{Progress, Silent};
+pub use run::{RunOptions, RunOutcome, run_files};
+pub use scales::ScaleSource;
+pub use validation::{Detected, ValidationOptions, ValidationOutcome, ValidationRow, validate_files};

@@ -57,12 +57,26 @@ pub enum Polarity {
 }
 
 impl Polarity {
-    /// +1 or −1.
-    pub const fn sign(self) -> f32 {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Positive, Self::Negative];
+
+    /// As it is written in options and tables.
+    pub const fn name(self) -> &'static str {
         match self {
-            Self::Positive => 1.,
-            Self::Negative => -1.,
+            Self::Positive => "positive",
+            Self::Negative => "negative",
         }
+    }
+}
+
+impl FromStr for Polarity {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Self::ALL
+            .into_iter()
+            .find(|p| p.name() == text)
+            .ok_or_else(|| format!("“{text}” is none of positive, negative"))
     }
 }
 
@@ -86,6 +100,8 @@ pub struct Detections {
     pub polarity: Polarity,
     /// Cone spacing estimated from Yellott's ring alone, in px.
     pub ring_spacing: f64,
+    /// How well the ring stands out (see [`crate::detect::RingEstimate`]).
+    pub ring_strength: f64,
     /// Cone spacing after refinement by the density of the detections, in px.
     pub spacing: f64,
 }

@@ -1,0 +1,88 @@
+use super::failures::write_failures;
+use super::outputs::OutputFolder;
+use super::work::for_each;
+use super::{BatchError, Failure, Input, Progress, ScaleSource};
+use crate::detect::{DetectOptions, Detections, detect};
+use crate::image::{Plane, decode};
+use crate::mosaic::Scale;
+use crate::mosaic::io::write_points;
+use crate::report::{MarkKind, OverlayMark, encode_png, overlay};
+use std::fs;
+use std::path::Path;
+
+/// Radius of the rings of an overlay, in cone spacings: inside the cone, so that neighbours' rings stay apart.
+const RING: f64 = 0.3;
+
+/// What came of detecting cones in a folder.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DetectionOutcome {
+    /// Images with results.
+    pub images: usize,
+    /// Cones found in all of them.
+    pub cones: usize,
+    /// Images without.
+    pub failures: Vec<Failure>,
+}
+
+/// Writes `NAME.csv` (x_px, y_px, score) for every image, and `NAME.overlay.png` if `overlays` is set.
+///
+/// # Errors
+/// If `out` cannot be written to. Images that fail are in the outcome and in `failures.csv`.
+pub fn detect_files(
+    inputs: &[Input],
+    options: &DetectOptions,
+    scales: &ScaleSource,
+    overlays: bool,
+    out: &Path,
+    progress: &dyn Progress,
+) -> Result<DetectionOutcome, BatchError> {
+    let out = OutputFolder::create(out)?;
+    let (cones, failures) = for_each(inputs, progress, |input| {
+        let (_, image) = read_image(input)?;
+        let found = detect_in(input, &image, options)?;
+        let scale = scales.scale_of(&input.path, image.ncols())?;
+        write_detections(&out.join(format!("{}.csv", input.name)), &found, scale)?;
+        if overlays {
+            out.write(&format!("{}.overlay.png", input.name), &overlay_of(&image, &found)?)?;
+        }
+        Ok((found.cones.len(), describe(&found)))
+    });
+    write_failures(&out, &failures)?;
+    Ok(DetectionOutcome { images: cones.len(), cones: cones.iter().sum(), failures })
+}
+
+/// The bytes of the file and the image in them.
+pub(super) fn read_image(input: &Input) -> Result<(Vec<u8>, Plane), BatchError> {
+    let unreadable = |source| BatchError::Unreadable { path: input.path.clone(), source };
+    let bytes = fs::read(&input.path).map_err(unreadable)?;
+    let image = decode(&bytes, &input.path.display().to_string())?;
+    Ok((bytes, image))
+}
+
+pub(super) fn detect_in(input: &Input, image: &Plane, options: &DetectOptions) -> Result<Detections, BatchError> {
+    detect(image, options).map_err(|source| BatchError::Detect { file: input.path.clone(), source })
+}
+
+pub(super) fn write_detections(path: &Path, found: &Detections, scale: Option<Scale>) -> Result<(), BatchError> {
+    let scores: Vec<f64> = found.cones.iter().map(|d| d.score).collect();
+    Ok(write_points(path, &found.centres(), Some(&scores), scale)?)
+}
+
+pub(super) fn overlay_of(image: &Plane, found: &Detections) -> Result<Vec<u8>, BatchError> {
+    let marks: Vec<OverlayMark> = found
+        .cones
+        .iter()
+        .map(|d| OverlayMark {
+            x: d.centre.x,
+            y: d.centre.y,
+            radius: RING * found.spacing,
+            kind: MarkKind::Detection,
+        })
+        .collect();
+    Ok(encode_png(&overlay(image, &marks, found.spacing))?)
+}
+
+/// One line about what was found.
+pub(super) fn describe(found: &Detections) -> String {
+    format!("{} cones, {}, spacing {:.1} px", found.cones.len(), found.modality, found.spacing)
+}

@@ -1,0 +1,121 @@
+use crate::compare::{CompareError, MatchError};
+use crate::detect::DetectError;
+use crate::geometry::WindowError;
+use crate::image::ImageError;
+use crate::mosaic::MosaicError;
+use crate::mosaic::io::{ReadError, ScaleTableError, WriteError};
+use crate::report::ReportError;
+use std::io;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Why a batch, or one file of it, could not be worked on.
+#[derive(Debug, Error)]
+pub enum BatchError {
+    /// A path that does not exist or cannot be listed.
+    #[error("{path}: {source}: give an existing file or folder", path = path.display())]
+    Unreadable {
+        /// The path as given.
+        path: PathBuf,
+        /// What the operating system said.
+        source: io::Error,
+    },
+    /// Nothing to work on.
+    #[error("no {what} in {paths}: expected {expected}")]
+    Nothing {
+        /// What was looked for.
+        what: &'static str,
+        /// Where.
+        paths: String,
+        /// How such files are recognised.
+        expected: &'static str,
+    },
+    /// Results cannot be written.
+    #[error("cannot write to {path}: {source}: choose another --out folder", path = path.display())]
+    Output {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the operating system said.
+        source: io::Error,
+    },
+    /// The window of coordinates is not known.
+    #[error(
+        "{file}: no image of that name beside it to take the window from: give --window WxH, X0,Y0,X1,Y1 or unit"
+    )]
+    NoImage {
+        /// The coordinate file.
+        file: PathBuf,
+    },
+    /// The crop does not fit.
+    #[error("the crop {crop} leaves nothing of the image of {width} × {height} px")]
+    Crop {
+        /// As given.
+        crop: String,
+        /// Width of the image in px.
+        width: usize,
+        /// Height of the image in px.
+        height: usize,
+    },
+    /// A length in micrometres where no scale is known.
+    #[error("{what} is given in µm, but the scale of {file} is not known: give --um-per-px or --scale-table")]
+    NoScale {
+        /// The option.
+        what: &'static str,
+        /// The file.
+        file: PathBuf,
+    },
+    /// Reference marks without anything to hold against them.
+    #[error("{file}: {problem}")]
+    Pairing {
+        /// The file of marks.
+        file: PathBuf,
+        /// What is missing, and the remedy.
+        problem: String,
+    },
+    /// See [`ImageError`].
+    #[error(transparent)]
+    Image(#[from] ImageError),
+    /// See [`DetectError`].
+    #[error("{file}: {source}", file = file.display())]
+    Detect {
+        /// The image.
+        file: PathBuf,
+        /// Why nothing can be found in it.
+        source: DetectError,
+    },
+    /// See [`ReadError`].
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// See [`WriteError`].
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// See [`ScaleTableError`].
+    #[error(transparent)]
+    ScaleTable(#[from] ScaleTableError),
+    /// See [`crate::mosaic::ScaleError`].
+    #[error(transparent)]
+    Scale(#[from] crate::mosaic::ScaleError),
+    /// See [`MosaicError`].
+    #[error("{file}: {source}", file = file.display())]
+    Mosaic {
+        /// The coordinate file.
+        file: PathBuf,
+        /// What is wrong with its points.
+        source: MosaicError,
+    },
+    /// See [`WindowError`].
+    #[error(transparent)]
+    Window(#[from] WindowError),
+    /// See [`CompareError`].
+    #[error(transparent)]
+    Compare(#[from] CompareError),
+    /// See [`MatchError`].
+    #[error(transparent)]
+    Match(#[from] MatchError),
+    /// See [`ReportError`].
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    /// Records that cannot be put into JSON.
+    #[error("cannot write JSON: {0}")]
+    Json(#[from] serde_json::Error),
+}

@@ -1,0 +1,88 @@
+use super::BatchError;
+use crate::compare::{ReferenceCurve, l_infinity};
+use crate::detect::Detections;
+use crate::mosaic::Mosaic;
+use crate::report::{Cell, MosaicRecord, SamplerDistance};
+use crate::stats::{Measures, Pcf};
+
+/// Fewer cones than this leave every statistic uncertain: the RI of 30 points scatters by about 15 %.
+const FEW: usize = 30;
+/// A ring weaker than this is seen in noise as well.
+const FAINT: f64 = 0.2;
+/// Ring and density may differ by this factor, as a logarithm, before they contradict each other.
+const CONTRADICTION: f64 = 0.25;
+
+pub(super) fn record_of(mosaic: &Mosaic, measures: &Measures, l_infinity: Vec<SamplerDistance>) -> MosaicRecord {
+    let bounds = mosaic.window().bounds();
+    MosaicRecord {
+        n: mosaic.len(),
+        unit: mosaic.unit(),
+        um_per_unit: mosaic.micrometres_per_unit(),
+        window: [bounds.x0(), bounds.y0(), bounds.x1(), bounds.y1()],
+        density: mosaic.density(),
+        spacing: mosaic.hexagonal_spacing(),
+        nearest: measures.nearest,
+        nearest_interior: measures.nearest_interior,
+        voronoi: measures.voronoi,
+        trend: measures.trend,
+        l_infinity,
+    }
+}
+
+/// The mosaic's distance to each curve.
+pub(super) fn distances(
+    measures: &Measures,
+    curves: &[ReferenceCurve],
+) -> Result<Vec<SamplerDistance>, BatchError> {
+    let Ok(pcf) = &measures.pcf else { return Ok(Vec::new()) };
+    curves
+        .iter()
+        .map(|c| Ok(SamplerDistance { sampler: c.sampler.clone(), l_infinity: l_infinity(pcf, &c.pcf)? }))
+        .collect()
+}
+
+/// Columns r, g, and one g a sampler.
+pub(super) fn pcf_table(pcf: &Pcf, curves: &[ReferenceCurve]) -> (Vec<String>, Vec<Vec<Cell>>) {
+    let header = ["r".to_owned(), "g".to_owned()]
+        .into_iter()
+        .chain(curves.iter().map(|c| format!("g_{}", c.sampler.replace('-', "_"))))
+        .collect();
+    let rows = (0..pcf.r.len())
+        .map(|k| {
+            [pcf.r[k].into(), pcf.g[k].into()]
+                .into_iter()
+                .chain(curves.iter().map(|c| c.pcf.g.get(k).copied().into()))
+                .collect()
+        })
+        .collect();
+    (header, rows)
+}
+
+/// What a reader of the numbers should know.
+pub(super) fn warnings_of(found: Option<&Detections>, record: &MosaicRecord, measures: &Measures) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if let Some(found) = found {
+        if found.ring_strength < FAINT {
+            warnings.push(format!(
+                "Yellott's ring is faint (strength {:.2}): the spacing, and with it the detections, may be wrong",
+                found.ring_strength
+            ));
+        } else if (found.spacing / found.ring_spacing).ln().abs() > CONTRADICTION {
+            warnings.push(format!(
+                "Yellott's ring says {:.1} px between cones, the density of the detections {:.1} px",
+                found.ring_spacing, found.spacing
+            ));
+        }
+    }
+    if record.n < FEW {
+        warnings.push(format!("only {} points: every statistic is uncertain", record.n));
+    }
+    if record.trend.significant {
+        let ratio = record.trend.density_ratio.map(|r| format!(" about {r:.1}:1")).unwrap_or_default();
+        warnings.push(format!("density varies{ratio} across the window: g(r) assumes that it does not"));
+    }
+    if let Err(error) = &measures.pcf {
+        warnings.push(format!("no pair correlation function: {error}"));
+    }
+    warnings
+}

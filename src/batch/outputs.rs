@@ -1,0 +1,79 @@
+use super::BatchError;
+use crate::mosaic::io::write_atomically;
+use crate::report::{Cell, write_csv};
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// A folder for results. Files and folders appear in it whole or not at all.
+pub(super) struct OutputFolder {
+    path: PathBuf,
+}
+
+impl OutputFolder {
+    /// Makes the folder where it is missing and tries whether it can be written to.
+    pub fn create(path: &Path) -> Result<Self, BatchError> {
+        let refused = |source: io::Error| BatchError::Output { path: path.to_owned(), source };
+        fs::create_dir_all(path).map_err(refused)?;
+        tempfile_probe(path).map_err(refused)?;
+        Ok(Self { path: path.to_owned() })
+    }
+
+    pub fn join(&self, name: impl AsRef<Path>) -> PathBuf {
+        self.path.join(name)
+    }
+
+    pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), BatchError> {
+        Ok(write_atomically(&self.join(name), |writer| writer.write_all(bytes))?)
+    }
+
+    pub fn write_table(&self, name: &str, header: &[String], rows: &[Vec<Cell>]) -> Result<(), BatchError> {
+        let header: Vec<&str> = header.iter().map(String::as_str).collect();
+        let mut bytes = Vec::new();
+        write_csv(&mut bytes, &header, rows)?;
+        self.write(name, &bytes)
+    }
+
+    pub fn remove(&self, name: &str) -> Result<(), BatchError> {
+        let path = self.join(name);
+        match fs::remove_file(&path) {
+            Err(source) if source.kind() != io::ErrorKind::NotFound => Err(BatchError::Output { path, source }),
+            _ => Ok(()),
+        }
+    }
+
+    /// A sub-folder that takes its place, instead of what stood there, when `fill` has filled it.
+    pub fn replace_folder(
+        &self,
+        name: &str,
+        fill: impl FnOnce(&OutputFolder) -> Result<(), BatchError>,
+    ) -> Result<(), BatchError> {
+        let partial = self.join(format!(".{name}.partial"));
+        let refused = |source: io::Error| BatchError::Output { path: partial.clone(), source };
+        remove_folder(&partial).map_err(refused)?;
+        fs::create_dir(&partial).map_err(refused)?;
+        let done = fill(&OutputFolder { path: partial.clone() }).and_then(|()| {
+            let place = self.join(name);
+            remove_folder(&place).and_then(|()| fs::rename(&partial, &place)).map_err(refused)
+        });
+        if done.is_err() {
+            // the reason is already on its way to the user
+            let _ = remove_folder(&partial);
+        }
+        done
+    }
+}
+
+fn remove_folder(path: &Path) -> io::Result<()> {
+    match fs::remove_dir_all(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        other => other,
+    }
+}
+
+/// Permissions alone do not tell (read-only file systems, quotas): write and remove.
+fn tempfile_probe(folder: &Path) -> io::Result<()> {
+    let probe = folder.join(format!(".conemosaic-{}", std::process::id()));
+    fs::write(&probe, b"")?;
+    fs::remove_file(&probe)
+}

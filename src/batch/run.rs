@@ -1,0 +1,335 @@
+use super::detection::{describe, detect_in, overlay_of, read_image, write_detections};
+use super::failures::write_failures;
+use super::measured::{distances, pcf_table, record_of, warnings_of};
+use super::outputs::OutputFolder;
+use super::work::for_each;
+use super::{BatchError, Crop, Failure, Input, Progress, ScaleSource};
+use crate::compare::{ReferenceCurve, References};
+use crate::detect::{DetectOptions, Detections};
+use crate::geometry::Window;
+use crate::image::Plane;
+use crate::mosaic::{LengthUnit, Mosaic, Scale};
+use crate::report::{
+    Curve, DetectionRecord, ImageRecord, MosaicFigure, MosaicRecord, ReferenceLine, mosaic_figure, page,
+};
+use crate::sample::Sampler;
+use crate::stats::{Histogram, MeasureOptions, Measures, PcfOptions, measure};
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+const IMAGES: &str = "images";
+const METRICS: &str = "metrics.json";
+
+/// Options of the main job.
+#[derive(Clone)]
+pub struct RunOptions {
+    /// How cones are found.
+    pub detect: DetectOptions,
+    /// How mosaics are measured.
+    pub measure: MeasureOptions,
+    /// What they are compared with.
+    pub samplers: Vec<&'static dyn Sampler>,
+    /// Seed of the samplers.
+    pub seed: u64,
+    /// Where scales come from.
+    pub scales: ScaleSource,
+    /// The part of each image that counts; `None`: all of it.
+    pub crop: Option<Crop>,
+    /// Keep the results of an earlier run for images and options that did not change.
+    pub resume: bool,
+    /// The command line, for `run.json`.
+    pub command: Vec<String>,
+}
+
+/// What came of a run.
+#[derive(Clone, Debug)]
+pub struct RunOutcome {
+    /// One record an image, in the order of the inputs.
+    pub records: Vec<ImageRecord>,
+    /// Images without results.
+    pub failures: Vec<Failure>,
+    /// Images whose earlier results were kept.
+    pub reused: usize,
+}
+
+/// Wall-clock seconds of the stages of one image. A core that helps another image meanwhile counts on both.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+struct Seconds {
+    read: f64,
+    detect: f64,
+    measure: f64,
+    compare: f64,
+    report: f64,
+}
+
+/// All of `metrics.json`.
+#[derive(Serialize)]
+struct Metrics<'a> {
+    #[serde(flatten)]
+    record: &'a ImageRecord,
+    histogram: &'a Histogram,
+    pcf_options: PcfOptions,
+    samplers: Vec<SamplerNote<'a>>,
+}
+
+/// How a sampler's mean curve was made.
+#[derive(Serialize)]
+struct SamplerNote<'a> {
+    sampler: &'a str,
+    n: usize,
+    realisations: usize,
+    ri: Option<f64>,
+}
+
+struct Done {
+    record: ImageRecord,
+    seconds: Option<Seconds>,
+}
+
+/// The main job: detects, measures, compares and reports every image into `out`.
+///
+/// Writes `images/NAME/` (`points.csv`, `overlay.png`, `metrics.json`, `pcf.csv`, `figure.svg`), `summary.csv`,
+/// `index.html`, `run.json` and, if an image failed, `failures.csv`. An image's folder appears when it is complete.
+///
+/// # Errors
+/// If `out` cannot be written to. Images that fail are in the outcome and in `failures.csv`.
+pub fn run_files(
+    inputs: &[Input],
+    options: &RunOptions,
+    out: &Path,
+    progress: &dyn Progress,
+) -> Result<RunOutcome, BatchError> {
+    let started = Instant::now();
+    let out = OutputFolder::create(out)?;
+    let images = OutputFolder::create(&out.join(IMAGES))?;
+    let references = References::new(options.samplers.clone(), options.measure.pcf, options.seed);
+    let (done, failures) = for_each(inputs, progress, |input| one_image(input, options, &references, &images));
+    write_failures(&out, &failures)?;
+
+    let samplers: Vec<String> = options.samplers.iter().map(|s| s.name().to_owned()).collect();
+    let rows: Vec<_> = done.iter().map(|d| d.record.row(&samplers)).collect();
+    out.write_table("summary.csv", &ImageRecord::header(&samplers), &rows)?;
+    let records: Vec<ImageRecord> = done.iter().map(|d| d.record.clone()).collect();
+    let reasons: Vec<(&str, &str)> = failures.iter().map(|f| (f.file.as_str(), f.reason.as_str())).collect();
+    out.write("index.html", page(&records, &reasons, &samplers).as_bytes())?;
+    out.write("run.json", &run_json(options, &done, &failures, started)?)?;
+    let reused = done.iter().filter(|d| d.seconds.is_none()).count();
+    Ok(RunOutcome { records, failures, reused })
+}
+
+fn one_image(
+    input: &Input,
+    options: &RunOptions,
+    references: &References,
+    images: &OutputFolder,
+) -> Result<(Done, String), BatchError> {
+    let mut seconds = Seconds::default();
+    let mut clock = Instant::now();
+    let mut lap = |stage: &mut f64| {
+        *stage = clock.elapsed().as_secs_f64();
+        clock = Instant::now();
+    };
+    let (bytes, image) = read_image(input)?;
+    let (height, width) = image.dim();
+    let scale = options.scales.scale_of(&input.path, width)?;
+    let window = match &options.crop {
+        Some(crop) => crop.window(&input.path, width, height, scale)?,
+        None => Window::of_image(width, height)?,
+    };
+    let sha256 = hex(&Sha256::digest(&bytes));
+    let options_sha256 = fingerprint(options, scale, &window)?;
+    drop(bytes);
+    if options.resume
+        && let Some(record) = earlier(images, input, &sha256, &options_sha256)
+    {
+        let line = format!("{} cones, {}, kept from an earlier run", record.mosaic.n, record.detection.modality);
+        return Ok((Done { record, seconds: None }, line));
+    }
+    lap(&mut seconds.read);
+
+    let mut found = detect_in(input, &image, &options.detect)?;
+    let all = found.cones.len();
+    found.cones.retain(|d| window.contains(d.centre));
+    lap(&mut seconds.detect);
+
+    let (mosaic, _) = Mosaic::new(found.centres(), window, LengthUnit::Pixel, scale)
+        .map_err(|source| BatchError::Mosaic { file: input.path.clone(), source })?;
+    let measures = measure(&mosaic, &options.measure);
+    lap(&mut seconds.measure);
+
+    let curves = match &measures.pcf {
+        Ok(_) => references.curves(mosaic.len(), &window)?,
+        Err(_) => Arc::default(),
+    };
+    let mosaic_record = record_of(&mosaic, &measures, distances(&measures, &curves)?);
+    lap(&mut seconds.compare);
+
+    let record = ImageRecord {
+        file: input.path.display().to_string(),
+        name: input.name.clone(),
+        sha256,
+        options_sha256,
+        width_px: width,
+        height_px: height,
+        um_per_degree: scale.map(|s| s.micrometres_per_degree()),
+        detection: DetectionRecord {
+            detector: options.detect.detector,
+            modality: found.modality,
+            polarity: found.polarity,
+            n: all,
+            ring_spacing_px: found.ring_spacing,
+            ring_strength: found.ring_strength,
+            density_spacing_px: found.spacing,
+        },
+        warnings: warnings_of(Some(&found), &mosaic_record, &measures),
+        mosaic: mosaic_record,
+    };
+    images.replace_folder(&input.name, |folder| {
+        write_image_folder(folder, &image, &found, &mosaic, &measures, &curves, &record)
+    })?;
+    lap(&mut seconds.report);
+    let line = describe(&found);
+    Ok((Done { record, seconds: Some(seconds) }, line))
+}
+
+fn write_image_folder(
+    folder: &OutputFolder,
+    image: &Plane,
+    found: &Detections,
+    mosaic: &Mosaic,
+    measures: &Measures,
+    curves: &[ReferenceCurve],
+    record: &ImageRecord,
+) -> Result<(), BatchError> {
+    write_detections(&folder.join("points.csv"), found, mosaic.scale())?;
+    folder.write("overlay.png", &overlay_of(image, found)?)?;
+    if let Ok(pcf) = &measures.pcf {
+        let (header, rows) = pcf_table(pcf, curves);
+        folder.write_table("pcf.csv", &header, &rows)?;
+        let notes = curves
+            .iter()
+            .map(|c| SamplerNote { sampler: &c.sampler, n: c.n, realisations: c.realisations, ri: c.ri })
+            .collect();
+        folder.write(METRICS, &metrics_json(record, measures, pcf.options, notes)?)?;
+    } else {
+        folder.write_table("pcf.csv", &["r".into(), "g".into()], &[])?;
+        folder.write(METRICS, &metrics_json(record, measures, PcfOptions::default(), Vec::new())?)?;
+    }
+    let figure = figure(&record.name, Some(image), mosaic, measures, &record.mosaic, curves)?;
+    folder.write("figure.svg", figure.as_bytes())
+}
+
+fn metrics_json(
+    record: &ImageRecord,
+    measures: &Measures,
+    pcf_options: PcfOptions,
+    samplers: Vec<SamplerNote>,
+) -> Result<Vec<u8>, BatchError> {
+    let metrics = Metrics { record, histogram: &measures.histogram, pcf_options, samplers };
+    let mut json = serde_json::to_vec_pretty(&metrics)?;
+    json.push(b'\n');
+    Ok(json)
+}
+
+/// The paper's row for a mosaic.
+fn figure(
+    title: &str,
+    picture: Option<&Plane>,
+    mosaic: &Mosaic,
+    measures: &Measures,
+    record: &MosaicRecord,
+    curves: &[ReferenceCurve],
+) -> Result<String, BatchError> {
+    let references: Vec<ReferenceLine> = curves
+        .iter()
+        .map(|c| ReferenceLine {
+            name: &c.sampler,
+            r: &c.pcf.r,
+            g: &c.pcf.g,
+            l_infinity: record.l_infinity.iter().find(|d| d.sampler == c.sampler).map(|d| d.l_infinity),
+        })
+        .collect();
+    Ok(mosaic_figure(&MosaicFigure {
+        title,
+        picture,
+        points: mosaic.points(),
+        window: mosaic.window(),
+        unit: mosaic.unit(),
+        um_per_unit: mosaic.micrometres_per_unit(),
+        nn: &measures.neighbours.distances,
+        nn_mean: measures.nearest.mean,
+        nn_sd: measures.nearest.sd,
+        ri: measures.nearest.ri,
+        histogram_edges: &measures.histogram.edges,
+        histogram_counts: &measures.histogram.counts,
+        pcf: measures.pcf.as_ref().ok().map(|p| Curve { r: &p.r, g: &p.g }),
+        references: &references,
+    })?)
+}
+
+/// What identifies the options that one image's results depend on.
+fn fingerprint(options: &RunOptions, scale: Option<Scale>, window: &Window) -> Result<String, BatchError> {
+    let samplers: Vec<&str> = options.samplers.iter().map(|s| s.name()).collect();
+    let relevant = serde_json::to_vec(&(
+        env!("CARGO_PKG_VERSION"),
+        &options.detect,
+        &options.measure,
+        samplers,
+        options.seed,
+        scale,
+        window,
+    ))?;
+    Ok(hex(&Sha256::digest(relevant)))
+}
+
+/// The record of an earlier run, if it is complete and belongs to the same image and options.
+fn earlier(images: &OutputFolder, input: &Input, sha256: &str, options_sha256: &str) -> Option<ImageRecord> {
+    let text = fs::read(images.join(&input.name).join(METRICS)).ok()?;
+    let record: ImageRecord = serde_json::from_slice(&text).ok()?;
+    let same = record.sha256 == sha256 && record.options_sha256 == options_sha256;
+    same.then(|| ImageRecord { file: input.path.display().to_string(), name: input.name.clone(), ..record })
+}
+
+fn run_json(
+    options: &RunOptions,
+    done: &[Done],
+    failures: &[Failure],
+    started: Instant,
+) -> Result<Vec<u8>, BatchError> {
+    let images: Vec<_> = done
+        .iter()
+        .map(|d| {
+            serde_json::json!({
+                "file": d.record.file, "name": d.record.name, "sha256": d.record.sha256, "seconds": d.seconds,
+            })
+        })
+        .collect();
+    let mut json = serde_json::to_vec_pretty(&serde_json::json!({
+        "program": "conemosaic",
+        "version": env!("CARGO_PKG_VERSION"),
+        "command": options.command,
+        "options": {
+            "detect": options.detect,
+            "measure": options.measure,
+            "samplers": options.samplers.iter().map(|s| s.name()).collect::<Vec<_>>(),
+            "crop": options.crop.map(|c| c.to_string()),
+            "scale": options.scales.describe(),
+            "resume": options.resume,
+        },
+        "seed": options.seed,
+        "threads": rayon::current_num_threads(),
+        "seconds": started.elapsed().as_secs_f64(),
+        "images": images,
+        "failures": failures,
+    }))?;
+    json.push(b'\n');
+    Ok(json)
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|b| format!("{b:02x}")).collect()
+}

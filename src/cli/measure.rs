@@ -1,0 +1,131 @@
+use super::Done;
+use super::common::Common;
+use super::scale::ScaleArgs;
+use anyhow::Result;
+use clap::Args;
+use conemosaic::batch::{CoordinatesOptions, CoordinatesOutcome, Region, coordinate_files, measure_files};
+use conemosaic::mosaic::io::{Origin, ReadOptions};
+use conemosaic::report::{Cell, table};
+use conemosaic::stats::{Deviation, MeasureOptions};
+use std::path::{Path, PathBuf};
+
+/// How coordinate files are to be understood.
+#[derive(Args)]
+#[command(next_help_heading = "Coordinates")]
+pub struct CoordinateArgs {
+    /// What the file calls the centre of the top-left pixel: 0, 0.5 (ImageJ, WebPlotDigitizer) or 1 (MATLAB)
+    /// [default: as the kind of file says, otherwise 0]
+    #[arg(long, value_name = "O", value_parser = origin)]
+    origin: Option<Origin>,
+    /// y points up, as in WebPlotDigitizer's XY axes: the height of the image in the unit of the file
+    #[arg(long, value_name = "HEIGHT")]
+    flip_y: Option<f64>,
+    /// Take only the dataset (WebPlotDigitizer) or region (ImageJ) of this name
+    #[arg(long, value_name = "NAME")]
+    dataset: Option<String>,
+}
+
+fn origin(text: &str) -> Result<Origin, String> {
+    text.parse().map_err(|_| "expected 0, 0.5 or 1".to_owned())
+}
+
+impl CoordinateArgs {
+    pub fn options(&self) -> Result<ReadOptions> {
+        let options = ReadOptions { origin: self.origin, flip_y: self.flip_y, dataset: self.dataset.clone() };
+        options.validate()?;
+        Ok(options)
+    }
+}
+
+/// Where points could have been seen, and how they are measured.
+#[derive(Args)]
+pub struct MosaicArgs {
+    /// Where points could have been seen: unit, image (the image of that name beside the file), WxH (an image of that
+    /// size) or X0,Y0,X1,Y1 in the unit of the coordinates
+    #[arg(long, value_name = "WINDOW", default_value = "image", allow_hyphen_values = true)]
+    window: Region,
+    /// Opposite edges of the window are the same place
+    #[arg(long)]
+    torus: bool,
+    /// Standard deviation: sample (n − 1) or population (n, as in the tables of Lanaro et al.)
+    #[arg(long, value_name = "SD", default_value = "sample", value_parser = ["sample", "population"])]
+    sd: String,
+    #[command(flatten)]
+    coordinates: CoordinateArgs,
+    #[command(flatten)]
+    scale: ScaleArgs,
+}
+
+impl MosaicArgs {
+    pub fn options(&self) -> Result<CoordinatesOptions> {
+        let deviation = if self.sd == "population" { Deviation::Population } else { Deviation::Sample };
+        Ok(CoordinatesOptions {
+            read: self.coordinates.options()?,
+            region: self.window,
+            torus: self.torus,
+            scales: self.scale.source()?,
+            measure: MeasureOptions { deviation, ..MeasureOptions::default() },
+        })
+    }
+}
+
+/// Measures mosaics: coordinate files from anywhere → statistics
+#[derive(Args)]
+#[command(after_help = "\
+Example:
+  conemosaic measure marks --window 150x150 --origin 1 --um-per-px 0.42 --out measured
+
+Reads CSV and its relatives, WebPlotDigitizer projects and CSVs, ImageJ results and regions. Writes to measured/:
+summary.csv (one row a file: n, nearest neighbours, regularity index, density, …; lengths in the unit of column
+unit), NAME.pcf.csv (r in hexagonal spacings, g), failures.csv if a file failed (exit code 2).")]
+pub struct Measure {
+    /// Coordinate files and folders of them
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// Folder for the results
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    #[command(flatten)]
+    mosaic: MosaicArgs,
+}
+
+impl Measure {
+    pub fn execute(self, common: &Common) -> Result<Done> {
+        let options = self.mosaic.options()?;
+        let inputs = coordinate_files(&self.files, Some(&self.out))?;
+        let outcome = measure_files(&inputs, &options, &self.out, &*common.progress())?;
+        common.say(&summary(&outcome));
+        common.say(&format!("Table: {}/summary.csv", self.out.display()));
+        say_failures(common, &outcome, &self.out);
+        Ok(Done::with(&outcome.failures))
+    }
+}
+
+pub fn say_failures(common: &Common, outcome: &CoordinatesOutcome, out: &Path) {
+    if !outcome.failures.is_empty() {
+        common.say(&format!("{} files failed: {}/failures.csv", outcome.failures.len(), out.display()));
+    }
+}
+
+fn summary(outcome: &CoordinatesOutcome) -> String {
+    let headers = ["file", "points", "unit", "NN mean", "NN SD", "RI", "RI interior", "cones/mm²"];
+    let rows: Vec<Vec<String>> = outcome
+        .records
+        .iter()
+        .map(|r| {
+            let m = &r.mosaic;
+            let number = |value: Option<f64>| Cell::from(value).readable();
+            vec![
+                r.file.clone(),
+                m.n.to_string(),
+                m.unit.symbol().to_owned(),
+                number(m.nearest.mean),
+                number(m.nearest.sd),
+                number(m.nearest.ri),
+                number(m.nearest_interior.ri),
+                number(m.density_per_mm2()),
+            ]
+        })
+        .collect();
+    table(&headers, &rows)
+}

@@ -1,0 +1,65 @@
+use conemosaic::batch::Progress;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::Write;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A progress bar; failures scroll by above it.
+pub struct Bar(ProgressBar);
+
+impl Bar {
+    pub fn new() -> Self {
+        Self(ProgressBar::hidden())
+    }
+}
+
+impl Progress for Bar {
+    fn begin(&self, total: usize) {
+        self.0.set_draw_target(indicatif::ProgressDrawTarget::stderr());
+        self.0.set_length(total as u64);
+        if let Ok(style) = ProgressStyle::with_template("{bar:32} {pos}/{len}  {per_sec}  {eta} left  {wide_msg}") {
+            self.0.set_style(style);
+        }
+    }
+
+    fn done(&self, name: &str, outcome: Result<&str, &str>) {
+        match outcome {
+            Ok(line) => self.0.set_message(format!("{name}: {line}")),
+            Err(reason) => self.0.println(format!("failed: {reason}")),
+        }
+        self.0.inc(1);
+    }
+
+    fn end(&self) {
+        self.0.finish_and_clear();
+    }
+}
+
+/// One line a file, for logs.
+pub struct Lines {
+    total: AtomicUsize,
+    done: AtomicUsize,
+}
+
+impl Lines {
+    pub const fn new() -> Self {
+        Self { total: AtomicUsize::new(0), done: AtomicUsize::new(0) }
+    }
+}
+
+impl Progress for Lines {
+    fn begin(&self, total: usize) {
+        self.total.store(total, Ordering::Relaxed);
+    }
+
+    fn done(&self, name: &str, outcome: Result<&str, &str>) {
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        let total = self.total.load(Ordering::Relaxed);
+        let line = match outcome {
+            Ok(line) => format!("[{done}/{total}] {name}: {line}"),
+            Err(reason) => format!("[{done}/{total}] failed: {reason}"),
+        };
+        let _ = writeln!(std::io::stderr(), "{line}");
+    }
+
+    fn end(&self) {}
+}

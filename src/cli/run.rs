@@ -1,0 +1,118 @@
+use super::common::Common;
+use super::detect::DetectArgs;
+use super::scale::ScaleArgs;
+use super::{Done, compare::samplers_named};
+use anyhow::Result;
+use clap::Args;
+use conemosaic::batch::{Crop, RunOptions, RunOutcome, image_files, run_files};
+use conemosaic::report::{Cell, significant, table};
+use conemosaic::stats::MeasureOptions;
+use std::path::PathBuf;
+
+/// The main job: finds cones, measures the mosaic, compares it with samplers, reports — for files and folders
+#[derive(Args)]
+#[command(after_help = "\
+Example:
+  conemosaic run images --scale-table scales.csv --out report
+
+Writes to report/:
+  summary.csv               one row an image
+  index.html                the same as a page, with figures
+  images/NAME/points.csv    cone centres (x_px, y_px from 0 at the centre of the top-left pixel; score)
+  images/NAME/overlay.png   the image with its cones marked
+  images/NAME/figure.svg    picture, points, nearest neighbours, pair correlation function
+  images/NAME/pcf.csv       the pair correlation functions (r in hexagonal spacings)
+  images/NAME/metrics.json  everything measured
+  run.json                  version, options, seed, hashes of the inputs, timings
+  failures.csv              images that failed, if any; then the exit code is 2")]
+pub struct Run {
+    /// Images (PNG, TIFF; 8 or 16 bit, grey or colour) and folders of them
+    #[arg(required = true)]
+    paths: Vec<PathBuf>,
+    /// Folder for the results
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    #[command(flatten)]
+    detect: DetectArgs,
+    /// Samplers to compare with, separated by commas [default: all; see `conemosaic sample --list`]
+    #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
+    samplers: Vec<String>,
+    /// Count only cones in this part of each image: WxH (centred) or X0,Y0,X1,Y1, in px, or in µm with um behind it
+    #[arg(long, value_name = "RECT")]
+    crop: Option<Crop>,
+    /// Keep what an earlier run with the same options has finished
+    #[arg(long)]
+    resume: bool,
+    #[command(flatten)]
+    scale: ScaleArgs,
+}
+
+/// More rows than these are for summary.csv.
+const MOST_ROWS: usize = 24;
+
+impl Run {
+    pub fn execute(self, common: &Common) -> Result<Done> {
+        let options = RunOptions {
+            detect: self.detect.options()?,
+            measure: MeasureOptions::default(),
+            samplers: samplers_named(&self.samplers)?,
+            seed: common.seed,
+            scales: self.scale.source()?,
+            crop: self.crop,
+            resume: self.resume,
+            command: std::env::args().collect(),
+        };
+        let inputs = image_files(&self.paths, Some(&self.out))?;
+        let outcome = run_files(&inputs, &options, &self.out, &*common.progress())?;
+        common.say(&self.summary(&outcome));
+        Ok(Done::with(&outcome.failures))
+    }
+
+    fn summary(&self, outcome: &RunOutcome) -> String {
+        let scaled = outcome.records.iter().any(|r| r.mosaic.um_per_unit.is_some());
+        let headers =
+            ["image", "modality", "cones", if scaled { "cones/mm²" } else { "cones/px²" }, "spacing px", "RI", "closest to", "l∞"];
+        let rows: Vec<Vec<String>> = outcome
+            .records
+            .iter()
+            .take(MOST_ROWS)
+            .map(|r| {
+                let density = if scaled { r.mosaic.density_per_mm2() } else { Some(r.mosaic.density) };
+                let least = r.mosaic.l_infinity.iter().map(|d| d.l_infinity).min_by(f64::total_cmp);
+                let number = |value: Option<f64>| Cell::from(value).readable();
+                vec![
+                    format!("{}{}", r.name, if r.warnings.is_empty() { "" } else { " !" }),
+                    r.detection.modality.to_string(),
+                    r.mosaic.n.to_string(),
+                    number(density),
+                    number(r.mosaic.spacing),
+                    r.mosaic.nearest.ri.map_or("–".into(), |ri| significant(ri, 3)),
+                    r.mosaic.closest_sampler().unwrap_or("–").to_owned(),
+                    least.map_or("–".into(), |d| significant(d, 2)),
+                ]
+            })
+            .collect();
+        let mut text = String::new();
+        if !rows.is_empty() {
+            text = table(&headers, &rows);
+            if outcome.records.len() > MOST_ROWS {
+                text.push_str(&format!("\n… and {} more in summary.csv", outcome.records.len() - MOST_ROWS));
+            }
+            if outcome.records.iter().any(|r| !r.warnings.is_empty()) {
+                text.push_str("\n! has a warning: see the last column of summary.csv");
+            }
+            text.push_str("\n\n");
+        }
+        let cones: usize = outcome.records.iter().map(|r| r.mosaic.n).sum();
+        text.push_str(&format!("{cones} cones in {} images", outcome.records.len()));
+        if outcome.reused > 0 {
+            text.push_str(&format!(" ({} kept from an earlier run)", outcome.reused));
+        }
+        let out = self.out.display();
+        text.push_str(&format!("\nTable:   {out}/summary.csv\nPage:    {out}/index.html\nFigures: {out}/images/NAME/figure.svg"));
+        if !outcome.failures.is_empty() {
+            text.push_str(&format!("\n{} images failed: {out}/failures.csv", outcome.failures.len()));
+        }
+        text
+    }
+}

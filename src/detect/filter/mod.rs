@@ -1,0 +1,46 @@
+//! Filters whose local maxima are cones, one a modality. All take a plane and the cone spacing in px.
+
+mod confocal;
+mod histology;
+mod split;
+
+use crate::detect::{Modality, Polarity};
+use crate::image::Plane;
+
+/// What to look for in a filter's response.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Criterion {
+    /// Maxima must be higher than this.
+    pub threshold: f32,
+    /// Of two maxima nearer to each other than this, in units of the spacing, the lower one goes.
+    pub suppression: f64,
+}
+
+/// The response of the modality's classical filter at the given cone spacing (px), and what counts as a cone in it. The
+/// filters are odd: the other polarity is the same with the sign turned.
+pub fn response(image: &Plane, modality: Modality, polarity: Polarity, spacing: f64) -> (Plane, Criterion) {
+    let (mut response, criterion) = match modality {
+        Modality::Confocal => confocal::response(image, spacing),
+        Modality::Split => split::response(image, spacing),
+        Modality::Histology => histology::response(image, spacing),
+    };
+    if polarity == Polarity::Negative {
+        response.mapv_inplace(|v| -v);
+    }
+    (response, criterion)
+}
+
+/// −∇² by five points, the border mirrored.
+fn negative_laplacian(plane: &Plane) -> Plane {
+    let (h, w) = plane.dim();
+    let mut out = Plane::zeros((h, w));
+    for y in 0..h {
+        let (up, down) = (y.saturating_sub(1), (y + 1).min(h - 1));
+        for x in 0..w {
+            let (left, right) = (x.saturating_sub(1), (x + 1).min(w - 1));
+            out[[y, x]] =
+                4. * plane[[y, x]] - plane[[up, x]] - plane[[down, x]] - plane[[y, left]] - plane[[y, right]];
+        }
+    }
+    out
+}

@@ -1,0 +1,36 @@
+use super::Criterion;
+use crate::detect::flatten::normalise;
+use crate::image::{Plane, Spectrum, crop, fast_length, gaussian, reflect_pad};
+use rustfft::num_complex::Complex32;
+
+const CRITERION: Criterion = Criterion { threshold: 1., suppression: 0.5 };
+
+/// Widths, in spacings: of the drift taken off first, of the band's upper and lower end, of the contrast normalisation.
+const DRIFT: f64 = 1.5;
+const FINE: f32 = 0.14;
+const COARSE: f32 = 0.25;
+const CONTRAST: f64 = 0.8;
+
+/// An inner segment is a dark–bright pair along x: the image behaves like a derivative along x. Half an integration
+/// brings the centre of the pair to a maximum: the spectrum of I − G(1.5 s)∗I times
+/// i · sign(fx) · |fx s|^½ · exp(−2π²(.14 s f)²) · (1 − exp(−2π²(.25 s f)²)), divided by its local root mean square
+/// (σ = .8 s). Made for dark on the left.
+pub(super) fn response(image: &Plane, spacing: f64) -> (Plane, Criterion) {
+    let (h, w) = image.dim();
+    let level = image - &gaussian(image, DRIFT * spacing);
+    // mirror images keep the transform's wrapping away; a longer frame than s makes the transform fast
+    let pad = spacing.round() as usize;
+    let (height, width) = (fast_length(h + 2 * pad), fast_length(w + 2 * pad));
+    let mut spectrum = Spectrum::forward(&reflect_pad(&level, pad, pad, height, width), height, width);
+    let s = spacing as f32;
+    let two_pi_squared = 2. * std::f32::consts::PI.powi(2);
+    spectrum.multiply(|fx, fy| {
+        let (fx, fy) = (fx * s, fy * s);
+        let f_squared = two_pi_squared * (fx * fx + fy * fy);
+        let band = (-FINE * FINE * f_squared).exp() * (1. - (-COARSE * COARSE * f_squared).exp());
+        Complex32::new(0., fx.abs().sqrt() * fx.signum() * band)
+    });
+    let filtered = spectrum.inverse();
+    let inner = normalise(&filtered, CONTRAST * spacing);
+    (crop(&inner, pad, pad, h, w), CRITERION)
+}

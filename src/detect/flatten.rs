@@ -1,0 +1,21 @@
+use crate::image::{Plane, gaussian};
+
+/// Local standard deviations below this part of the largest one count as this part: empty margins must not be blown up.
+const FLOOR: f32 = 1e-3;
+
+/// The image less its slow drift, divided by its local contrast: g = I − G(σ)∗I over √(G(σ)∗g²), σ = longer side / 8.
+/// The result has mean about 0 and standard deviation about 1 everywhere.
+pub fn flatten(image: &Plane) -> Plane {
+    let (h, w) = image.dim();
+    let sigma = h.max(w) as f64 / 8.;
+    normalise(&(image - &gaussian(image, sigma)), sigma)
+}
+
+/// `plane` divided by its local root mean square √(G(σ)∗plane²).
+pub(super) fn normalise(plane: &Plane, sigma: f64) -> Plane {
+    let mut deviation = gaussian(&plane.mapv(|v| v * v), sigma);
+    deviation.mapv_inplace(|v| v.max(0.).sqrt());
+    let floor = (FLOOR * deviation.iter().copied().fold(0., f32::max)).max(f32::MIN_POSITIVE);
+    deviation.zip_mut_with(plane, |d, v| *d = v / d.max(floor));
+    deviation
+}

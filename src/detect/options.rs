@@ -1,0 +1,63 @@
+use super::{DetectError, Modality, Polarity};
+use serde::{Deserialize, Serialize};
+use std::str::FromStr;
+
+/// Which family of filters finds the cones.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Detector {
+    /// The one that measured best on hand-marked images of the modality.
+    #[default]
+    Auto,
+    /// Hand-designed band-pass filters (one a modality).
+    Classical,
+}
+
+impl Detector {
+    /// Every detector.
+    pub const ALL: [Self; 2] = [Self::Auto, Self::Classical];
+
+    /// As it is written in options and tables.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Classical => "classical",
+        }
+    }
+}
+
+impl FromStr for Detector {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Self::ALL
+            .into_iter()
+            .find(|d| d.name() == text)
+            .ok_or_else(|| format!("“{text}” is none of auto, classical"))
+    }
+}
+
+/// What a user may fix about detection; by default everything is decided from the image.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct DetectOptions {
+    /// How the image was taken; `None`: decided from the image.
+    pub modality: Option<Modality>,
+    /// Which way round the contrast runs; `None`: decided from the image.
+    pub polarity: Option<Polarity>,
+    /// Which filters find the cones.
+    pub detector: Detector,
+    /// Cone spacing in px (4–40) to start from instead of Yellott's ring; `None`: the ring.
+    pub spacing: Option<f64>,
+}
+
+impl DetectOptions {
+    /// # Errors
+    /// If the spacing is out of its range.
+    pub fn validate(&self) -> Result<(), DetectError> {
+        let (low, high) = super::SPACING_RANGE;
+        match self.spacing {
+            Some(s) if !(low..=high).contains(&s) => Err(DetectError::Spacing(s)),
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,227 @@
+use super::SPACING_RANGE;
+use super::kernels;
+use crate::detect::Modality;
+use crate::image::{Plane, Spectrum, signed_frequency};
+use rayon::prelude::*;
+use std::sync::OnceLock;
+
+/// Side of the transform, in px; a larger image is seen as overlapping tiles of this size, their power averaged (Welch).
+const SIZE: usize = 512;
+/// Log-frequency bins per octave.
+const PER_OCTAVE: f64 = 24.;
+/// Period of the lowest bin, in px; bin b holds the period 64 / 2^(b/24).
+const LONGEST_PERIOD: f64 = 64.;
+/// Up to half a cycle per pixel.
+const BINS: usize = 121;
+/// Half an octave times 1.5: how far around the ring directions are compared.
+const ANISOTROPY_REACH: usize = 18;
+
+/// Logarithm of an image's radially averaged power over log-frequency (24 bins per octave, 1/64 to 1/2 cycles per px).
+/// Cones that keep their distance put a ring into the spectrum (Yellott 1983), here a peak at the frequency
+/// 1 / spacing.
+pub struct RingProfile {
+    all: [f32; BINS],
+    along_x: [f32; BINS],
+    across_x: [f32; BINS],
+}
+
+/// Where the ring stands, and how well it stands out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RingEstimate {
+    /// Cone spacing in px.
+    pub spacing: f64,
+    /// Response of the matched kernel: about 0.7 on a clear confocal mosaic, .4 on a split-detector one, below 0.2 on noise.
+    pub strength: f64,
+}
+
+/// One term of the transform: where it lies, which two bins share it and how, and which part of it runs along x.
+struct Term {
+    index: u32,
+    bin: u16,
+    upper_share: f32,
+    along_x: f32,
+    weight: f32,
+}
+
+fn terms() -> &'static [Term] {
+    static TERMS: OnceLock<Vec<Term>> = OnceLock::new();
+    TERMS.get_or_init(|| {
+        let lowest = 1. / (1.05 * LONGEST_PERIOD);
+        let mut terms = Vec::new();
+        for kx in 0..=SIZE / 2 {
+            for ky in 0..SIZE {
+                let fx = kx as f64 / SIZE as f64;
+                let fy = f64::from(signed_frequency(ky, SIZE));
+                let f = fx.hypot(fy);
+                if f <= lowest || f >= 0.515 {
+                    continue;
+                }
+                // one bin more on either side catches the shares that fall off the ends
+                let place = (PER_OCTAVE * (LONGEST_PERIOD * f).log2() + 1.).clamp(0., (BINS + 1) as f64);
+                terms.push(Term {
+                    index: (kx * SIZE + ky) as u32,
+                    bin: place as u16,
+                    upper_share: place.fract() as f32,
+                    along_x: (fx * fx / (f * f)) as f32,
+                    weight: if kx == 0 || kx == SIZE / 2 { 1. } else { 2. },
+                });
+            }
+        }
+        terms
+    })
+}
+
+fn hann(length: usize) -> Vec<f32> {
+    let step = std::f64::consts::TAU / (length + 1) as f64;
+    (1..=length).map(|k| (0.5 - 0.5 * (step * k as f64).cos()) as f32).collect()
+}
+
+/// First pixel of every tile along a side: one for a short side, half-overlapping ones for a long side.
+fn tile_starts(length: usize) -> Vec<usize> {
+    if length <= SIZE {
+        return vec![0];
+    }
+    let count = (length - SIZE).div_ceil(SIZE / 2) + 1;
+    (0..count).map(|k| k * (length - SIZE) / (count - 1)).collect()
+}
+
+/// Power of one tapered tile, summed into bins: all, along x, across x.
+fn tile_power(flat: &Plane, y0: usize, x0: usize, taper: (&[f32], &[f32])) -> [[f64; BINS + 3]; 3] {
+    let tile = Plane::from_shape_fn((taper.0.len(), taper.1.len()), |(y, x)| {
+        flat[[y0 + y, x0 + x]] * taper.0[y] * taper.1[x]
+    });
+    let power: Vec<f32> = Spectrum::forward(&tile, SIZE, SIZE).power().collect();
+    let mut sums = [[0f64; BINS + 3]; 3];
+    for t in terms() {
+        let p = power[t.index as usize] * t.weight;
+        let bin = t.bin as usize;
+        for (sum, part) in sums.iter_mut().zip([1., t.along_x, 1. - t.along_x]) {
+            sum[bin] += f64::from(p * part * (1. - t.upper_share));
+            sum[bin + 1] += f64::from(p * part * t.upper_share);
+        }
+    }
+    sums
+}
+
+fn bin_weights() -> &'static [[f64; BINS + 3]; 3] {
+    static WEIGHTS: OnceLock<[[f64; BINS + 3]; 3]> = OnceLock::new();
+    WEIGHTS.get_or_init(|| {
+        let mut sums = [[0f64; BINS + 3]; 3];
+        for t in terms() {
+            let bin = t.bin as usize;
+            for (sum, part) in sums.iter_mut().zip([1., t.along_x, 1. - t.along_x]) {
+                sum[bin] += f64::from(t.weight * part * (1. - t.upper_share));
+                sum[bin + 1] += f64::from(t.weight * part * t.upper_share);
+            }
+        }
+        sums
+    })
+}
+
+impl RingProfile {
+    /// The profile of a flattened image (see [`crate::detect::flatten`]).
+    pub fn of(flat: &Plane) -> Self {
+        let (h, w) = flat.dim();
+        let (taper_y, taper_x) = (hann(h.min(SIZE)), hann(w.min(SIZE)));
+        let columns = tile_starts(w);
+        let corners: Vec<(usize, usize)> =
+            tile_starts(h).into_iter().flat_map(|y| columns.iter().map(move |&x| (y, x))).collect();
+        let tiles: Vec<_> =
+            corners.par_iter().map(|&(y, x)| tile_power(flat, y, x, (&taper_y, &taper_x))).collect();
+        let mut channels = [[0f32; BINS]; 3];
+        for (c, channel) in channels.iter_mut().enumerate() {
+            for (b, value) in channel.iter_mut().enumerate() {
+                let power: f64 = tiles.iter().map(|t| t[c][b + 1]).sum::<f64>() / tiles.len().max(1) as f64;
+                *value = (power / bin_weights()[c][b + 1].max(1e-12) + 1e-12).ln() as f32;
+            }
+        }
+        let [all, along_x, across_x] = channels;
+        Self { all, along_x, across_x }
+    }
+
+    /// Spacing under the assumption of a modality: the argmax, refined by a parabola, of matched kernels over log-frequency
+    /// (ridge regression on hand-marked images; leaving subjects out, confocal rms 2.2 %, split 11 %).
+    pub fn spacing(&self, modality: Modality) -> RingEstimate {
+        let matched: &[(&[f32; BINS], &[f32])] = match modality {
+            Modality::Confocal | Modality::Histology => &[(&self.all, &kernels::CONFOCAL)],
+            Modality::Split => {
+                &[(&self.along_x, &kernels::SPLIT_ALONG_X), (&self.across_x, &kernels::SPLIT_ACROSS_X)]
+            }
+        };
+        let first = (PER_OCTAVE * (LONGEST_PERIOD / SPACING_RANGE.1).log2()).floor() as usize;
+        let last = (PER_OCTAVE * (LONGEST_PERIOD / SPACING_RANGE.0).log2()).ceil() as usize;
+        let mut response = vec![0f64; last + 1 - first];
+        for (profile, kernel) in matched {
+            let mean = profile.iter().sum::<f32>() / BINS as f32;
+            let half = kernel.len() / 2;
+            for (k, r) in response.iter_mut().enumerate() {
+                *r += kernel
+                    .iter()
+                    .enumerate()
+                    .filter_map(|(tap, weight)| {
+                        let bin = (first + k + tap).checked_sub(half)?;
+                        profile.get(bin).map(|p| f64::from(weight * (p - mean)))
+                    })
+                    .sum::<f64>();
+            }
+        }
+        let peak = (0..response.len()).max_by(|&a, &b| response[a].total_cmp(&response[b])).unwrap_or(0);
+        let offset = match response.get(peak.wrapping_sub(1)..peak + 2) {
+            Some(&[a, b, c]) if a - 2. * b + c < 0. => 0.5 * (a - c) / (a - 2. * b + c),
+            _ => 0.,
+        };
+        let bin = (first + peak) as f64 + offset;
+        RingEstimate { spacing: LONGEST_PERIOD / (bin / PER_OCTAVE).exp2(), strength: response[peak] }
+    }
+
+    /// Mean logarithm of the power along x over the power across x, around the ring of the given spacing: 0 without a
+    /// preferred direction, near 1 for a split detector, which shows the derivative along x.
+    pub fn anisotropy(&self, spacing: f64) -> f64 {
+        let bin =
+            (PER_OCTAVE * (LONGEST_PERIOD / spacing).log2()).round().clamp(0., (BINS - 1) as f64) as usize;
+        let range = bin.saturating_sub(ANISOTROPY_REACH)..(bin + ANISOTROPY_REACH + 1).min(BINS);
+        let count = range.len() as f64;
+        range.map(|b| f64::from(self.along_x[b] - self.across_x[b])).sum::<f64>() / count
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A triangular lattice of Gaussian spots.
+    fn lattice_image(side: usize, spacing: f64) -> Plane {
+        let row = spacing * 3f64.sqrt() / 2.;
+        Plane::from_shape_fn((side, side), |(y, x)| {
+            let (x, y) = (x as f64, y as f64);
+            let nearest = (-1..=1)
+                .flat_map(|dj| {
+                    let j = (y / row).round() + f64::from(dj);
+                    let shift = if j.rem_euclid(2.) == 0. { 0. } else { 0.5 };
+                    let i = (x / spacing - shift).round() + shift;
+                    [(x - i * spacing).powi(2) + (y - j * row).powi(2)]
+                })
+                .fold(f64::INFINITY, f64::min);
+            (-nearest / (2. * (0.2 * spacing).powi(2))).exp() as f32
+        })
+    }
+
+    #[test]
+    fn ring_radius_matches_spacing() {
+        for (side, spacing) in [(150, 6.), (150, 10.), (300, 18.), (700, 9.)] {
+            let flat = crate::detect::flatten(&lattice_image(side, spacing));
+            let estimate = RingProfile::of(&flat).spacing(Modality::Confocal);
+            assert!((estimate.spacing / spacing - 1.).abs() < 0.15, "{spacing}: {estimate:?}");
+        }
+    }
+
+    #[test]
+    fn tiles_cover_a_side_from_end_to_end() {
+        for length in [1, 512, 513, 700, 2048] {
+            let starts = tile_starts(length);
+            assert_eq!(starts[0], 0);
+            assert_eq!(starts[starts.len() - 1] + SIZE.min(length), length);
+            assert!(starts.windows(2).all(|s| s[1] > s[0] && s[1] - s[0] <= SIZE / 2));
+        }
+    }
+}

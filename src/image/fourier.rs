@@ -1,0 +1,160 @@
+use super::{PARALLEL_PIXELS, Plane};
+use rayon::prelude::*;
+use realfft::RealFftPlanner;
+use rustfft::{FftDirection, FftPlanner, num_complex::Complex32};
+use std::cell::RefCell;
+
+thread_local! {
+    // planning a length costs more than transforming it; images of a folder share their lengths
+    static PLANNERS: RefCell<(RealFftPlanner<f32>, FftPlanner<f32>)> =
+        RefCell::new((RealFftPlanner::new(), FftPlanner::new()));
+}
+
+/// The smallest length ≥ `length` without prime factors above 5: what a fast Fourier transform is fast at.
+pub fn fast_length(length: usize) -> usize {
+    let smooth = |mut n: usize| {
+        for p in [2, 3, 5] {
+            while n.is_multiple_of(p) {
+                n /= p;
+            }
+        }
+        n == 1
+    };
+    (length.max(1)..).find(|&n| smooth(n)).unwrap_or(length)
+}
+
+/// The two-dimensional Fourier transform of a real plane: the half with fx ≥ 0, stored column by column
+/// (`values[kx · height + ky]`).
+pub struct Spectrum {
+    width: usize,
+    height: usize,
+    values: Vec<Complex32>,
+}
+
+impl Spectrum {
+    /// Transform of `plane`, continued by zeros to `height` × `width` (neither smaller than the plane's).
+    pub fn forward(plane: &Plane, height: usize, width: usize) -> Self {
+        let (rows, columns) = plane.dim();
+        let half = width / 2 + 1;
+        let row_plan = PLANNERS.with_borrow_mut(|p| p.0.plan_fft_forward(width));
+        // rows below the plane are zero and transform to zero
+        let mut by_row = vec![Complex32::default(); rows * half];
+        let transform_row = |(y, out): (usize, &mut [Complex32])| {
+            let mut input = vec![0f32; width];
+            input.iter_mut().zip(plane.row(y)).for_each(|(i, v)| *i = *v);
+            // lengths are ours, so the plan cannot refuse them
+            let done = row_plan.process(&mut input, out);
+            debug_assert!(done.is_ok());
+        };
+        let parallel = height * width >= PARALLEL_PIXELS && columns > 0;
+        if parallel {
+            by_row.par_chunks_mut(half).enumerate().for_each(transform_row);
+        } else {
+            by_row.chunks_mut(half).enumerate().for_each(transform_row);
+        }
+        let mut values = vec![Complex32::default(); half * height];
+        let gather = |(kx, out): (usize, &mut [Complex32])| {
+            out.iter_mut().zip(by_row.chunks(half)).for_each(|(o, row)| *o = row[kx]);
+        };
+        if parallel {
+            values.par_chunks_mut(height).enumerate().for_each(gather);
+        } else {
+            values.chunks_mut(height).enumerate().for_each(gather);
+        }
+        let mut spectrum = Self { width, height, values };
+        spectrum.transform_columns(FftDirection::Forward);
+        spectrum
+    }
+
+    fn transform_columns(&mut self, direction: FftDirection) {
+        let plan = PLANNERS.with_borrow_mut(|p| p.1.plan_fft(self.height, direction));
+        if self.values.len() >= PARALLEL_PIXELS / 2 {
+            // several columns a task, so that one scratch serves them all
+            self.values.par_chunks_mut(16 * self.height).for_each(|columns| plan.process(columns));
+        } else {
+            plan.process(&mut self.values);
+        }
+    }
+
+    /// Back to a plane of `height` × `width`.
+    pub fn inverse(mut self) -> Plane {
+        self.transform_columns(FftDirection::Inverse);
+        let half = self.width / 2 + 1;
+        let plan = PLANNERS.with_borrow_mut(|p| p.0.plan_fft_inverse(self.width));
+        let scale = 1. / (self.width * self.height) as f32;
+        let mut data = vec![0f32; self.width * self.height];
+        let (values, height, width) = (&self.values, self.height, self.width);
+        let transform_row = |(y, out): (usize, &mut [f32])| {
+            let mut input: Vec<Complex32> = (0..half).map(|kx| values[kx * height + y] * scale).collect();
+            // a real plane has a real mean along x, and a real last term if the width is even; rounding left a trace
+            input[0].im = 0.;
+            if width.is_multiple_of(2) {
+                input[half - 1].im = 0.;
+            }
+            let done = plan.process(&mut input, out);
+            debug_assert!(done.is_ok());
+        };
+        if data.len() >= PARALLEL_PIXELS {
+            data.par_chunks_mut(width).enumerate().for_each(transform_row);
+        } else {
+            data.chunks_mut(width).enumerate().for_each(transform_row);
+        }
+        Plane::from_shape_vec((height, width), data).unwrap_or_default()
+    }
+
+    /// Multiplies every value by `factor(fx, fy)`, frequencies in cycles per pixel, 0 ≤ fx ≤ ½, −½ ≤ fy < ½.
+    pub fn multiply(&mut self, factor: impl Fn(f32, f32) -> Complex32 + Sync) {
+        let (width, height) = (self.width, self.height);
+        let column = |(kx, values): (usize, &mut [Complex32])| {
+            let fx = kx as f32 / width as f32;
+            for (ky, value) in values.iter_mut().enumerate() {
+                *value *= factor(fx, signed_frequency(ky, height));
+            }
+        };
+        if self.values.len() >= PARALLEL_PIXELS / 2 {
+            self.values.par_chunks_mut(height).enumerate().for_each(column);
+        } else {
+            self.values.chunks_mut(height).enumerate().for_each(column);
+        }
+    }
+
+    /// |value|², in the order of storage: `[kx · height + ky]`.
+    pub fn power(&self) -> impl Iterator<Item = f32> {
+        self.values.iter().map(|v| v.norm_sqr())
+    }
+}
+
+/// Frequency of term `k` of a transform of `length` terms, in cycles per sample, in [−½, ½).
+pub(crate) fn signed_frequency(k: usize, length: usize) -> f32 {
+    let k = if 2 * k < length { k as f32 } else { k as f32 - length as f32 };
+    k / length as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn there_and_back_is_the_same_plane() {
+        for (h, w) in [(12, 15), (9, 10), (7, 7)] {
+            let plane = Plane::from_shape_fn((h, w), |(y, x)| ((y * 31 + x * 17) % 23) as f32);
+            let back = Spectrum::forward(&plane, h, w).inverse();
+            assert!(plane.iter().zip(&back).all(|(a, b)| (a - b).abs() < 1e-4));
+        }
+    }
+
+    #[test]
+    fn a_wave_has_its_power_at_its_frequency() {
+        let (h, w) = (16, 24);
+        let wave = |x: usize, y: usize| 3. * x as f32 / w as f32 + 2. * y as f32 / h as f32;
+        let plane = Plane::from_shape_fn((h, w), |(y, x)| (std::f32::consts::TAU * wave(x, y)).cos());
+        let power: Vec<f32> = Spectrum::forward(&plane, h, w).power().collect();
+        let peak = (0..power.len()).max_by(|&a, &b| power[a].total_cmp(&power[b])).unwrap();
+        assert_eq!((peak / h, peak % h), (3, 2));
+    }
+
+    #[test]
+    fn fast_lengths_have_small_factors_only() {
+        assert_eq!([1, 7, 11, 97, 241].map(fast_length), [1, 8, 12, 100, 243]);
+    }
+}

@@ -1,0 +1,139 @@
+use super::{Cell, ImageRecord, significant};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+const STYLE: &str = "
+:root { color-scheme: light dark; --line: #8884; --soft: #8882; --warn: #b45309; }
+body { font: 15px/1.5 system-ui, sans-serif; max-width: 1200px; margin: 2rem auto; padding: 0 1.2rem; }
+h1 { font-size: 1.5rem; margin-bottom: .2rem; } h2 { font-size: 1.1rem; margin: 2.6rem 0 .4rem; overflow-wrap: anywhere; }
+p.lead { margin-top: 0; opacity: .75; }
+.scroll { overflow-x: auto; }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .9rem; }
+th, td { padding: .3rem .7rem; border-bottom: 1px solid var(--line); text-align: right; white-space: nowrap; }
+th { vertical-align: bottom; } th:first-child, td:first-child, .word { text-align: left; }
+td:first-child { max-width: 22rem; overflow: hidden; text-overflow: ellipsis; }
+tr:hover td { background: var(--soft); }
+.warning { color: var(--warn); }
+figure { margin: .6rem 0; } img { max-width: 100%; background: #fff; border-radius: 4px; }
+nav a { margin-right: 1rem; font-size: .9rem; }
+@media print { section { break-inside: avoid; } nav { display: none; } }
+";
+
+/// The page of a run: a table of all images and the figure of each. Refers to the files beside it.
+pub fn page(records: &[ImageRecord], failures: &[(&str, &str)], samplers: &[String]) -> String {
+    let cones: usize = records.iter().map(|r| r.mosaic.n).sum();
+    let scaled = records.iter().any(|r| r.mosaic.um_per_unit.is_some());
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { "Cone mosaics of " (records.len()) " images" }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                h1 { "Cone mosaics" }
+                p.lead {
+                    (cones) " cones in " (records.len()) " images. All columns, in full precision: "
+                    a href="summary.csv" { "summary.csv" }
+                    "; how they were made: " a href="run.json" { "run.json" } "."
+                }
+                @if !failures.is_empty() { (failed(failures)) }
+                div.scroll { (overview(records, samplers, scaled)) }
+                p {
+                    "NN: distance to the nearest neighbour, mean ± standard deviation. RI: regularity index, their ratio, of all points "
+                    "and of those whose neighbours cannot lie beyond the border. ℓ∞: largest difference of the pair correlation functions of "
+                    "the mosaic and of a sampler (mean of several samples of as many points in the same window)."
+                }
+                @for (k, record) in records.iter().enumerate() { (one(k, record)) }
+            }
+        }
+    }
+    .into_string()
+}
+
+fn failed(failures: &[(&str, &str)]) -> Markup {
+    html! {
+        h2.warning { (failures.len()) " images failed" }
+        ul { @for (file, reason) in failures { li title=(file) { (reason) } } }
+    }
+}
+
+fn overview(records: &[ImageRecord], samplers: &[String], scaled: bool) -> Markup {
+    let number = |value: Option<f64>, digits: usize| value.map_or("–".into(), |v| significant(v, digits));
+    html! {
+        table {
+            thead { tr {
+                th { "image" } th.word { "modality" } th { "cones" }
+                th { @if scaled { "cones/mm²" } @else { "cones/px²" } }
+                th { "spacing" br; "px" } th { "NN" br; @if scaled { "µm" } @else { "px" } }
+                th { "RI" } th { "RI" br; "interior" }
+                @for sampler in samplers { th { "ℓ∞" br; (sampler) } }
+                th.word { "closest to" }
+            } }
+            tbody { @for (k, r) in records.iter().enumerate() {
+                @let m = &r.mosaic;
+                @let um = m.um_per_unit.filter(|_| scaled).unwrap_or(1.);
+                tr {
+                    td title=(r.file) {
+                        a href=(format!("#i{k}")) { (r.name) }
+                        @if !r.warnings.is_empty() { span.warning title=(r.warnings.join("; ")) { " ⚠" } }
+                    }
+                    td.word { (r.detection.modality) }
+                    td { (m.n) }
+                    td { (number(if scaled { m.density_per_mm2() } else { Some(m.density) }, 4)) }
+                    td { (number(m.spacing, 3)) }
+                    td { (number(m.nearest.mean.map(|v| v * um), 3)) " ± " (number(m.nearest.sd.map(|v| v * um), 2)) }
+                    td { (number(m.nearest.ri, 3)) }
+                    td { (number(m.nearest_interior.ri, 3)) }
+                    @for sampler in samplers {
+                        td { (number(m.l_infinity.iter().find(|d| d.sampler == *sampler).map(|d| d.l_infinity), 2)) }
+                    }
+                    td.word { (Cell::from(m.closest_sampler()).readable()) }
+                }
+            } }
+        }
+    }
+}
+
+fn one(k: usize, record: &ImageRecord) -> Markup {
+    let folder = format!("images/{}", in_url(&record.name));
+    html! {
+        section id=(format!("i{k}")) {
+            h2 { (record.name) }
+            @for warning in &record.warnings { p.warning { "⚠ " (warning) } }
+            figure { img loading="lazy" src=(format!("{folder}/figure.svg")) alt=(format!("Figure of {}", record.name)); }
+            nav {
+                @for (file, words) in
+                    [("overlay.png", "cones on the image"), ("points.csv", "points"), ("pcf.csv", "g(r)"), ("metrics.json", "all numbers")]
+                { a href=(format!("{folder}/{file}")) { (words) } }
+            }
+        }
+    }
+}
+
+/// A file name as part of a URL.
+fn in_url(name: &str) -> String {
+    name.bytes()
+        .map(|b| match b {
+            b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'_' | b'.' | b'~' => char::from(b).to_string(),
+            _ => format!("%{b:02X}"),
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_without_images_is_still_a_page() {
+        let text = page(&[], &[("a<b>.png", "it is <broken>")], &[]);
+        assert!(text.starts_with("<!DOCTYPE html>") && text.contains("it is &lt;broken&gt;"));
+    }
+
+    #[test]
+    fn names_become_urls() {
+        assert_eq!(in_url("a b#1_0.5"), "a%20b%231_0.5");
+    }
+}

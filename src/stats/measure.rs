@@ -1,0 +1,54 @@
+use super::{
+    Deviation, Histogram, Moments, NearestNeighbours, Pcf, PcfOptions, StatsError, Trend, VoronoiSummary, interior,
+    moments, nearest_neighbours, pcf, trend, voronoi,
+};
+use crate::mosaic::Mosaic;
+use serde::{Deserialize, Serialize};
+
+/// How a mosaic is measured.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MeasureOptions {
+    /// Divisor of variances: n − 1 (default), or n for the tables of Lanaro et al.
+    pub deviation: Deviation,
+    /// Kernel, grid and edge correction of the pair correlation function.
+    pub pcf: PcfOptions,
+}
+
+/// The statistics of one mosaic. Lengths are in the mosaic's unit.
+#[derive(Clone, Debug)]
+pub struct Measures {
+    /// Nearest neighbour of every point.
+    pub neighbours: NearestNeighbours,
+    /// Their distances: all points.
+    pub nearest: Moments,
+    /// Points whose distance to the border is at least that to their nearest neighbour.
+    pub nearest_interior: Moments,
+    /// Histogram of the nearest-neighbour distances of all points.
+    pub histogram: Histogram,
+    /// Voronoi cells strictly inside the window.
+    pub voronoi: VoronoiSummary,
+    /// Whether density varies across the window.
+    pub trend: Trend,
+    /// Pair correlation function, or why there is none.
+    pub pcf: Result<Pcf, StatsError>,
+}
+
+/// All statistics of a mosaic, each with its own edge rule.
+pub fn measure(mosaic: &Mosaic, options: &MeasureOptions) -> Measures {
+    let (points, window) = (mosaic.points(), mosaic.window());
+    let neighbours = nearest_neighbours(points, window);
+    let inside: Vec<f64> = interior(points, window, &neighbours)
+        .into_iter()
+        .zip(&neighbours.distances)
+        .filter_map(|(keep, &d)| keep.then_some(d))
+        .collect();
+    Measures {
+        nearest: moments(&neighbours.distances, options.deviation),
+        nearest_interior: moments(&inside, options.deviation),
+        histogram: Histogram::new(&neighbours.distances),
+        voronoi: voronoi(points, window).summary(),
+        trend: trend(points, window),
+        pcf: pcf(points, window, &options.pcf),
+        neighbours,
+    }
+}
