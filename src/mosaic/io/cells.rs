@@ -126,7 +126,7 @@ impl<'a> Table<'a> {
             None => ReadFault::NotANumber {
                 column: column.into(),
                 found: if cell.is_empty() { "an empty cell".into() } else { shortened(cell) },
-                remedy: if cell.contains(',') {
+                remedy: if self.may_be_decimal_comma(cell) {
                     "write decimal points, or separate columns by semicolons"
                 } else {
                     "mend or leave out the row, and name the columns in a header if there are others than x and y"
@@ -134,6 +134,14 @@ impl<'a> Table<'a> {
             },
         };
         Err(Located::line(row.line, fault))
+    }
+
+    /// `1,5 2,5` is cut in the wrong places.
+    fn may_be_decimal_comma(&self, cell: &str) -> bool {
+        match self.separator {
+            Separator::Comma => cell.contains(char::is_whitespace),
+            _ => cell.contains(','),
+        }
     }
 
     fn parse(&self, cell: &str) -> Option<f64> {

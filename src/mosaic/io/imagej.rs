@@ -15,9 +15,9 @@ const FIRST_SUB_PIXEL: u16 = 222;
 const FIRST_CENTRED: u16 = 228;
 const POINT: u8 = 10;
 
-/// Most that one ROI, and all ROIs of a set together, may unpack to: 8 and 32 million points.
-const LARGEST_ROI: u64 = 96 << 20;
-const LARGEST_SET: u64 = 384 << 20;
+/// Most that one ROI, and all ROIs of a set together, may unpack to: 4 and 16 million sub-pixel points.
+const LARGEST_ROI: u64 = 48 << 20;
+const LARGEST_SET: u64 = 192 << 20;
 
 /// One `.roi` file.
 pub(super) fn read_roi(name: &str, bytes: &[u8]) -> Result<RawFile, Located> {
@@ -158,7 +158,7 @@ fn kind_name(kind: u8, composite: bool) -> String {
         "an angle",
     ];
     match KINDS.get(usize::from(kind)) {
-        Some(_) if composite => "a composite ROI".into(),
+        _ if composite => "a composite ROI".into(),
         Some(&name) => name.into(),
         None => format!("kind {kind}"),
     }
