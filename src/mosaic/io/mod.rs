@@ -1,1 +1,25 @@
-//! Reading and writing coordinate files in every dialect a lab has.
+//! Reading and writing coordinate files in every dialect a lab has, and tables of scales.
+//!
+//! Whatever a file counts from, [`read_coordinates`] gives pixels from 0 at the centre of the top-left pixel.
+
+mod atomic;
+mod cells;
+mod delimited;
+mod error;
+mod header;
+mod imagej;
+mod origin;
+mod read;
+mod scale_table;
+mod text;
+mod webplotdigitizer;
+mod write;
+
+pub use atomic::write_atomically;
+pub use error::{Place, ReadError, ReadFault, WriteError};
+pub use origin::Origin;
+pub use read::{CoordinateFile, Dialect, ReadOptions, Series, read_coordinates, read_from};
+pub use scale_table::{ScaleTable, ScaleTableError};
+pub use write::{format_plain_points, format_points, write_plain_points, write_points};
+
+use read::{Dataset, RawFile};

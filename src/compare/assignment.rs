@@ -1,0 +1,263 @@
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+/// The largest one-to-one assignment along candidate edges, and of all largest ones that of least total cost.
+///
+/// `candidates[row]` holds the columns a row may take and what each costs, between 0 and `limit`. The graph falls
+/// into many small connected components; each is solved alone, by successive shortest augmenting paths with
+/// potentials (Jonker & Volgenant 1987, on sparse graphs): a row is added at a time, Dijkstra's search over reduced
+/// costs finds the cheapest way to place it, moving others if need be. Every row also has a private column that
+/// stands for "unassigned" and costs more than any rearrangement of its component can save.
+///
+/// Returns the column and cost of every row, `None` for those that get none.
+pub(super) fn assign(
+    candidates: &[Vec<(usize, f64)>],
+    columns: usize,
+    limit: f64,
+) -> Vec<Option<(usize, f64)>> {
+    let mut result = vec![None; candidates.len()];
+    let mut local = vec![usize::MAX; columns];
+    for rows in components(candidates, columns) {
+        if let [row] = rows.as_slice() {
+            let cheapest = candidates[*row].iter().min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+            result[*row] = cheapest.copied();
+            continue;
+        }
+        let mut names = Vec::new();
+        for &(column, _) in rows.iter().flat_map(|&row| &candidates[row]) {
+            if local[column] == usize::MAX {
+                local[column] = names.len();
+                names.push(column);
+            }
+        }
+        let edges: Vec<Vec<(usize, f64)>> = rows
+            .iter()
+            .map(|&row| candidates[row].iter().map(|&(c, cost)| (local[c], cost)).collect())
+            .collect();
+        for (i, column) in Component::new(&edges, names.len(), limit).solve().into_iter().enumerate() {
+            let Some(&column) = names.get(column) else { continue };
+            let row = rows[i];
+            result[row] = candidates[row].iter().find(|(c, _)| *c == column).copied();
+        }
+    }
+    result
+}
+
+/// Rows that have candidates, grouped by what they can reach of each other.
+fn components(candidates: &[Vec<(usize, f64)>], columns: usize) -> Vec<Vec<usize>> {
+    let mut rows_of = vec![Vec::new(); columns];
+    for (row, edges) in candidates.iter().enumerate() {
+        for &(column, _) in edges {
+            rows_of[column].push(row);
+        }
+    }
+    let mut seen = vec![false; candidates.len()];
+    let mut components = Vec::new();
+    for start in 0..candidates.len() {
+        if seen[start] || candidates[start].is_empty() {
+            continue;
+        }
+        seen[start] = true;
+        let mut rows = vec![start];
+        let mut next = 0;
+        while let Some(&row) = rows.get(next) {
+            next += 1;
+            for &(column, _) in &candidates[row] {
+                for other in std::mem::take(&mut rows_of[column]) {
+                    if !std::mem::replace(&mut seen[other], true) {
+                        rows.push(other);
+                    }
+                }
+            }
+        }
+        rows.sort_unstable();
+        components.push(rows);
+    }
+    components
+}
+
+/// One connected component; column `real + row` is the private column of a row.
+struct Component<'a> {
+    edges: &'a [Vec<(usize, f64)>],
+    real: usize,
+    unassigned: f64,
+    row_potential: Vec<f64>,
+    column_potential: Vec<f64>,
+    column_of: Vec<usize>,
+    row_of: Vec<Option<usize>>,
+}
+
+impl<'a> Component<'a> {
+    fn new(edges: &'a [Vec<(usize, f64)>], real: usize, limit: f64) -> Self {
+        let rows = edges.len();
+        Self {
+            edges,
+            real,
+            // Placing one more row can make each of the others dearer by `limit` at most.
+            unassigned: (limit + f64::MIN_POSITIVE) * (rows + 1) as f64,
+            row_potential: vec![0.; rows],
+            column_potential: vec![0.; real + rows],
+            column_of: vec![usize::MAX; rows],
+            row_of: vec![None; real + rows],
+        }
+    }
+
+    /// The column of every row, real or private.
+    fn solve(mut self) -> Vec<usize> {
+        let columns = self.real + self.edges.len();
+        let mut search = Search {
+            distance: vec![f64::INFINITY; columns],
+            via: vec![0; columns],
+            done: vec![false; columns],
+            touched: Vec::new(),
+            heap: BinaryHeap::new(),
+        };
+        for row in 0..self.edges.len() {
+            self.place(row, &mut search);
+            search.clear();
+        }
+        self.column_of
+    }
+
+    fn place(&mut self, start: usize, search: &mut Search) {
+        let mut row = start;
+        let mut reached = 0.;
+        let mut settled = Vec::new();
+        let sink = loop {
+            let private = (self.real + row, self.unassigned);
+            for &(column, cost) in self.edges[row].iter().chain(std::iter::once(&private)) {
+                // Rounding may turn a reduced cost of 0 into a tiny negative one.
+                let reduced = (cost - self.row_potential[row] - self.column_potential[column]).max(0.);
+                search.offer(column, reached + reduced, row);
+            }
+            // The private column of `start` is free, so there is always a next one.
+            let Some(column) = search.next() else { return };
+            reached = search.distance[column];
+            settled.push(column);
+            match self.row_of[column] {
+                None => break column,
+                Some(owner) => row = owner,
+            }
+        };
+        self.row_potential[start] += reached;
+        for &column in &settled {
+            let slack = reached - search.distance[column];
+            if let Some(owner) = self.row_of[column] {
+                self.row_potential[owner] += slack;
+            }
+            self.column_potential[column] -= slack;
+        }
+        let mut column = sink;
+        loop {
+            let row = search.via[column];
+            self.row_of[column] = Some(row);
+            std::mem::swap(&mut self.column_of[row], &mut column);
+            if row == start {
+                return;
+            }
+        }
+    }
+}
+
+/// Dijkstra's search over columns; kept between searches to spare allocations.
+struct Search {
+    distance: Vec<f64>,
+    via: Vec<usize>,
+    done: Vec<bool>,
+    touched: Vec<usize>,
+    heap: BinaryHeap<Waiting>,
+}
+
+impl Search {
+    fn offer(&mut self, column: usize, distance: f64, via: usize) {
+        if !self.done[column] && distance < self.distance[column] {
+            self.distance[column] = distance;
+            self.via[column] = via;
+            self.touched.push(column);
+            self.heap.push(Waiting { distance, column });
+        }
+    }
+
+    fn next(&mut self) -> Option<usize> {
+        while let Some(Waiting { column, .. }) = self.heap.pop() {
+            if !std::mem::replace(&mut self.done[column], true) {
+                return Some(column);
+            }
+        }
+        None
+    }
+
+    fn clear(&mut self) {
+        for column in self.touched.drain(..) {
+            self.distance[column] = f64::INFINITY;
+            self.done[column] = false;
+        }
+        self.heap.clear();
+    }
+}
+
+/// A column in the queue; the nearest is the greatest, ties go to the lower index.
+struct Waiting {
+    distance: f64,
+    column: usize,
+}
+
+impl Ord for Waiting {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.distance.total_cmp(&self.distance).then(other.column.cmp(&self.column))
+    }
+}
+
+impl PartialOrd for Waiting {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Waiting {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Waiting {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Number of rows assigned and total cost of the best assignment, by trying everything.
+    fn best(candidates: &[Vec<(usize, f64)>], row: usize, taken: u32) -> (usize, f64) {
+        let Some(edges) = candidates.get(row) else { return (0, 0.) };
+        let mut best_so_far = best(candidates, row + 1, taken);
+        for &(column, cost) in edges.iter().filter(|(c, _)| taken & (1 << c) == 0) {
+            let (n, sum) = best(candidates, row + 1, taken | (1 << column));
+            if n + 1 > best_so_far.0 || (n + 1 == best_so_far.0 && sum + cost < best_so_far.1) {
+                best_so_far = (n + 1, sum + cost);
+            }
+        }
+        best_so_far
+    }
+
+    proptest! {
+        #[test]
+        fn no_other_assignment_is_larger_or_as_large_and_cheaper(
+            costs in prop::collection::vec(prop::collection::vec(prop::option::of(0..40u8), 6), 0..7),
+        ) {
+            let candidates: Vec<Vec<(usize, f64)>> = costs.iter().map(|row| {
+                let edges = row.iter().enumerate();
+                edges.filter_map(|(c, cost)| cost.map(|v| (c, f64::from(v) / 8.))).collect()
+            }).collect();
+            let result = assign(&candidates, 6, 5.);
+            let mut taken: Vec<usize> = result.iter().flatten().map(|r| r.0).collect();
+            let sum: f64 = result.iter().flatten().map(|r| r.1).sum();
+            let (n, least) = best(&candidates, 0, 0);
+            prop_assert_eq!(taken.len(), n);
+            prop_assert!((sum - least).abs() < 1e-9, "{} instead of {}", sum, least);
+            taken.sort_unstable();
+            taken.dedup();
+            prop_assert_eq!(taken.len(), n);
+        }
+    }
+}

@@ -1,0 +1,72 @@
+use super::cells::{Row, Table};
+use super::error::Located;
+use super::header::Columns;
+use super::{Dataset, Dialect, Origin, RawFile};
+use crate::geometry::Point;
+
+/// Text in columns: with or without header, one point a row. WebPlotDigitizer's CSV of one dataset and ImageJ's
+/// results are of this kind.
+pub(super) fn read(text: &str) -> Result<RawFile, Located> {
+    let table = Table::new(text, "two columns of numbers, x and y")?;
+    if let Some(names) = all_datasets_header(&table) {
+        return read_all_datasets(&table, names);
+    }
+    let (columns, rows) = match table.rows.split_first() {
+        Some((first, rest)) if !first.cells.iter().any(|cell| table.is_number(cell)) => {
+            (Columns::named_in(first)?, rest)
+        }
+        Some((first, _)) if first.cells.len() < 2 => {
+            let fault = super::ReadFault::OneColumn { found: super::error::shortened(first.text) };
+            return Err(Located::line(first.line, fault));
+        }
+        _ => (Columns::FIRST_TWO, table.rows.as_slice()),
+    };
+    let mut points = Vec::with_capacity(rows.len());
+    let mut scores = columns.score.map(|_| Vec::with_capacity(rows.len()));
+    for row in rows {
+        points.push(Point::new(table.number(row, columns.x, "x")?, table.number(row, columns.y, "y")?));
+        if let (Some(scores), Some(column)) = (&mut scores, columns.score) {
+            scores.push(table.number(row, column, "score")?);
+        }
+    }
+    let dataset = Dataset { name: String::new(), origin: Origin::Zero, points };
+    Ok(RawFile {
+        dialect: Dialect::Delimited,
+        unit: columns.unit,
+        y_may_point_up: true,
+        datasets: vec![dataset],
+        scores,
+    })
+}
+
+/// The names of the datasets, if the table is WebPlotDigitizer's export of all of them: a row with each name
+/// above its first column and nothing above its second, then a row `X,Y,X,Y,…`.
+fn all_datasets_header<'a>(table: &'a Table) -> Option<Vec<&'a str>> {
+    let [names, axes, ..] = table.rows.as_slice() else { return None };
+    let pairs = |row: &'a Row, agree: fn(&str, &str) -> bool| {
+        let (pairs, rest) = row.cells.as_chunks::<2>();
+        rest.is_empty() && pairs.iter().all(|[a, b]| agree(a, b))
+    };
+    let is_header = pairs(axes, |x, y| x.eq_ignore_ascii_case("x") && y.eq_ignore_ascii_case("y"))
+        && pairs(names, |_, above_y| above_y.is_empty());
+    is_header.then(|| names.cells.iter().step_by(2).map(|name| name.as_ref()).collect())
+}
+
+/// Short datasets are padded with empty cells.
+fn read_all_datasets(table: &Table, names: Vec<&str>) -> Result<RawFile, Located> {
+    let mut datasets: Vec<Dataset> = names
+        .into_iter()
+        .map(|name| Dataset { name: name.to_owned(), origin: Origin::Zero, points: Vec::new() })
+        .collect();
+    for row in table.rows.iter().skip(2) {
+        for (i, dataset) in datasets.iter_mut().enumerate() {
+            let (x, y) = (2 * i, 2 * i + 1);
+            if [x, y].iter().all(|&column| row.cells.get(column).is_none_or(|cell| cell.is_empty())) {
+                continue;
+            }
+            dataset.points.push(Point::new(table.number(row, x, "x")?, table.number(row, y, "y")?));
+        }
+    }
+    let dialect = Dialect::WebPlotDigitizerCsv;
+    Ok(RawFile { dialect, unit: None, y_may_point_up: true, datasets, scores: None })
+}

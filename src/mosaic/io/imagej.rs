@@ -1,0 +1,165 @@
+use super::error::{Located, ReadFault, clipped, listed};
+use super::{Dataset, Dialect, Origin, RawFile};
+use crate::geometry::Point;
+use crate::mosaic::LengthUnit;
+use std::io::{Cursor, Read};
+
+/// Bytes of the header; coordinates follow.
+const HEADER: usize = 64;
+const SUB_PIXEL: u16 = 128;
+/// The format's version that can hold sub-pixel coordinates.
+const FIRST_SUB_PIXEL: u16 = 222;
+/// The format's version of ImageJ 1.52t (2020), which moved the origin of point selections from the corner of
+/// the first pixel to its centre (class `ij.gui.Roi`: "Line and Point Rois: Integer coordinates refer to the
+/// center of a pixel").
+const FIRST_CENTRED: u16 = 228;
+const POINT: u8 = 10;
+
+/// Most that one ROI, and all ROIs of a set together, may unpack to: 4 and 16 million sub-pixel points.
+const LARGEST_ROI: u64 = 48 << 20;
+const LARGEST_SET: u64 = 192 << 20;
+
+/// One `.roi` file.
+pub(super) fn read_roi(name: &str, bytes: &[u8]) -> Result<RawFile, Located> {
+    Ok(file(vec![parse(name, bytes)?]))
+}
+
+/// A `RoiSet.zip` of the ROI manager.
+pub(super) fn read_set(bytes: &[u8]) -> Result<RawFile, Located> {
+    let broken = |detail: &dyn std::fmt::Display| ReadFault::Archive {
+        expected: "a set of ImageJ ROIs (.zip)",
+        detail: clipped(&detail.to_string(), 120),
+    };
+    let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|e| broken(&e))?;
+    let mut datasets = Vec::new();
+    let mut others = Vec::new();
+    let mut budget = LARGEST_SET;
+    for index in 0..archive.len() {
+        let member = archive.by_index(index).map_err(|e| broken(&e))?;
+        let name = member.name().map_err(|e| broken(&e))?.into_owned();
+        // Apple's archiver adds a shadow of every file in this folder.
+        if !name.to_ascii_lowercase().ends_with(".roi") || name.starts_with("__MACOSX/") {
+            others.push(name);
+            continue;
+        }
+        let limit = LARGEST_ROI.min(budget);
+        let mut roi = Vec::new();
+        let read = member.take(limit + 1).read_to_end(&mut roi);
+        read.map_err(|e| Located::member(&name, broken(&e)))?;
+        let size = roi.len() as u64;
+        if size > limit {
+            return Err(Located::member(&name, ReadFault::TooLarge { limit_mib: limit >> 20 }));
+        }
+        budget -= size;
+        datasets.push(parse(&name, &roi).map_err(|fault| Located::member(&name, fault))?);
+    }
+    if !datasets.is_empty() {
+        return Ok(file(datasets));
+    }
+    let spreadsheet = others.iter().any(|name| name.starts_with("xl/") || name == "content.xml");
+    Err(ReadFault::NotInArchive {
+        expected: "ImageJ ROIs (.roi)",
+        found: if spreadsheet { "a spreadsheet".into() } else { listed(others.iter().map(String::as_str)) },
+        remedy: if spreadsheet { "save it as CSV" } else { "save the set with ImageJ's ROI manager" },
+    }
+    .into())
+}
+
+fn file(datasets: Vec<Dataset>) -> RawFile {
+    RawFile {
+        dialect: Dialect::ImageJRoi,
+        unit: Some(LengthUnit::Pixel),
+        y_may_point_up: false,
+        datasets,
+        scores: None,
+    }
+}
+
+/// A point or multi-point ROI: big-endian header, then all x and all y as 16-bit offsets from the bounding box,
+/// then, if sub-pixel, all x and all y as absolute 32-bit floats (format of ImageJ's `ij.io.RoiDecoder`).
+fn parse(name: &str, bytes: &[u8]) -> Result<Dataset, ReadFault> {
+    let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    let name = name.strip_suffix(".roi").unwrap_or(name).to_owned();
+    if bytes.len() < HEADER || !bytes.starts_with(b"Iout") {
+        let start = clipped(&String::from_utf8_lossy(bytes.get(..4).unwrap_or(bytes)), 4);
+        let found = format!("{} bytes that begin with “{start}”", bytes.len());
+        return Err(ReadFault::BrokenRoi { expected: HEADER as u64, found });
+    }
+    let roi = Fields(bytes);
+    let kind = bytes.get(6).copied().unwrap_or_default();
+    if kind != POINT || roi.u32(36) > 0 {
+        return Err(ReadFault::NotAPointRoi { found: kind_name(kind, roi.u32(36) > 0) });
+    }
+    let version = roi.u16(4);
+    let sub_pixel = version >= FIRST_SUB_PIXEL && roi.u16(50) & SUB_PIXEL != 0;
+    // Beyond 65,535 points the count does not fit its old place.
+    let n = match roi.u16(16) {
+        0 => u64::from(roi.u32(18)),
+        n => u64::from(n),
+    };
+    let expected = HEADER as u64 + n * if sub_pixel { 12 } else { 4 };
+    if (bytes.len() as u64) < expected {
+        let found = format!("{} bytes for {n} points", bytes.len());
+        return Err(ReadFault::BrokenRoi { expected, found });
+    }
+    // It fits in `bytes`, so it fits in usize.
+    let n = n as usize;
+    let point = |i: usize| {
+        if sub_pixel {
+            let x = HEADER + 4 * n + 4 * i;
+            Point::new(roi.f32(x), roi.f32(x + 4 * n))
+        } else {
+            let x = HEADER + 2 * i;
+            Point::new(roi.i16(10) + roi.i16(x).max(0.), roi.i16(8) + roi.i16(x + 2 * n).max(0.))
+        }
+    };
+    let points: Vec<Point> = (0..n).map(point).collect();
+    if let Some(p) = points.iter().find(|p| !p.is_finite()) {
+        return Err(ReadFault::NotFinite { column: "a point".into(), found: format!("({}, {})", p.x, p.y) });
+    }
+    let origin = if sub_pixel && version < FIRST_CENTRED { Origin::Half } else { Origin::Zero };
+    Ok(Dataset { name, origin, points })
+}
+
+/// Big-endian fields by offset; 0 past the end.
+struct Fields<'a>(&'a [u8]);
+
+impl Fields<'_> {
+    fn bytes<const N: usize>(&self, at: usize) -> [u8; N] {
+        self.0.get(at..).and_then(|rest| rest.first_chunk::<N>()).copied().unwrap_or([0; N])
+    }
+    fn u16(&self, at: usize) -> u16 {
+        u16::from_be_bytes(self.bytes(at))
+    }
+    fn u32(&self, at: usize) -> u32 {
+        u32::from_be_bytes(self.bytes(at))
+    }
+    fn f32(&self, at: usize) -> f64 {
+        f64::from(f32::from_be_bytes(self.bytes(at)))
+    }
+    /// Signed, but what would lie below −5000 is taken as unsigned, as ImageJ does for images beyond 32,767 px.
+    fn i16(&self, at: usize) -> f64 {
+        let signed = i16::from_be_bytes(self.bytes(at));
+        if signed < -5000 { f64::from(self.u16(at)) } else { f64::from(signed) }
+    }
+}
+
+fn kind_name(kind: u8, composite: bool) -> String {
+    const KINDS: [&str; 10] = [
+        "a polygon",
+        "a rectangle",
+        "an oval",
+        "a line",
+        "a freehand line",
+        "a segmented line",
+        "none",
+        "a freehand outline",
+        "a traced outline",
+        "an angle",
+    ];
+    match KINDS.get(usize::from(kind)) {
+        _ if composite => "a composite ROI".into(),
+        Some(&name) => name.into(),
+        None => format!("kind {kind}"),
+    }
+}
