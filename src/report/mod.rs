@@ -2,8 +2,12 @@
 
 mod csv;
 mod error;
+mod grey;
+mod ink;
+mod overlay;
 mod table;
 
 pub use csv::write_csv;
 pub use error::ReportError;
+pub use overlay::{MarkKind, OverlayMark, encode_png, overlay};
 pub use table::{significant, table};
