@@ -2,6 +2,7 @@
 
 mod csv;
 mod error;
+mod figure;
 mod grey;
 mod ink;
 mod overlay;
@@ -9,5 +10,6 @@ mod table;
 
 pub use csv::write_csv;
 pub use error::ReportError;
+pub use figure::{Curve, MosaicFigure, ReferenceLine, mosaic_figure};
 pub use overlay::{MarkKind, OverlayMark, encode_png, overlay};
 pub use table::{significant, table};
