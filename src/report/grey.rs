@@ -37,7 +37,7 @@ fn percentile(sample: &mut [f32], share: f64) -> f32 {
 }
 
 /// The picture `factor` times as large, interpolated linearly between pixel centres, the border repeated.
-/// A fifth of the time of `image::imageops::resize`.
+/// Several times as fast as `image::imageops::resize`.
 pub(super) fn enlarged(grey: &GrayImage, factor: u32) -> GrayImage {
     let factor = factor.max(1) as usize;
     let (width, height) = (grey.width() as usize, grey.height() as usize);
@@ -62,7 +62,7 @@ pub(super) fn enlarged(grey: &GrayImage, factor: u32) -> GrayImage {
         let between: Vec<f32> =
             line(above).iter().zip(line(below)).map(|(&a, &b)| mix(a.into(), b.into(), share)).collect();
         pixels.extend(
-            columns.iter().map(|&(left, right, s)| mix(between[left], between[right], s).round() as u8),
+            columns.iter().map(|&(left, right, s)| (mix(between[left], between[right], s) + 0.5) as u8),
         );
     }
     GrayImage::from_raw((width * factor) as u32, (height * factor) as u32, pixels).unwrap_or_default()
