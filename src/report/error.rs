@@ -1,0 +1,39 @@
+use thiserror::Error;
+
+/// A table or a figure that could not be made.
+#[derive(Debug, Error)]
+pub enum ReportError {
+    /// A histogram whose edges and counts do not belong together.
+    #[error("a histogram of {counts} counts needs {} rising, finite edges, found {edges}: pass both from one histogram", .counts + 1)]
+    Histogram {
+        /// Number of edges given.
+        edges: usize,
+        /// Number of counts given.
+        counts: usize,
+    },
+    /// A curve with unequal numbers of abscissae and values.
+    #[error(
+        "the curve of {name} has {r} distances and {g} values: it needs as many of the one as of the other"
+    )]
+    Curve {
+        /// Whose curve.
+        name: String,
+        /// Number of distances.
+        r: usize,
+        /// Number of values.
+        g: usize,
+    },
+    /// A PNG that could not be encoded.
+    #[error("could not encode a picture of {width} × {height} px as PNG: {source}")]
+    Png {
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// What the encoder says.
+        source: ::image::ImageError,
+    },
+    /// Rows that could not be written as CSV.
+    #[error("could not write CSV: {0}")]
+    Csv(#[from] ::csv::Error),
+}

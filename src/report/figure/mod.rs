@@ -1,0 +1,143 @@
+//! The paper's row for one mosaic: picture, points, nearest neighbours, pair correlation function
+//! (Lanaro et al., figures 2–6).
+
+mod canvas;
+mod correlation;
+mod field;
+mod neighbours;
+mod page;
+
+use super::ReportError;
+use crate::geometry::{Point, Window};
+use crate::image::Plane;
+use crate::mosaic::LengthUnit;
+use canvas::{Anchor, Canvas, Style};
+use page::Page;
+
+/// Read by screen readers, and by whoever wonders what ℓ∞ is.
+const DESCRIPTION: &str = "One cone mosaic: its picture, its points, its nearest-neighbour distances with the Gaussian \
+    of the same mean and standard deviation (RI: mean over standard deviation), and its pair correlation function over \
+    the mean ones of point samplers (ℓ∞, l-infinity: the largest difference between a sampler's and the mosaic's).";
+
+/// A function of distance, sampled: as many values as distances.
+#[derive(Clone, Copy, Debug)]
+pub struct Curve<'a> {
+    /// Distances in hexagonal spacings.
+    pub r: &'a [f64],
+    /// Values at these distances; what is not finite leaves a gap.
+    pub g: &'a [f64],
+}
+
+/// The mean PCF of a sampler, and how far the mosaic is from it.
+#[derive(Clone, Copy, Debug)]
+pub struct ReferenceLine<'a> {
+    /// The sampler's name, as it stands in the legend.
+    pub name: &'a str,
+    /// Distances in hexagonal spacings.
+    pub r: &'a [f64],
+    /// Its mean PCF at these distances.
+    pub g: &'a [f64],
+    /// Largest difference from the mosaic's PCF, if it was computed.
+    pub l_infinity: Option<f64>,
+}
+
+/// All that the figure of one mosaic shows. Lengths are in the unit of the mosaic; the figure shows them in µm where
+/// `um_per_unit` is known.
+#[derive(Clone, Copy, Debug)]
+pub struct MosaicFigure<'a> {
+    /// Above the panels: usually the name of the file. Cut in the middle where it is too long for the page.
+    pub title: &'a str,
+    /// The image; without one the figure has no picture panel. Of a mosaic in px the part inside the window is shown;
+    /// in another unit the image is taken to fill the window.
+    pub picture: Option<&'a Plane>,
+    /// Cone centres; those outside the window are not drawn.
+    pub points: &'a [Point],
+    /// Where points could have been seen.
+    pub window: &'a Window,
+    /// Unit of points, window and distances.
+    pub unit: LengthUnit,
+    /// Micrometres per unit, if known.
+    pub um_per_unit: Option<f64>,
+    /// Nearest-neighbour distance of every point.
+    pub nn: &'a [f64],
+    /// Their mean.
+    pub nn_mean: Option<f64>,
+    /// Their standard deviation.
+    pub nn_sd: Option<f64>,
+    /// Regularity index: mean over standard deviation.
+    pub ri: Option<f64>,
+    /// Rising edges of the histogram of `nn`, one more than counts; both empty without a histogram.
+    pub histogram_edges: &'a [f64],
+    /// Points in each bin.
+    pub histogram_counts: &'a [usize],
+    /// The mosaic's pair correlation function.
+    pub pcf: Option<Curve<'a>>,
+    /// The samplers it is compared with, in the order of the legend.
+    pub references: &'a [ReferenceLine<'a>],
+}
+
+impl MosaicFigure<'_> {
+    /// What to multiply lengths with before they are shown, and the unit they are then in ("" for the unit square).
+    fn shown_unit(&self) -> (f64, &'static str) {
+        match (self.um_per_unit, self.unit) {
+            (Some(factor), _) => (factor, "µm"),
+            (None, LengthUnit::Pixel) => (1., "px"),
+            (None, LengthUnit::Micrometre) => (1., "µm"),
+            (None, LengthUnit::Unit) => (1., ""),
+        }
+    }
+
+    fn validate(&self) -> Result<(), ReportError> {
+        let (edges, counts) = (self.histogram_edges, self.histogram_counts);
+        let matching = edges.len() == counts.len() + 1 || (edges.is_empty() && counts.is_empty());
+        let rising = edges.iter().all(|e| e.is_finite()) && edges.windows(2).all(|e| e[0] < e[1]);
+        if !(matching && rising) {
+            return Err(ReportError::Histogram { edges: edges.len(), counts: counts.len() });
+        }
+        let mosaic = self.pcf.iter().map(|c| ("the mosaic", c.r, c.g));
+        for (name, r, g) in mosaic.chain(self.references.iter().map(|l| (l.name, l.r, l.g))) {
+            if r.len() != g.len() {
+                return Err(ReportError::Curve { name: name.to_owned(), r: r.len(), g: g.len() });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// “3.2 µm”, or “0.07” of a length without a unit.
+fn with_unit(number: &str, unit: &str) -> String {
+    if unit.is_empty() { number.to_owned() } else { format!("{number} {unit}") }
+}
+
+/// Draws the row, 180 mm wide, as a self-contained SVG: (a) the picture, (b) the points in their window, (c) the
+/// histogram of nearest-neighbour distances with the Gaussian of the same mean and standard deviation, (d) the pair
+/// correlation function over the samplers'. Fields much wider than high are stacked beside or above the plots. A panel
+/// without data says why in a sentence. Equal input makes equal bytes.
+///
+/// # Errors
+/// If edges and counts, or distances and values of a curve, do not belong together.
+pub fn mosaic_figure(figure: &MosaicFigure) -> Result<String, ReportError> {
+    figure.validate()?;
+    let bounds = figure.window.bounds();
+    let page =
+        Page::arrange(bounds.width() / bounds.height(), figure.picture.is_some(), figure.references.len());
+    let mut canvas = Canvas::new(page.height);
+    let title = canvas::fit(figure.title, Style::Title, canvas::PAGE_WIDTH - 2. * page::LEFT_EDGE);
+    canvas.text(page::LEFT_EDGE, page::TITLE_BASELINE, &title, Style::Title, Anchor::Start);
+    let mut letters = ["a", "b", "c", "d"].into_iter();
+    let mut letter = |canvas: &mut Canvas, x: f64, top: f64| {
+        let letter = letters.next().unwrap_or_default();
+        canvas.text(x, top - page::LETTER_RISE, letter, Style::Letter, Anchor::Start);
+    };
+    if let (Some(area), Some(picture)) = (page.picture, figure.picture) {
+        letter(&mut canvas, area.x, area.y);
+        field::draw_picture(&mut canvas, area, figure, picture)?;
+    }
+    letter(&mut canvas, page.points.x, page.points.y);
+    field::draw_points(&mut canvas, page.points, figure)?;
+    letter(&mut canvas, page.neighbours.x - page::AXIS_ROOM, page.neighbours.y);
+    neighbours::draw(&mut canvas, page.neighbours, figure);
+    letter(&mut canvas, page.correlation.x - page::AXIS_ROOM, page.correlation.y);
+    correlation::draw(&mut canvas, page.correlation, figure);
+    Ok(canvas.into_svg(figure.title, DESCRIPTION))
+}

@@ -1,0 +1,140 @@
+use super::canvas::{Area, PAGE_WIDTH};
+
+/// Baseline of the title.
+pub(super) const TITLE_BASELINE: f64 = 11.;
+/// From the top of a panel up to the baseline of its letter.
+pub(super) const LETTER_RISE: f64 = 6.;
+/// Room for tick labels and the axis title, left of a plot.
+pub(super) const AXIS_ROOM: f64 = 40.;
+/// The same below a plot.
+const AXIS_DEPTH: f64 = 34.;
+/// Room for title and letters above the first row.
+const HEAD: f64 = 36.;
+/// Room for a letter above a lower row.
+const LETTER_ROOM: f64 = 22.;
+/// Room for a scale bar below a field.
+const SCALE_BAR_ROOM: f64 = 18.;
+const GAP: f64 = 14.;
+/// Half a tick label on the right, half a dot on the left.
+const RIGHT_EDGE: f64 = 8.;
+pub(super) const LEFT_EDGE: f64 = 2.;
+/// Height of the plots where nothing asks for more.
+const PLOT_HEIGHT: f64 = 154.;
+/// Share of the two plots' width that the histogram gets; the PCF has more to show.
+const HISTOGRAM_SHARE: f64 = 0.4;
+/// A line of the PCF's legend, and what must remain below the legend for the curves.
+const LEGEND_LINE: f64 = 11.;
+const CURVE_ROOM: f64 = 75.;
+/// Wider fields than this are stacked beside the plots, and above them.
+const WIDE: f64 = 1.7;
+const VERY_WIDE: f64 = 4.;
+
+/// Where everything stands, in canvas units from the top left of the page.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Page {
+    pub(super) height: f64,
+    pub(super) picture: Option<Area>,
+    pub(super) points: Area,
+    /// Of the axes, without tick labels and titles.
+    pub(super) neighbours: Area,
+    /// Of the axes, without tick labels and titles.
+    pub(super) correlation: Area,
+}
+
+impl Page {
+    /// For a field of the given width over height, shown once, or twice with a picture.
+    pub(super) fn arrange(aspect: f64, with_picture: bool, references: usize) -> Self {
+        let plot_height = PLOT_HEIGHT.max((references + 1) as f64 * LEGEND_LINE + CURVE_ROOM);
+        if aspect <= WIDE {
+            Self::row(aspect, with_picture, plot_height)
+        } else if aspect <= VERY_WIDE {
+            Self::stacked_beside(aspect, with_picture, plot_height)
+        } else {
+            Self::stacked_above(aspect, with_picture, plot_height)
+        }
+    }
+
+    /// All panels side by side.
+    fn row(aspect: f64, with_picture: bool, plot_height: f64) -> Self {
+        let widest = if with_picture { 140. } else { 180. };
+        let tallest = plot_height.max(200.);
+        let width = f64::min(widest, tallest * aspect);
+        let height = width / aspect;
+        let plot_height = plot_height.max(height.min(190.));
+        // A narrow strip still needs room for its letter and its scale bar.
+        let column = width.max(56.) + GAP;
+        let picture = with_picture.then_some(Area { x: LEFT_EDGE, y: HEAD, width, height });
+        let points = Area { x: LEFT_EDGE + if with_picture { column } else { 0. }, y: HEAD, width, height };
+        let (neighbours, correlation) = plots(points.x + column, HEAD, plot_height);
+        let bottom = (height + SCALE_BAR_ROOM).max(plot_height + AXIS_DEPTH);
+        Self { height: HEAD + bottom, picture, points, neighbours, correlation }
+    }
+
+    /// Fields one above the other on the left, plots on the right.
+    fn stacked_beside(aspect: f64, with_picture: bool, plot_height: f64) -> Self {
+        let width = f64::min(270., if with_picture { 88. } else { 130. } * aspect);
+        let height = width / aspect;
+        let picture = with_picture.then_some(Area { x: LEFT_EDGE, y: HEAD, width, height });
+        let top = HEAD + if with_picture { height + SCALE_BAR_ROOM + LETTER_ROOM } else { 0. };
+        let points = Area { x: LEFT_EDGE, y: top, width, height };
+        // The axes end where the lower field does.
+        let plot_height = plot_height.max(top + height - HEAD);
+        let (neighbours, correlation) = plots(LEFT_EDGE + width + GAP, HEAD, plot_height);
+        let bottom = (top - HEAD + height + SCALE_BAR_ROOM).max(plot_height + AXIS_DEPTH);
+        Self { height: HEAD + bottom, picture, points, neighbours, correlation }
+    }
+
+    /// Fields over the whole width, plots below.
+    fn stacked_above(aspect: f64, with_picture: bool, plot_height: f64) -> Self {
+        let width = PAGE_WIDTH - 2. * LEFT_EDGE;
+        let height = width / aspect;
+        let step = height + SCALE_BAR_ROOM + LETTER_ROOM;
+        let picture = with_picture.then_some(Area { x: LEFT_EDGE, y: HEAD, width, height });
+        let points = Area { y: HEAD + if with_picture { step } else { 0. }, x: LEFT_EDGE, width, height };
+        let top = points.y + step;
+        let (neighbours, correlation) = plots(LEFT_EDGE, top, plot_height);
+        Self { height: top + plot_height + AXIS_DEPTH, picture, points, neighbours, correlation }
+    }
+}
+
+/// The axes of histogram and PCF, from `left` to the edge of the page.
+fn plots(left: f64, y: f64, height: f64) -> (Area, Area) {
+    let width = PAGE_WIDTH - RIGHT_EDGE - left - 2. * AXIS_ROOM - GAP;
+    let first = Area { x: left + AXIS_ROOM, y, width: width * HISTOGRAM_SHARE, height };
+    let second =
+        Area { x: first.right() + GAP + AXIS_ROOM, y, width: width * (1. - HISTOGRAM_SHARE), height };
+    (first, second)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn panels_never_overlap_nor_leave_the_page() {
+        for aspect in [0.02, 0.3, 0.7, 1., 1.5, 1.75, 2.67, 3.9, 4.1, 12., 60.] {
+            for (with_picture, references) in [(true, 0), (true, 6), (false, 6), (true, 14)] {
+                let page = Page::arrange(aspect, with_picture, references);
+                let areas: Vec<_> = page
+                    .picture
+                    .into_iter()
+                    .chain([page.points, page.neighbours, page.correlation])
+                    .collect();
+                for (i, a) in areas.iter().enumerate() {
+                    assert!(
+                        a.x >= 0. && a.right() <= PAGE_WIDTH && a.bottom() <= page.height,
+                        "{aspect}: {a:?}"
+                    );
+                    assert!(a.width > 0. && a.height > 0.);
+                    for b in &areas[i + 1..] {
+                        let apart =
+                            a.right() <= b.x || b.right() <= a.x || a.bottom() <= b.y || b.bottom() <= a.y;
+                        assert!(apart, "{aspect}: {a:?} {b:?}");
+                    }
+                }
+                assert!(page.neighbours.width > 90., "{aspect}: {}", page.neighbours.width);
+                assert!((page.points.width / page.points.height / aspect - 1.).abs() < 1e-9);
+            }
+        }
+    }
+}

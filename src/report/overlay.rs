@@ -1,0 +1,167 @@
+use super::ReportError;
+use super::grey::{enlarged, png, stretched};
+use super::ink::Shape;
+use crate::image::Plane;
+use image::{ExtendedColorType, Rgb, RgbImage};
+
+/// Neighbouring cones shall lie so many output px apart: less, and the rings hide them.
+const CLEAR_SPACING: f64 = 16.;
+/// Largest side of an enlarged picture, in px.
+const LARGEST_SIDE: usize = 4096;
+/// Line of a mark, and of the dark line beneath it, in output px.
+const LINE: f64 = 1.5;
+const HALO: f64 = 3.;
+const HALO_OPACITY: f64 = 0.55;
+
+/// What a mark says. Each kind has its own colour (Okabe & Ito 2008, told apart by colour-blind readers) and shape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum MarkKind {
+    /// A cone found, nothing known of its truth: an orange ring.
+    Detection,
+    /// A cone found and marked by hand: a blue ring.
+    Hit,
+    /// Marked by hand and not found: a yellow plus sign.
+    Miss,
+    /// Found and not marked by hand: a vermilion cross.
+    FalseAlarm,
+}
+
+impl MarkKind {
+    /// Red, green, blue.
+    pub const fn colour(self) -> [u8; 3] {
+        match self {
+            Self::Detection => [0xE6, 0x9F, 0x00],
+            Self::Hit => [0x56, 0xB4, 0xE9],
+            Self::Miss => [0xF0, 0xE4, 0x42],
+            Self::FalseAlarm => [0xD5, 0x5E, 0x00],
+        }
+    }
+
+    const fn shape(self) -> Shape {
+        match self {
+            Self::Detection | Self::Hit => Shape::Ring,
+            Self::Miss => Shape::Plus,
+            Self::FalseAlarm => Shape::Cross,
+        }
+    }
+}
+
+/// A mark on an image; x, y and radius in px of that image, (0, 0) the centre of its top-left pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OverlayMark {
+    /// To the right.
+    pub x: f64,
+    /// Downwards.
+    pub y: f64,
+    /// Radius of the ring, half the length of a cross.
+    pub radius: f64,
+    /// What it says.
+    pub kind: MarkKind,
+}
+
+/// The image in grey, its contrast stretched from the 0.5th to the 99.5th percentile, with a mark on every place
+/// given. Enlarged by the whole number that sets cones of `spacing` px at least 16 px apart, as long as no side
+/// exceeds 4096 px; never reduced. Marks that are not finite are left out.
+pub fn overlay(picture: &Plane, marks: &[OverlayMark], spacing: f64) -> RgbImage {
+    let (height, width) = picture.dim();
+    let factor = enlargement(width, height, spacing);
+    let grey = enlarged(&stretched(picture.view()), factor);
+    let mut out = RgbImage::new(grey.width(), grey.height());
+    for (pixel, level) in out.pixels_mut().zip(grey.pixels()) {
+        *pixel = Rgb([level.0[0]; 3]);
+    }
+    let size = out.dimensions();
+    let factor = f64::from(factor);
+    for mark in marks.iter().filter(|m| m.x.is_finite() && m.y.is_finite() && m.radius.is_finite()) {
+        // Pixel centres: place x of the image lies at (x + ½) factor − ½ of the enlarged one.
+        let centre = ((mark.x + 0.5) * factor - 0.5, (mark.y + 0.5) * factor - 0.5);
+        let radius = (mark.radius * factor).max(LINE);
+        let shape = mark.kind.shape();
+        shape.cover(size, centre, radius, HALO, |x, y, coverage| {
+            blend(out.get_pixel_mut(x, y), [0; 3], coverage * HALO_OPACITY);
+        });
+        shape.cover(size, centre, radius, LINE, |x, y, coverage| {
+            blend(out.get_pixel_mut(x, y), mark.kind.colour(), coverage);
+        });
+    }
+    out
+}
+
+fn enlargement(width: usize, height: usize, spacing: f64) -> u32 {
+    let wanted = if spacing.is_finite() && spacing > 0. { (CLEAR_SPACING / spacing).ceil() } else { 1. };
+    let allowed = LARGEST_SIDE / width.max(height).max(1);
+    (wanted.min(allowed as f64) as u32).max(1)
+}
+
+fn blend(pixel: &mut Rgb<u8>, colour: [u8; 3], opacity: f64) {
+    for (under, over) in pixel.0.iter_mut().zip(colour) {
+        let mixed = f64::from(*under) * (1. - opacity) + f64::from(over) * opacity;
+        *under = mixed.round() as u8;
+    }
+}
+
+/// The picture as PNG, compressed for speed rather than size.
+///
+/// # Errors
+/// If it has no pixels.
+pub fn encode_png(picture: &RgbImage) -> Result<Vec<u8>, ReportError> {
+    png(picture.as_raw(), picture.width(), picture.height(), ExtendedColorType::Rgb8)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mark(x: f64, y: f64, kind: MarkKind) -> OverlayMark {
+        OverlayMark { x, y, radius: 1.5, kind }
+    }
+
+    /// Mean place of the pixels that are not grey, in px of the original.
+    fn coloured_centre(out: &RgbImage, factor: f64) -> (f64, f64) {
+        let coloured: Vec<_> = out
+            .enumerate_pixels()
+            .filter(|(_, _, p)| p.0.iter().max().unwrap() - p.0.iter().min().unwrap() > 60)
+            .map(|(x, y, _)| ((f64::from(x) + 0.5) / factor - 0.5, (f64::from(y) + 0.5) / factor - 0.5))
+            .collect();
+        assert!(!coloured.is_empty());
+        let n = coloured.len() as f64;
+        (coloured.iter().map(|p| p.0).sum::<f64>() / n, coloured.iter().map(|p| p.1).sum::<f64>() / n)
+    }
+
+    #[test]
+    fn marks_stand_where_the_cones_are_after_enlargement() {
+        let picture = Plane::from_shape_fn((30, 40), |(y, x)| ((x * 7 + y * 3) % 11) as f32);
+        for kind in [MarkKind::Detection, MarkKind::Hit, MarkKind::Miss, MarkKind::FalseAlarm] {
+            let out = overlay(&picture, &[mark(12.3, 20.6, kind)], 4.);
+            assert_eq!(out.dimensions(), (160, 120));
+            let (x, y) = coloured_centre(&out, 4.);
+            assert!((x - 12.3).abs() < 0.1 && (y - 20.6).abs() < 0.1, "{kind:?}: {x}, {y}");
+        }
+    }
+
+    #[test]
+    fn enlargement_separates_cones_but_never_exceeds_4096() {
+        assert_eq!(enlargement(150, 150, 8.), 2);
+        assert_eq!(enlargement(150, 150, 7.9), 3);
+        assert_eq!(enlargement(150, 150, 40.), 1);
+        assert_eq!(enlargement(2000, 100, 4.), 2);
+        assert_eq!(enlargement(9000, 9000, 4.), 1);
+        assert_eq!(enlargement(0, 0, f64::NAN), 1);
+    }
+
+    #[test]
+    fn marks_that_are_not_finite_or_outside_are_left_out() {
+        let picture = Plane::from_elem((8, 8), 1.);
+        let marks = [mark(f64::NAN, 1., MarkKind::Hit), mark(1e7, -1e7, MarkKind::Miss)];
+        assert_eq!(overlay(&picture, &marks, 16.), overlay(&picture, &[], 16.));
+    }
+
+    #[test]
+    fn png_reads_back_to_the_same_pixels() {
+        let picture = Plane::from_shape_fn((20, 30), |(y, x)| (x + y) as f32);
+        let out = overlay(&picture, &[mark(5., 5., MarkKind::Hit)], 8.);
+        let read = image::load_from_memory(&encode_png(&out).unwrap()).unwrap().to_rgb8();
+        assert_eq!(read, out);
+        assert!(encode_png(&RgbImage::new(0, 0)).is_err());
+    }
+}
