@@ -73,7 +73,7 @@ fn overview(records: &[ImageRecord], samplers: &[String], scaled: bool) -> Marku
             } }
             tbody { @for (k, r) in records.iter().enumerate() {
                 @let m = &r.mosaic;
-                @let um = m.um_per_unit.filter(|_| scaled).unwrap_or(1.);
+                @let um = if scaled { m.um_per_unit } else { Some(1.) };
                 tr {
                     td title=(r.file) {
                         a href=(format!("#i{k}")) { (r.name) }
@@ -83,7 +83,7 @@ fn overview(records: &[ImageRecord], samplers: &[String], scaled: bool) -> Marku
                     td { (m.n) }
                     td { (number(if scaled { m.density_per_mm2() } else { Some(m.density) }, 4)) }
                     td { (number(m.spacing, 3)) }
-                    td { (number(m.nearest.mean.map(|v| v * um), 3)) " ± " (number(m.nearest.sd.map(|v| v * um), 2)) }
+                    td { (number(m.nearest.mean.zip(um).map(|(v, um)| v * um), 3)) " ± " (number(m.nearest.sd.zip(um).map(|(v, um)| v * um), 2)) }
                     td { (number(m.nearest.ri, 3)) }
                     td { (number(m.nearest_interior.ri, 3)) }
                     @for sampler in samplers {
