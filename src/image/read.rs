@@ -1,0 +1,104 @@
+mod grey;
+mod png;
+mod tiff;
+
+use super::{ImageError, Plane};
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
+
+/// Most pixels an image may have: 2²⁷, some 11,500 × 11,500.
+pub const MAX_PIXELS: usize = 1 << 27;
+/// Most bytes a file may have: a pixel of the largest kind read, RGBA of 32 bits, takes 16.
+const MAX_BYTES: u64 = 16 * MAX_PIXELS as u64;
+
+const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
+
+/// Whether the name ends in `.png`, `.tif` or `.tiff`, in any case of letters.
+pub fn is_image_path(path: &Path) -> bool {
+    let known = |extension: &str| ["png", "tif", "tiff"].iter().any(|k| extension.eq_ignore_ascii_case(k));
+    path.extension().and_then(|e| e.to_str()).is_some_and(known)
+}
+
+/// The image in a PNG or TIFF file as one grey plane; see [`decode`].
+///
+/// # Errors
+/// If the file cannot be read, and as [`decode`].
+pub fn read(path: &Path) -> Result<Plane, ImageError> {
+    let name = path.display().to_string();
+    let unreadable = |source| ImageError::Read { name: name.clone(), source };
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(unreadable)?;
+    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    if bytes.len() as u64 > MAX_BYTES {
+        let size = format!("a file of more than {MAX_BYTES} bytes");
+        return Err(ImageError::TooLarge { name, size, limit: format!("{MAX_BYTES} bytes") });
+    }
+    decode(&bytes, &name)
+}
+
+/// The image in the bytes of a PNG or TIFF file as one grey plane. The content decides, not the name, which serves
+/// for error messages only.
+///
+/// - Unsigned integers of b bits are divided by 2ᵇ − 1: [0, 1]. Signed ones are divided by 2ᵇ⁻¹ − 1: [−1, 1]. Floating-point
+///   values stay as they are.
+/// - Colour becomes its luma by Rec. 601, .299 R + .587 G + .114 B (as MATLAB, OpenCV and Pillow do); equal R, G and B stay
+///   exactly that. Palettes are looked up first. Gamma and colour profiles are not looked at.
+/// - What is transparent was not imaged: it becomes black (grey × alpha, or as it is where alpha is already multiplied in).
+/// - TIFF: strips or tiles, any byte order, BigTIFF; uncompressed, LZW, Deflate, PackBits; WhiteIsZero is turned. Thumbnails
+///   and masks beside the image are passed over; several images are an error.
+///
+/// # Errors
+/// If it is not a PNG or TIFF, damaged, of a kind that is not read, larger than [`MAX_PIXELS`], holds no pixel or several
+/// pages, or has a pixel that is not a finite number.
+pub fn decode(bytes: &[u8], name: &str) -> Result<Plane, ImageError> {
+    if bytes.is_empty() {
+        return Err(ImageError::Empty { name: name.to_owned() });
+    }
+    let plane = if bytes.starts_with(PNG_SIGNATURE) {
+        png::decode(bytes, name)?
+    } else if tiff::has_signature(bytes) {
+        tiff::decode(bytes, name)?
+    } else {
+        return Err(ImageError::NotAnImage { name: name.to_owned(), found: looks_like(bytes) });
+    };
+    match plane.indexed_iter().find(|(_, v)| !v.is_finite()) {
+        Some(((y, x), &value)) => Err(ImageError::NotFinite { name: name.to_owned(), x, y, value }),
+        None => Ok(plane),
+    }
+}
+
+/// Refuses images without a pixel and those that memory should not be asked to hold.
+fn check_size(width: u32, height: u32, name: &str) -> Result<(), ImageError> {
+    let name = name.to_owned();
+    if width == 0 || height == 0 {
+        return Err(ImageError::NoPixels { name, width, height });
+    }
+    if u64::from(width) * u64::from(height) > MAX_PIXELS as u64 {
+        let size = format!("{width} × {height} px");
+        return Err(ImageError::TooLarge { name, size, limit: format!("{MAX_PIXELS} pixels") });
+    }
+    Ok(())
+}
+
+/// In words, what a file that is neither PNG nor TIFF begins like.
+fn looks_like(bytes: &[u8]) -> &'static str {
+    const KINDS: [(&[u8], &str); 10] = [
+        (b"\x89PNG", "a damaged PNG signature (was it transferred as text?)"),
+        (b"\xff\xd8\xff", "a JPEG image"),
+        (b"GIF8", "a GIF image"),
+        (b"BM", "a BMP image"),
+        (b"RIFF", "a WebP image or an AVI film"),
+        (b"%PDF", "a PDF document"),
+        (b"PK\x03\x04", "a ZIP archive"),
+        (b"\x1f\x8b", "a gzip archive"),
+        (b"\x89HDF", "an HDF5 or MATLAB file"),
+        (b"MATLAB 5.0", "a MATLAB file"),
+    ];
+    if let Some((_, kind)) = KINDS.iter().find(|(signature, _)| bytes.starts_with(signature)) {
+        return kind;
+    }
+    let start = &bytes[..bytes.len().min(512)];
+    let text = start.iter().all(|&b| b >= 0x20 || matches!(b, b'\t' | b'\n' | b'\r'));
+    if text { "text" } else { "something else" }
+}

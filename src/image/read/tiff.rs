@@ -1,0 +1,240 @@
+use super::grey::{Alpha, Layout, luma};
+use super::{MAX_PIXELS, check_size};
+use crate::image::error::one_line;
+use crate::image::{ImageError, Plane};
+use std::io::{Cursor, ErrorKind};
+use tiff::decoder::{Decoder, DecodingResult, Limits};
+use tiff::tags::Tag;
+use tiff::{TiffError, TiffFormatError};
+
+/// Values of the tag PhotometricInterpretation (TIFF 6.0, p. 37).
+const WHITE_IS_ZERO: u16 = 0;
+const BLACK_IS_ZERO: u16 = 1;
+const RGB: u16 = 2;
+const PALETTE: u16 = 3;
+/// Bits of the tag NewSubfileType (TIFF 6.0, p. 36): a smaller version of another image, a transparency mask.
+const NOT_AN_IMAGE: u32 = 0b101;
+/// Value of the tag ExtraSamples for alpha that is not multiplied in yet (TIFF 6.0, p. 31).
+const UNASSOCIATED_ALPHA: u16 = 2;
+const ASSOCIATED_ALPHA: u16 = 1;
+/// Value of the tag PlanarConfiguration for one plane after the other.
+const PLANAR: u16 = 2;
+
+type Source<'a> = Decoder<Cursor<&'a [u8]>>;
+
+/// Whether the bytes begin as a TIFF or BigTIFF of either byte order.
+pub(super) fn has_signature(bytes: &[u8]) -> bool {
+    [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"].iter().any(|s| bytes.starts_with(*s))
+}
+
+/// The one picture in the bytes of a TIFF file.
+pub(super) fn decode(bytes: &[u8], name: &str) -> Result<Plane, ImageError> {
+    let place = Place { name };
+    let mut decoder = open(bytes).map_err(|e| place.failed(e))?;
+    let pages = count_pages(&mut decoder);
+    if pages > 1 {
+        return Err(ImageError::SeveralPages { name: name.to_owned(), pages });
+    }
+    let mut decoder = open(bytes).map_err(|e| place.failed(e))?;
+    let (width, height) = decoder.dimensions().map_err(|e| place.failed(e))?;
+    check_size(width, height, name)?;
+    let photometric = tag::<u16>(&mut decoder, Tag::PhotometricInterpretation).unwrap_or(BLACK_IS_ZERO);
+    match photometric {
+        WHITE_IS_ZERO | BLACK_IS_ZERO | RGB => samples_to_grey(&mut decoder, photometric == RGB, &place),
+        PALETTE => palette_to_grey(bytes, &mut decoder, &place),
+        other => Err(place.unsupported(format!("photometric interpretation {other}"))),
+    }
+}
+
+fn open(bytes: &[u8]) -> Result<Source<'_>, TiffError> {
+    let mut limits = Limits::default();
+    limits.decoding_buffer_size = 16 * MAX_PIXELS;
+    limits.intermediate_buffer_size = 1 << 29;
+    limits.ifd_value_size = 16 << 20;
+    Ok(Decoder::new(Cursor::new(bytes))?.with_limits(limits))
+}
+
+/// Pages that are pictures of their own. One that cannot be parsed counts: it is there.
+fn count_pages(decoder: &mut Source) -> usize {
+    let mut pages = 1;
+    while decoder.more_images() {
+        if decoder.next_image().is_err() {
+            return pages + 1;
+        }
+        let kind = tag::<u32>(decoder, Tag::NewSubfileType).unwrap_or(0);
+        pages += usize::from(kind & NOT_AN_IMAGE == 0);
+    }
+    pages
+}
+
+fn tag<T: TryFrom<u64>>(decoder: &mut Source, tag: Tag) -> Option<T> {
+    decoder.find_tag_unsigned(tag).ok().flatten()
+}
+
+/// First value of a tag that may have several.
+fn first(decoder: &mut Source, tag: Tag) -> Option<u16> {
+    decoder.find_tag_unsigned_vec::<u16>(tag).ok().flatten()?.first().copied()
+}
+
+fn samples_to_grey(decoder: &mut Source, colour: bool, place: &Place) -> Result<Plane, ImageError> {
+    let (width, height) = decoder.dimensions().map_err(|e| place.failed(e))?;
+    let bits = first(decoder, Tag::BitsPerSample).unwrap_or(1);
+    let channels = tag::<u16>(decoder, Tag::SamplesPerPixel).unwrap_or(1);
+    let extra = first(decoder, Tag::ExtraSamples);
+    let colours = if colour { 3 } else { 1 };
+    let has_alpha = channels > colours && matches!(extra, Some(ASSOCIATED_ALPHA | UNASSOCIATED_ALPHA));
+    if channels != colours + u16::from(has_alpha) {
+        return Err(place.unsupported(format!("{channels} channels, expected grey or RGB, with or without alpha")));
+    }
+    let layout = Layout {
+        width: width as usize,
+        height: height as usize,
+        channels: usize::from(channels),
+        colour,
+        alpha: if has_alpha && extra == Some(UNASSOCIATED_ALPHA) { Alpha::Straight } else { Alpha::None },
+        planar: tag::<u16>(decoder, Tag::PlanarConfiguration) == Some(PLANAR),
+    };
+    let samples = read_samples(decoder, place)?;
+    let unsigned = |max: f64| move |v: f64| (v / max) as f32;
+    let grey = match samples {
+        DecodingResult::U8(v) if bits < 8 && channels == 1 => {
+            let max = f64::from((1u16 << bits) - 1);
+            layout.grey(&unpack(&v, bits, layout.width, layout.height), |v| unsigned(max)(f64::from(v)))
+        }
+        DecodingResult::U8(v) if bits == 8 => layout.grey(&v, |v| f32::from(v) / f32::from(u8::MAX)),
+        DecodingResult::U16(v) if bits == 16 => layout.grey(&v, |v| f32::from(v) / f32::from(u16::MAX)),
+        DecodingResult::U32(v) if bits == 32 => layout.grey(&v, |v| unsigned(f64::from(u32::MAX))(f64::from(v))),
+        DecodingResult::U64(v) => layout.grey(&v, |v| unsigned(u64::MAX as f64)(v as f64)),
+        DecodingResult::I8(v) => layout.grey(&v, |v| f32::from(v) / f32::from(i8::MAX)),
+        DecodingResult::I16(v) => layout.grey(&v, |v| f32::from(v) / f32::from(i16::MAX)),
+        DecodingResult::I32(v) => layout.grey(&v, |v| unsigned(f64::from(i32::MAX))(f64::from(v))),
+        DecodingResult::I64(v) => layout.grey(&v, |v| unsigned(i64::MAX as f64)(v as f64)),
+        DecodingResult::F16(v) => layout.grey(&v, f32::from),
+        DecodingResult::F32(v) => layout.grey(&v, |v| v),
+        DecodingResult::F64(v) => layout.grey(&v, |v| v as f32),
+        _ => return Err(place.unsupported(format!("{bits} bits a sample"))),
+    };
+    grey.ok_or_else(|| place.too_few())
+}
+
+/// Every sample of the picture, all planes.
+fn read_samples(decoder: &mut Source, place: &Place) -> Result<DecodingResult, ImageError> {
+    let mut samples = DecodingResult::U8(Vec::new());
+    decoder.read_image_to_buffer(&mut samples).map_err(|e| place.failed(e))?;
+    Ok(samples)
+}
+
+/// Samples of fewer than 8 bits, most significant first; every row begins with a new byte.
+fn unpack(packed: &[u8], bits: u16, width: usize, height: usize) -> Vec<u8> {
+    let bits = usize::from(bits);
+    let row_bytes = (width * bits).div_ceil(8);
+    let mask = (1u16 << bits) - 1;
+    let sample = |row: &[u8], x: usize| {
+        let (byte, shift) = (x * bits / 8, 16 - bits - x * bits % 8);
+        // Two bytes, for samples of 3, 5, 6 and 7 bits that straddle them.
+        let pair = u16::from_be_bytes([row[byte], row.get(byte + 1).copied().unwrap_or(0)]);
+        ((pair >> shift) & mask) as u8
+    };
+    let rows = packed.chunks_exact(row_bytes).take(height);
+    rows.flat_map(|row| (0..width).map(move |x| sample(row, x))).collect()
+}
+
+/// The decoder refuses palettes. The indexes in such a file are stored as grey samples are, so it is given a copy that
+/// calls them grey.
+fn palette_to_grey(bytes: &[u8], decoder: &mut Source, place: &Place) -> Result<Plane, ImageError> {
+    let (width, height) = decoder.dimensions().map_err(|e| place.failed(e))?;
+    let bits = first(decoder, Tag::BitsPerSample).unwrap_or(1);
+    if bits > 16 || tag::<u16>(decoder, Tag::SamplesPerPixel).unwrap_or(1) != 1 {
+        return Err(place.unsupported("a palette of more than 16 bits or with further channels".to_owned()));
+    }
+    let colours = decoder.get_tag_u16_vec(Tag::ColorMap).map_err(|e| place.failed(e))?;
+    let entries = 1usize << bits;
+    let [red, green, blue] = [0, 1, 2].map(|c| colours.get(c * entries..(c + 1) * entries));
+    let (Some(red), Some(green), Some(blue)) = (red, green, blue) else {
+        return Err(place.damaged(format!("a palette of {} numbers, expected {}", colours.len(), 3 * entries)));
+    };
+    let scale = |v: u16| f32::from(v) / f32::from(u16::MAX);
+    let lookup = |index: usize| {
+        let index = index.min(entries - 1);
+        luma(scale(red[index]), scale(green[index]), scale(blue[index]))
+    };
+    let directory = decoder.ifd_pointer().map_or(0, |p| p.0);
+    let Some(copy) = called_grey(bytes, directory) else {
+        return Err(place.damaged("no photometric interpretation".to_owned()));
+    };
+    let mut decoder = open(&copy).map_err(|e| place.failed(e))?;
+    let (width, height) = (width as usize, height as usize);
+    let layout = Layout { width, height, channels: 1, colour: false, alpha: Alpha::None, planar: false };
+    let grey = match read_samples(&mut decoder, place)? {
+        DecodingResult::U8(v) if bits < 8 => layout.grey(&unpack(&v, bits, width, height), |i| lookup(i.into())),
+        DecodingResult::U8(v) if bits == 8 => layout.grey(&v, |i| lookup(i.into())),
+        DecodingResult::U16(v) if bits == 16 => layout.grey(&v, |i| lookup(i.into())),
+        _ => return Err(place.unsupported(format!("a palette of {bits} bits"))),
+    };
+    grey.ok_or_else(|| place.too_few())
+}
+
+/// A copy of the file whose directory at `offset` says BlackIsZero.
+fn called_grey(bytes: &[u8], offset: u64) -> Option<Vec<u8>> {
+    let little = bytes.starts_with(b"II");
+    let big_tiff = bytes.get(if little { 2 } else { 3 }) == Some(&b'+');
+    let number = |from: usize, length: usize| -> Option<u64> {
+        let field = bytes.get(from..from.checked_add(length)?)?;
+        let join = |sum: u64, &byte: &u8| sum << 8 | u64::from(byte);
+        Some(if little { field.iter().rev().fold(0, join) } else { field.iter().fold(0, join) })
+    };
+    let start = usize::try_from(offset).ok()?;
+    let (count_bytes, entry_bytes, value_at) = if big_tiff { (8, 20, 12) } else { (2, 12, 8) };
+    let entries = usize::try_from(number(start, count_bytes)?).ok()?;
+    let wanted = u64::from(Tag::PhotometricInterpretation.to_u16());
+    let entry = (0..entries)
+        .map_while(|i| start.checked_add(count_bytes)?.checked_add(i.checked_mul(entry_bytes)?))
+        .take_while(|&at| at < bytes.len())
+        .find(|&at| number(at, 2) == Some(wanted))?;
+    let long = number(entry + 2, 2)? == 4;
+    let value: &[u8] = match (little, long) {
+        (true, false) => &[1, 0],
+        (false, false) => &[0, 1],
+        (true, true) => &[1, 0, 0, 0],
+        (false, true) => &[0, 0, 0, 1],
+    };
+    let at = entry + value_at;
+    let mut copy = bytes.to_vec();
+    copy.get_mut(at..at + value.len())?.copy_from_slice(value);
+    Some(copy)
+}
+
+/// The file that errors speak of.
+struct Place<'a> {
+    name: &'a str,
+}
+
+impl Place<'_> {
+    fn damaged(&self, reason: String) -> ImageError {
+        ImageError::Damaged { name: self.name.to_owned(), format: "TIFF", reason }
+    }
+
+    fn unsupported(&self, reason: String) -> ImageError {
+        ImageError::Unsupported { name: self.name.to_owned(), format: "TIFF", reason }
+    }
+
+    fn too_few(&self) -> ImageError {
+        self.damaged("fewer pixels than its header says".to_owned())
+    }
+
+    fn failed(&self, error: TiffError) -> ImageError {
+        match error {
+            TiffError::FormatError(TiffFormatError::InvalidDimensions(width, height)) => {
+                ImageError::NoPixels { name: self.name.to_owned(), width, height }
+            }
+            TiffError::IoError(e) if e.kind() == ErrorKind::UnexpectedEof => self.damaged("it ends too early".to_owned()),
+            TiffError::UnsupportedError(e) => self.unsupported(one_line(e)),
+            TiffError::LimitsExceeded => ImageError::TooLarge {
+                name: self.name.to_owned(),
+                size: "what its header asks for".to_owned(),
+                limit: format!("{MAX_PIXELS} pixels"),
+            },
+            other => self.damaged(one_line(other)),
+        }
+    }
+}

@@ -1,0 +1,130 @@
+use super::error::one_line;
+use super::{ImageError, Plane};
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder, RgbImage};
+use std::fs::{self, OpenOptions};
+use std::io::{self, Cursor, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use tiff::encoder::{TiffEncoder, colortype};
+
+/// Bits of a grey value in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BitDepth {
+    /// 256 grey values.
+    Eight,
+    /// 65,536 grey values.
+    Sixteen,
+}
+
+/// Writes a plane in [0, 1] as grey PNG or TIFF, by the ending of the name (`.png`, `.tif`, `.tiff`).
+/// Values are rounded to the nearest grey; those outside [0, 1] are cut to it. The file appears whole or not at all.
+///
+/// # Errors
+/// If the name ends otherwise, a pixel is not a finite number, the plane has none, or the file cannot be written.
+pub fn write_grey(path: &Path, plane: &Plane, depth: BitDepth) -> Result<(), ImageError> {
+    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
+    match extension.as_str() {
+        "png" => write_png(path, plane, depth),
+        "tif" | "tiff" => write_tiff(path, plane, depth),
+        _ => Err(ImageError::UnknownExtension { name: path.display().to_string() }),
+    }
+}
+
+/// Writes a plane in [0, 1] as grey PNG; see [`write_grey`].
+///
+/// # Errors
+/// If a pixel is not a finite number, the plane has none, or the file cannot be written.
+pub fn write_png(path: &Path, plane: &Plane, depth: BitDepth) -> Result<(), ImageError> {
+    let (width, height) = check(path, plane)?;
+    let mut bytes = Vec::new();
+    let encoder = PngEncoder::new(&mut bytes);
+    let encoded = match depth {
+        BitDepth::Eight => encoder.write_image(&eight_bits(plane), width, height, ExtendedColorType::L8),
+        BitDepth::Sixteen => {
+            let samples: Vec<u8> = sixteen_bits(plane).iter().flat_map(|v| v.to_ne_bytes()).collect();
+            encoder.write_image(&samples, width, height, ExtendedColorType::L16)
+        }
+    };
+    encoded.map_err(|e| unwritable(path, io::Error::other(one_line(e))))?;
+    write_whole(path, &bytes)
+}
+
+/// Writes a plane in [0, 1] as uncompressed grey TIFF, which every program reads; see [`write_grey`].
+///
+/// # Errors
+/// If a pixel is not a finite number, the plane has none, or the file cannot be written.
+pub fn write_tiff(path: &Path, plane: &Plane, depth: BitDepth) -> Result<(), ImageError> {
+    let (width, height) = check(path, plane)?;
+    let mut bytes = Cursor::new(Vec::new());
+    let encoded = TiffEncoder::new(&mut bytes).and_then(|mut encoder| match depth {
+        BitDepth::Eight => encoder.write_image::<colortype::Gray8>(width, height, &eight_bits(plane)),
+        BitDepth::Sixteen => encoder.write_image::<colortype::Gray16>(width, height, &sixteen_bits(plane)),
+    });
+    encoded.map_err(|e| unwritable(path, io::Error::other(one_line(e))))?;
+    write_whole(path, bytes.get_ref())
+}
+
+/// Writes an overlay as RGB PNG. The file appears whole or not at all.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_rgb_png(path: &Path, picture: &RgbImage) -> Result<(), ImageError> {
+    let mut bytes = Vec::new();
+    let (width, height) = picture.dimensions();
+    PngEncoder::new(&mut bytes)
+        .write_image(picture.as_raw(), width, height, ExtendedColorType::Rgb8)
+        .map_err(|e| unwritable(path, io::Error::other(one_line(e))))?;
+    write_whole(path, &bytes)
+}
+
+/// Width and height of a plane that can be written.
+fn check(path: &Path, plane: &Plane) -> Result<(u32, u32), ImageError> {
+    let name = || path.display().to_string();
+    let (rows, columns) = plane.dim();
+    let side = |pixels: usize| u32::try_from(pixels).unwrap_or(u32::MAX);
+    let (width, height) = (side(columns), side(rows));
+    if width == 0 || height == 0 {
+        return Err(ImageError::NoPixels { name: name(), width, height });
+    }
+    match plane.indexed_iter().find(|(_, v)| !v.is_finite()) {
+        Some(((y, x), &value)) => Err(ImageError::NotFinite { name: name(), x, y, value }),
+        None => Ok((width, height)),
+    }
+}
+
+fn eight_bits(plane: &Plane) -> Vec<u8> {
+    plane.iter().map(|v| (v.clamp(0., 1.) * f32::from(u8::MAX)).round() as u8).collect()
+}
+
+fn sixteen_bits(plane: &Plane) -> Vec<u16> {
+    plane.iter().map(|v| (v.clamp(0., 1.) * f32::from(u16::MAX)).round() as u16).collect()
+}
+
+fn unwritable(path: &Path, source: io::Error) -> ImageError {
+    ImageError::Write { name: path.display().to_string(), source }
+}
+
+/// Writes beside the file, then renames: a reader sees the old file or the new one, never half of either.
+fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), ImageError> {
+    let (mut file, beside) = open_beside(path).map_err(|e| unwritable(path, e))?;
+    let written = file.write_all(bytes).and_then(|()| file.flush());
+    drop(file);
+    written.and_then(|()| fs::rename(&beside, path)).map_err(|e| {
+        // What cannot be removed either was reported by the error that led here.
+        let _ = fs::remove_file(&beside);
+        unwritable(path, e)
+    })
+}
+
+/// A new file in the same folder, so that renaming it does not copy it.
+fn open_beside(path: &Path) -> io::Result<(fs::File, PathBuf)> {
+    static COUNT: AtomicU64 = AtomicU64::new(0);
+    let name = path.file_name().ok_or_else(|| io::Error::from(io::ErrorKind::InvalidInput))?;
+    let mut hidden = std::ffi::OsString::from(".");
+    hidden.push(name);
+    hidden.push(format!(".{}-{}.part", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed)));
+    let beside = path.with_file_name(hidden);
+    let file = OpenOptions::new().write(true).create_new(true).open(&beside)?;
+    Ok((file, beside))
+}
