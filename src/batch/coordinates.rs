@@ -34,7 +34,9 @@ impl FromStr for Region {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let numbers = |separator: char| -> Option<Vec<f64>> {
-            text.split(separator).map(|part| part.trim().parse().ok().filter(|v: &f64| v.is_finite())).collect()
+            text.split(separator)
+                .map(|part| part.trim().parse().ok().filter(|v: &f64| v.is_finite()))
+                .collect()
         };
         match (text, numbers('x').as_deref(), numbers(',').as_deref()) {
             ("unit", ..) => Ok(Self::Unit),
@@ -163,9 +165,9 @@ fn load(input: &Input, options: &CoordinatesOptions) -> Result<(Mosaic, usize), 
         _ => file.unit.unwrap_or(LengthUnit::Pixel),
     };
     let picture = match options.region {
-        Region::Image => Some(
-            image_beside(&input.path).ok_or_else(|| BatchError::NoImage { file: input.path.clone() })?,
-        ),
+        Region::Image => {
+            Some(image_beside(&input.path).ok_or_else(|| BatchError::NoImage { file: input.path.clone() })?)
+        }
         _ => None,
     };
     let (window, width) = match (options.region, picture) {

@@ -23,14 +23,18 @@ impl FromStr for Crop {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let bad = || {
-            format!("“{text}” is no crop: expected WxH (centred) or X0,Y0,X1,Y1, in px, or in µm with um behind it")
+            format!(
+                "“{text}” is no crop: expected WxH (centred) or X0,Y0,X1,Y1, in px, or in µm with um behind it"
+            )
         };
         let (body, micrometres) = match text.strip_suffix("um") {
             Some(body) => (body, true),
             None => (text.strip_suffix("px").unwrap_or(text), false),
         };
         let numbers = |separator: char| -> Option<Vec<f64>> {
-            body.split(separator).map(|part| part.trim().parse().ok().filter(|v: &f64| v.is_finite())).collect()
+            body.split(separator)
+                .map(|part| part.trim().parse().ok().filter(|v: &f64| v.is_finite()))
+                .collect()
         };
         let shape = match (numbers('x').as_deref(), numbers(',').as_deref()) {
             (Some(&[width, height]), _) if width > 0. && height > 0. => Shape::Centred { width, height },
@@ -107,6 +111,8 @@ mod tests {
     fn micrometres_need_a_scale_and_something_must_be_left() {
         assert!(matches!(window("20x10um", None), Err(BatchError::NoScale { .. })));
         assert!(matches!(window("200,10,500,30", None), Err(BatchError::Crop { .. })));
-        assert!("40".parse::<Crop>().is_err() && "0x4".parse::<Crop>().is_err() && "axb".parse::<Crop>().is_err());
+        assert!(
+            "40".parse::<Crop>().is_err() && "0x4".parse::<Crop>().is_err() && "axb".parse::<Crop>().is_err()
+        );
     }
 }

@@ -59,11 +59,19 @@ pub(super) fn read_image(input: &Input) -> Result<(Vec<u8>, Plane), BatchError> 
     Ok((bytes, image))
 }
 
-pub(super) fn detect_in(input: &Input, image: &Plane, options: &DetectOptions) -> Result<Detections, BatchError> {
+pub(super) fn detect_in(
+    input: &Input,
+    image: &Plane,
+    options: &DetectOptions,
+) -> Result<Detections, BatchError> {
     detect(image, options).map_err(|source| BatchError::Detect { file: input.path.clone(), source })
 }
 
-pub(super) fn write_detections(path: &Path, found: &Detections, scale: Option<Scale>) -> Result<(), BatchError> {
+pub(super) fn write_detections(
+    path: &Path,
+    found: &Detections,
+    scale: Option<Scale>,
+) -> Result<(), BatchError> {
     let scores: Vec<f64> = found.cones.iter().map(|d| d.score).collect();
     Ok(write_points(path, &found.centres(), Some(&scores), scale)?)
 }

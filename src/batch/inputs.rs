@@ -66,23 +66,23 @@ fn walk(
         }
     };
     for given in paths {
-        let kind = given
-            .metadata()
-            .map_err(|source| BatchError::Unreadable { path: given.clone(), source })?;
+        let kind =
+            given.metadata().map_err(|source| BatchError::Unreadable { path: given.clone(), source })?;
         if !kind.is_dir() {
             add(given.clone());
             continue;
         }
         let hidden = |name: &std::ffi::OsStr| name.to_string_lossy().starts_with('.');
-        let entries = WalkDir::new(given)
-            .follow_links(true)
-            .sort_by_file_name()
-            .into_iter()
-            .filter_entry(|e| e.depth() == 0 || !(hidden(e.file_name()) || e.file_type().is_dir() && excluded(e.path())));
+        let entries =
+            WalkDir::new(given).follow_links(true).sort_by_file_name().into_iter().filter_entry(|e| {
+                e.depth() == 0 || !(hidden(e.file_name()) || e.file_type().is_dir() && excluded(e.path()))
+            });
         for entry in entries {
             let entry = entry.map_err(|error| BatchError::Unreadable {
                 path: error.path().unwrap_or(given).to_owned(),
-                source: error.into_io_error().unwrap_or_else(|| std::io::Error::other("a folder contains itself")),
+                source: error
+                    .into_io_error()
+                    .unwrap_or_else(|| std::io::Error::other("a folder contains itself")),
             })?;
             if entry.file_type().is_file() && wanted(entry.path()) {
                 add(entry.into_path());
@@ -176,7 +176,10 @@ mod tests {
     #[test]
     fn names_are_unique_whatever_happens() {
         assert_eq!(names(&["/a/1.png", "/a/1.tif"]), ["a_1_png", "a_1_tif"]);
-        assert_eq!(names(&["/a/x/1.png", "/a/y/1.png", "/a/x_1.png"]).iter().collect::<HashSet<_>>().len(), 3);
+        assert_eq!(
+            names(&["/a/x/1.png", "/a/y/1.png", "/a/x_1.png"]).iter().collect::<HashSet<_>>().len(),
+            3
+        );
         assert_eq!(names(&["/a/x/1.png", "/a/X/1.png"]).len(), 2);
     }
 
@@ -188,7 +191,8 @@ mod tests {
         for file in ["a.PNG", "b.tiff", "notes.txt", ".hidden.png", "report/overlay.png"] {
             std::fs::write(folder.path().join(file), "").unwrap();
         }
-        let found = image_files(&[folder.path().to_owned(), folder.path().join("a.PNG")], Some(&out)).unwrap();
+        let found =
+            image_files(&[folder.path().to_owned(), folder.path().join("a.PNG")], Some(&out)).unwrap();
         assert_eq!(found.iter().map(|i| i.name.as_str()).collect::<Vec<_>>(), ["a", "b"]);
     }
 

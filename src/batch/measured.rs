@@ -12,7 +12,11 @@ const FAINT: f64 = 0.2;
 /// Ring and density may differ by this factor, as a logarithm, before they contradict each other.
 const CONTRADICTION: f64 = 0.25;
 
-pub(super) fn record_of(mosaic: &Mosaic, measures: &Measures, l_infinity: Vec<SamplerDistance>) -> MosaicRecord {
+pub(super) fn record_of(
+    mosaic: &Mosaic,
+    measures: &Measures,
+    l_infinity: Vec<SamplerDistance>,
+) -> MosaicRecord {
     let bounds = mosaic.window().bounds();
     MosaicRecord {
         n: mosaic.len(),
@@ -59,7 +63,11 @@ pub(super) fn pcf_table(pcf: &Pcf, curves: &[ReferenceCurve]) -> (Vec<String>, V
 }
 
 /// What a reader of the numbers should know.
-pub(super) fn warnings_of(found: Option<&Detections>, record: &MosaicRecord, measures: &Measures) -> Vec<String> {
+pub(super) fn warnings_of(
+    found: Option<&Detections>,
+    record: &MosaicRecord,
+    measures: &Measures,
+) -> Vec<String> {
     let mut warnings = Vec::new();
     if let Some(found) = found {
         if found.ring_strength < FAINT {

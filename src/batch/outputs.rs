@@ -37,7 +37,9 @@ impl OutputFolder {
     pub fn remove(&self, name: &str) -> Result<(), BatchError> {
         let path = self.join(name);
         match fs::remove_file(&path) {
-            Err(source) if source.kind() != io::ErrorKind::NotFound => Err(BatchError::Output { path, source }),
+            Err(source) if source.kind() != io::ErrorKind::NotFound => {
+                Err(BatchError::Output { path, source })
+            }
             _ => Ok(()),
         }
     }

@@ -107,7 +107,8 @@ pub fn run_files(
     let out = OutputFolder::create(out)?;
     let images = OutputFolder::create(&out.join(IMAGES))?;
     let references = References::new(options.samplers.clone(), options.measure.pcf, options.seed);
-    let (done, failures) = for_each(inputs, progress, |input| one_image(input, options, &references, &images));
+    let (done, failures) =
+        for_each(inputs, progress, |input| one_image(input, options, &references, &images));
     write_failures(&out, &failures)?;
 
     let samplers: Vec<String> = options.samplers.iter().map(|s| s.name().to_owned()).collect();
@@ -146,7 +147,8 @@ fn one_image(
     if options.resume
         && let Some(record) = earlier(images, input, &sha256, &options_sha256)
     {
-        let line = format!("{} cones, {}, kept from an earlier run", record.mosaic.n, record.detection.modality);
+        let line =
+            format!("{} cones, {}, kept from an earlier run", record.mosaic.n, record.detection.modality);
         return Ok((Done { record, seconds: None }, line));
     }
     lap(&mut seconds.read);

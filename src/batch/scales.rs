@@ -45,7 +45,9 @@ impl ScaleSource {
         match self {
             Self::Unknown => Ok(None),
             Self::Given(scale) => Ok(Some(*scale)),
-            Self::FieldWidth { um, um_per_degree } => Ok(Some(Scale::new(um / width as f64, *um_per_degree)?)),
+            Self::FieldWidth { um, um_per_degree } => {
+                Ok(Some(Scale::new(um / width as f64, *um_per_degree)?))
+            }
             Self::Table { table, optional } => {
                 let name = path.file_name().unwrap_or_default().to_string_lossy();
                 match table.scale_for(&name) {

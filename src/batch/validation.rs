@@ -123,7 +123,9 @@ pub fn validate_files(
     });
     let table: Vec<Vec<Cell>> = rows
         .iter()
-        .map(|r| [r.file.as_str().into()].into_iter().chain(COLUMNS.iter().map(|(_, v)| v(&r.score))).collect())
+        .map(|r| {
+            [r.file.as_str().into()].into_iter().chain(COLUMNS.iter().map(|(_, v)| v(&r.score))).collect()
+        })
         .collect();
     let header: Vec<String> =
         ["file"].into_iter().chain(COLUMNS.iter().map(|(name, _)| *name)).map(str::to_owned).collect();
@@ -184,8 +186,9 @@ fn detections_of(
             Ok((read_coordinates(path, read)?.points, None))
         }
         Detected::Images { folder, detect } => {
-            let path = image_in(folder, name)
-                .ok_or_else(|| missing(format!("no image {name}.png or {name}.tif in {}", folder.display())))?;
+            let path = image_in(folder, name).ok_or_else(|| {
+                missing(format!("no image {name}.png or {name}.tif in {}", folder.display()))
+            })?;
             let input = Input { path, name: name.to_owned() };
             let (_, image) = read_image(&input)?;
             let found = detect_in(&input, &image, detect)?;

@@ -29,8 +29,14 @@ impl DetectArgs {
     pub fn options(&self) -> Result<DetectOptions> {
         let given = |text: &str| (text != "auto").then(|| text.to_owned());
         let options = DetectOptions {
-            modality: given(&self.modality).map(|m| m.parse::<Modality>()).transpose().map_err(anyhow::Error::msg)?,
-            polarity: given(&self.polarity).map(|p| p.parse::<Polarity>()).transpose().map_err(anyhow::Error::msg)?,
+            modality: given(&self.modality)
+                .map(|m| m.parse::<Modality>())
+                .transpose()
+                .map_err(anyhow::Error::msg)?,
+            polarity: given(&self.polarity)
+                .map(|p| p.parse::<Polarity>())
+                .transpose()
+                .map_err(anyhow::Error::msg)?,
             detector: self.detector.parse::<Detector>().map_err(anyhow::Error::msg)?,
             spacing: self.spacing,
         };

@@ -17,7 +17,8 @@ use clap::{CommandFactory, Parser, Subcommand};
 use common::Common;
 use std::process::ExitCode;
 
-const ABOUT: &str = "Finds the cones in images of the human retina, measures their mosaic, compares it with point samplers";
+const ABOUT: &str =
+    "Finds the cones in images of the human retina, measures their mosaic, compares it with point samplers";
 
 const AFTER: &str = "\
 Start with:

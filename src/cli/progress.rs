@@ -16,7 +16,9 @@ impl Progress for Bar {
     fn begin(&self, total: usize) {
         self.0.set_draw_target(indicatif::ProgressDrawTarget::stderr());
         self.0.set_length(total as u64);
-        if let Ok(style) = ProgressStyle::with_template("{bar:32} {pos}/{len}  {per_sec}  {eta} left  {wide_msg}") {
+        if let Ok(style) =
+            ProgressStyle::with_template("{bar:32} {pos}/{len}  {per_sec}  {eta} left  {wide_msg}")
+        {
             self.0.set_style(style);
         }
     }

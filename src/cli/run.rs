@@ -70,8 +70,16 @@ impl Run {
 
     fn summary(&self, outcome: &RunOutcome) -> String {
         let scaled = outcome.records.iter().any(|r| r.mosaic.um_per_unit.is_some());
-        let headers =
-            ["image", "modality", "cones", if scaled { "cones/mm²" } else { "cones/px²" }, "spacing px", "RI", "closest to", "l∞"];
+        let headers = [
+            "image",
+            "modality",
+            "cones",
+            if scaled { "cones/mm²" } else { "cones/px²" },
+            "spacing px",
+            "RI",
+            "closest to",
+            "l∞",
+        ];
         let rows: Vec<Vec<String>> = outcome
             .records
             .iter()
@@ -109,7 +117,9 @@ impl Run {
             text.push_str(&format!(" ({} kept from an earlier run)", outcome.reused));
         }
         let out = self.out.display();
-        text.push_str(&format!("\nTable:   {out}/summary.csv\nPage:    {out}/index.html\nFigures: {out}/images/NAME/figure.svg"));
+        text.push_str(&format!(
+            "\nTable:   {out}/summary.csv\nPage:    {out}/index.html\nFigures: {out}/images/NAME/figure.svg"
+        ));
         if !outcome.failures.is_empty() {
             text.push_str(&format!("\n{} images failed: {out}/failures.csv", outcome.failures.len()));
         }

@@ -5,7 +5,7 @@ use super::spacing::RingProfile;
 use super::{Detection, Modality, Polarity, filter, local_maxima, suppress};
 use crate::geometry::Window;
 use crate::image::{Plane, gaussian};
-use crate::geometry::nearest_neighbours;
+use crate::stats::nearest_neighbours;
 
 /// Anisotropy of the ring above which an image shows a derivative along x. Hand-marked images: confocal at most .06,
 /// split at least .24, whatever gamma, noise or polarity is applied to them; simulated discs reach .17.
@@ -33,7 +33,8 @@ pub(super) fn decide(
     polarity: Option<Polarity>,
 ) -> (Modality, Polarity) {
     let modality = modality.unwrap_or_else(|| decide_modality(flat, ring));
-    let polarity = polarity.unwrap_or_else(|| decide_polarity(flat, modality, ring.spacing(modality).spacing));
+    let polarity =
+        polarity.unwrap_or_else(|| decide_polarity(flat, modality, ring.spacing(modality).spacing));
     (modality, polarity)
 }
 
@@ -70,7 +71,13 @@ fn regularity_index(maxima: &[Detection], (height, width): (usize, usize)) -> f6
     let points: Vec<_> = maxima.iter().map(|d| d.centre).collect();
     Window::of_image(width, height)
         .ok()
-        .and_then(|window| moments(&nearest_neighbours(&points, &window).distances, Deviation::Sample).ri)
+        .and_then(|window| {
+            crate::stats::moments(
+                &nearest_neighbours(&points, &window).distances,
+                crate::stats::Deviation::Sample,
+            )
+            .ri
+        })
         .unwrap_or(0.)
 }
 

@@ -15,7 +15,7 @@ pub use cell::Cell;
 pub use csv::write_csv;
 pub use error::ReportError;
 pub use figure::{Curve, MosaicFigure, ReferenceLine, mosaic_figure};
+pub use overlay::{MarkKind, OverlayMark, encode_png, overlay};
 pub use page::page;
 pub use record::{CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord, SamplerDistance};
-pub use overlay::{MarkKind, OverlayMark, encode_png, overlay};
 pub use table::{significant, table};

@@ -155,10 +155,8 @@ const COORDINATE_COLUMNS: &[Column<CoordinatesRecord>] = &[
     ("outside_window", |r| r.outside.into()),
 ];
 
-const REGULARITY_COLUMNS: &[Column<MosaicRecord>] = &[
-    ("ri", |r| r.nearest.ri.into()),
-    ("ri_interior", |r| r.nearest_interior.ri.into()),
-];
+const REGULARITY_COLUMNS: &[Column<MosaicRecord>] =
+    &[("ri", |r| r.nearest.ri.into()), ("ri_interior", |r| r.nearest_interior.ri.into())];
 
 const ORDER_COLUMNS: &[Column<MosaicRecord>] = &[
     ("n_interior", |r| r.nearest_interior.n.into()),
@@ -174,9 +172,9 @@ fn sampler_columns(samplers: &[String]) -> impl Iterator<Item = String> {
 }
 
 fn sampler_cells<'a>(record: &'a MosaicRecord, samplers: &'a [String]) -> impl Iterator<Item = Cell> + 'a {
-    samplers.iter().map(|name| {
-        record.l_infinity.iter().find(|d| d.sampler == *name).map(|d| d.l_infinity).into()
-    })
+    samplers
+        .iter()
+        .map(|name| record.l_infinity.iter().find(|d| d.sampler == *name).map(|d| d.l_infinity).into())
 }
 
 fn names<T>(columns: &[Column<T>]) -> impl Iterator<Item = String> {

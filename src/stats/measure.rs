@@ -1,6 +1,6 @@
 use super::{
-    Deviation, Histogram, Moments, NearestNeighbours, Pcf, PcfOptions, StatsError, Trend, VoronoiSummary, interior,
-    moments, nearest_neighbours, pcf, trend, voronoi,
+    Deviation, Histogram, Moments, NearestNeighbours, Pcf, PcfOptions, StatsError, Trend, VoronoiSummary,
+    interior, moments, nearest_neighbours, pcf, trend, voronoi,
 };
 use crate::mosaic::Mosaic;
 use serde::{Deserialize, Serialize};
