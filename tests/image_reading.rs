@@ -1,7 +1,8 @@
 //! Every kind of PNG and TIFF becomes the same grey plane; everything else becomes an error.
 
 use conemosaic::image::{
-    BitDepth, ImageError, Plane, decode, is_image_path, read, write_grey, write_png, write_rgb_png, write_tiff,
+    BitDepth, ImageError, Plane, decode, is_image_path, read, write_grey, write_png, write_rgb_png,
+    write_tiff,
 };
 use proptest::prelude::*;
 use std::io::Cursor;
@@ -51,7 +52,13 @@ mod png {
         file.extend(crc(&file[start..]).to_be_bytes());
     }
 
-    pub fn file(size: [u32; 2], depth: u8, colour: u8, extra: &[(&[u8; 4], Vec<u8>)], rows: &[Vec<u8>]) -> Vec<u8> {
+    pub fn file(
+        size: [u32; 2],
+        depth: u8,
+        colour: u8,
+        extra: &[(&[u8; 4], Vec<u8>)],
+        rows: &[Vec<u8>],
+    ) -> Vec<u8> {
         let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
         let mut header = Vec::new();
         header.extend(size[0].to_be_bytes());
@@ -61,7 +68,8 @@ mod png {
         for (kind, data) in extra {
             chunk(&mut file, kind, data);
         }
-        let raw: Vec<u8> = rows.iter().flat_map(|row| std::iter::once(0).chain(row.iter().copied())).collect();
+        let raw: Vec<u8> =
+            rows.iter().flat_map(|row| std::iter::once(0).chain(row.iter().copied())).collect();
         let length = raw.len() as u16;
         let mut stored = vec![0x78, 0x01, 0x01];
         stored.extend(length.to_le_bytes());
@@ -75,7 +83,8 @@ mod png {
 }
 
 fn png_of(depth: u8, colour: u8, pixel: impl Fn(u8) -> Vec<u8>) -> Vec<u8> {
-    let rows: Vec<Vec<u8>> = greys().chunks(WIDTH).map(|row| row.iter().flat_map(|&v| pixel(v)).collect()).collect();
+    let rows: Vec<Vec<u8>> =
+        greys().chunks(WIDTH).map(|row| row.iter().flat_map(|&v| pixel(v)).collect()).collect();
     png::file([WIDTH as u32, HEIGHT as u32], depth, colour, &[], &rows)
 }
 
@@ -202,7 +211,9 @@ fn one_bit_png_is_black_and_white() {
 
 #[test]
 fn colour_becomes_rec_601_luma_and_transparency_becomes_black() {
-    let one = |colour, pixel: Vec<u8>| decode(&png::file([1, 1], 8, colour, &[], &[pixel]), "pixel").unwrap()[[0, 0]];
+    let one = |colour, pixel: Vec<u8>| {
+        decode(&png::file([1, 1], 8, colour, &[], &[pixel]), "pixel").unwrap()[[0, 0]]
+    };
     let luma = (0.299 * 200. + 0.587 * 100. + 0.114 * 50.) / 255.;
     assert!((one(2, vec![200, 100, 50]) - luma).abs() < 1e-6);
     assert!((one(6, vec![200, 100, 50, 51]) - luma / 5.).abs() < 1e-6);
@@ -219,7 +230,9 @@ fn every_kind_of_tiff_is_read_as_the_same_plane() {
     let float: Vec<f32> = wanted.iter().copied().collect();
     let tiled = |side: usize| {
         let mut tile = vec![0; side * side];
-        g.chunks(WIDTH).enumerate().for_each(|(y, row)| tile[y * side..y * side + WIDTH].copy_from_slice(row));
+        g.chunks(WIDTH)
+            .enumerate()
+            .for_each(|(y, row)| tile[y * side..y * side + WIDTH].copy_from_slice(row));
         TiffFile { tile: Some([side as u64; 2]), ..TiffFile::new(&[8], 1, tile) }
     };
     let big_endian_16: Vec<u8> = wide.iter().flat_map(|v| v.to_be_bytes()).collect();
@@ -228,9 +241,15 @@ fn every_kind_of_tiff_is_read_as_the_same_plane() {
         ("8 bit grey", TiffFile::new(&[8], 1, g.clone()).bytes()),
         ("white is zero", TiffFile::new(&[8], 0, each(&|v| vec![255 - v])).bytes()),
         ("grey with alpha", TiffFile::new(&[8, 8], 1, each(&|v| vec![v, 255])).with(338, &[2]).bytes()),
-        ("grey with premultiplied alpha", TiffFile::new(&[8, 8], 1, each(&|v| vec![v, 9])).with(338, &[1]).bytes()),
+        (
+            "grey with premultiplied alpha",
+            TiffFile::new(&[8, 8], 1, each(&|v| vec![v, 9])).with(338, &[1]).bytes(),
+        ),
         ("RGBA", TiffFile::new(&[8; 4], 2, each(&|v| vec![v, v, v, 255])).with(338, &[2]).bytes()),
-        ("planar RGB", TiffFile { chunks: planes.to_vec(), ..TiffFile::new(&[8; 3], 2, vec![]) }.with(284, &[2]).bytes()),
+        (
+            "planar RGB",
+            TiffFile { chunks: planes.to_vec(), ..TiffFile::new(&[8; 3], 2, vec![]) }.with(284, &[2]).bytes(),
+        ),
         ("tile", tiled(16).bytes()),
         ("big-endian", TiffFile { big_endian: true, ..TiffFile::new(&[16], 1, big_endian_16) }.bytes()),
         ("BigTIFF", TiffFile { big_tiff: true, ..TiffFile::new(&[8], 1, g.clone()) }.bytes()),
@@ -296,7 +315,8 @@ fn one_bit_tiff_is_black_and_white() {
 
 #[test]
 fn float_tiff_keeps_its_values_and_refuses_what_is_not_a_number() {
-    let written = |values: &[f32]| tiff_written(|t| t.write_image::<colortype::Gray32Float>(2, 2, values).unwrap());
+    let written =
+        |values: &[f32]| tiff_written(|t| t.write_image::<colortype::Gray32Float>(2, 2, values).unwrap());
     let plane = decode(&written(&[-3.5, 0., 1e6, 7.]), "float").unwrap();
     assert_eq!(plane.as_slice().unwrap(), [-3.5, 0., 1e6, 7.]);
     for bad in [f32::NAN, f32::INFINITY] {
@@ -357,7 +377,8 @@ fn what_is_no_image_is_an_error_of_one_line_that_names_the_file() {
 
 #[test]
 fn a_file_cut_short_anywhere_is_an_error() {
-    let lzw = tiff_written(|t| t.write_image::<colortype::Gray8>(WIDTH as u32, HEIGHT as u32, &greys()).unwrap());
+    let lzw =
+        tiff_written(|t| t.write_image::<colortype::Gray8>(WIDTH as u32, HEIGHT as u32, &greys()).unwrap());
     for whole in [png_of(8, 0, |v| vec![v]), lzw] {
         // The last chunk of a PNG and the offset of a next page say nothing of the picture.
         for length in 0..whole.len() - 20 {
@@ -406,7 +427,10 @@ fn values_outside_the_range_are_cut_and_those_that_are_no_numbers_refused() {
     assert_eq!(read(&path).unwrap().as_slice().unwrap(), [0., 1.]);
     let bad = Plane::from_elem((1, 1), f32::NAN);
     assert!(matches!(write_tiff(&path, &bad, BitDepth::Sixteen), Err(ImageError::NotFinite { .. })));
-    assert!(matches!(write_png(&path, &Plane::zeros((0, 4)), BitDepth::Eight), Err(ImageError::NoPixels { .. })));
+    assert!(matches!(
+        write_png(&path, &Plane::zeros((0, 4)), BitDepth::Eight),
+        Err(ImageError::NoPixels { .. })
+    ));
     assert!(matches!(
         write_grey(&folder.path().join("a.jpg"), &expected(), BitDepth::Eight),
         Err(ImageError::UnknownExtension { .. })
@@ -434,6 +458,25 @@ fn overlays_are_written_in_colour() {
     let picture = image::RgbImage::from_fn(3, 2, |x, y| image::Rgb([x as u8 * 80, y as u8 * 200, 7]));
     write_rgb_png(&path, &picture).unwrap();
     assert_eq!(image::open(&path).unwrap().into_rgb8(), picture);
+}
+
+#[test]
+fn real_images_are_read_as_another_decoder_reads_them() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/aoslo");
+    if !folder.is_dir() {
+        println!("SKIPPED reading of real images: ../shared is not here");
+        return;
+    }
+    let files = walkdir::WalkDir::new(folder).into_iter().filter_map(Result::ok);
+    let mut images = 0;
+    for file in files.filter(|f| is_image_path(f.path())) {
+        let plane = read(file.path()).unwrap();
+        let wanted = image::open(file.path()).unwrap().into_luma8();
+        assert_eq!(plane.dim(), (wanted.height() as usize, wanted.width() as usize));
+        assert!(plane.iter().zip(wanted.as_raw()).all(|(v, &w)| (v * 255. - f32::from(w)).abs() < 1e-4));
+        images += 1;
+    }
+    assert!(images > 300, "{images}");
 }
 
 proptest! {

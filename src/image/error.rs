@@ -13,7 +13,9 @@ pub enum ImageError {
         source: io::Error,
     },
     /// The file cannot be written.
-    #[error("{name}: cannot be written ({source}): check that its folder exists, may be written to and has room")]
+    #[error(
+        "{name}: cannot be written ({source}): check that its folder exists, may be written to and has room"
+    )]
     Write {
         /// The file.
         name: String,
@@ -45,7 +47,9 @@ pub enum ImageError {
         reason: String,
     },
     /// Sound, but of a kind that is not read.
-    #[error("{name}: {format} of a kind that is not read ({reason}): save it as 8 or 16 bit grey PNG or TIFF")]
+    #[error(
+        "{name}: {format} of a kind that is not read ({reason}): save it as 8 or 16 bit grey PNG or TIFF"
+    )]
     Unsupported {
         /// The file.
         name: String,
@@ -75,7 +79,9 @@ pub enum ImageError {
         limit: String,
     },
     /// Several images in one file.
-    #[error("{name}: holds {pages} pages, expected one image: save the page to be measured (or the average) by itself")]
+    #[error(
+        "{name}: holds {pages} pages, expected one image: save the page to be measured (or the average) by itself"
+    )]
     SeveralPages {
         /// The file.
         name: String,
@@ -83,7 +89,9 @@ pub enum ImageError {
         pages: usize,
     },
     /// A pixel that is infinite or not a number.
-    #[error("{name}: pixel ({x}, {y}) is {value}: every pixel must be a finite number; fill or crop what was not imaged")]
+    #[error(
+        "{name}: pixel ({x}, {y}) is {value}: every pixel must be a finite number; fill or crop what was not imaged"
+    )]
     NotFinite {
         /// The file.
         name: String,

@@ -30,8 +30,7 @@ pub(super) fn signal(
         let sigma = options.diameter * spacing / WIDTH_PER_SIGMA * (1. + 0.06 * normal(rng)).clamp(0.7, 1.3);
         let (sin, cos) = rng.random_range(0. ..TAU).sin_cos();
         let amplitude = peak.sqrt();
-        let (Some(columns), Some(rows)) =
-            (span(p.x, CUT * sigma, width), span(p.y, CUT * sigma, height))
+        let (Some(columns), Some(rows)) = (span(p.x, CUT * sigma, width), span(p.y, CUT * sigma, height))
         else {
             continue;
         };

@@ -46,7 +46,9 @@ pub enum RenderError {
         reason: String,
     },
     /// Too few points to tell how large a cone is.
-    #[error("the size of a cone follows from its neighbours, and {found} points are too few: give at least 4, or the spacing")]
+    #[error(
+        "the size of a cone follows from its neighbours, and {found} points are too few: give at least 4, or the spacing"
+    )]
     SpacingUnknown {
         /// Number of points given.
         found: usize,

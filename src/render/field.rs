@@ -130,7 +130,8 @@ fn gaussian(sigma: f64) -> Vec<f32> {
         return vec![1.];
     }
     let radius = (4. * sigma).ceil() as i32;
-    let weights: Vec<f64> = (-radius..=radius).map(|i| (-0.5 * (f64::from(i) / sigma).powi(2)).exp()).collect();
+    let weights: Vec<f64> =
+        (-radius..=radius).map(|i| (-0.5 * (f64::from(i) / sigma).powi(2)).exp()).collect();
     let sum: f64 = weights.iter().sum();
     weights.iter().map(|w| (w / sum) as f32).collect()
 }

@@ -69,7 +69,10 @@ pub(super) fn signal(
         let fine = texture(width, height, 0.08 * cells.typical, rng);
         let coarse = texture(width, height, 0.25 * cells.typical, rng);
         let strength = (options.texture * 0.5f64.sqrt()) as f32;
-        ndarray::Zip::from(&mut discs).and(&fine).and(&coarse).for_each(|sum, f, c| *sum += strength * (f + c));
+        ndarray::Zip::from(&mut discs)
+            .and(&fine)
+            .and(&coarse)
+            .for_each(|sum, f, c| *sum += strength * (f + c));
     }
     discs
 }

@@ -22,7 +22,8 @@ pub(super) fn signal(
         // Segments stand slightly askew: seen longer across the direction of detection, brighter or darker on the whole.
         let longer = (1.12 + 0.08 * normal(rng)).clamp(0.9, 1.4);
         let lean = 0.25 * normal(rng);
-        let (Some(columns), Some(rows)) = (span(p.x, radius, width), span(p.y, radius * longer, height)) else {
+        let (Some(columns), Some(rows)) = (span(p.x, radius, width), span(p.y, radius * longer, height))
+        else {
             continue;
         };
         for y in rows {

@@ -84,7 +84,9 @@ fn samples_to_grey(decoder: &mut Source, colour: bool, place: &Place) -> Result<
     let colours = if colour { 3 } else { 1 };
     let has_alpha = channels > colours && matches!(extra, Some(ASSOCIATED_ALPHA | UNASSOCIATED_ALPHA));
     if channels != colours + u16::from(has_alpha) {
-        return Err(place.unsupported(format!("{channels} channels, expected grey or RGB, with or without alpha")));
+        return Err(
+            place.unsupported(format!("{channels} channels, expected grey or RGB, with or without alpha"))
+        );
     }
     let layout = Layout {
         width: width as usize,
@@ -103,7 +105,9 @@ fn samples_to_grey(decoder: &mut Source, colour: bool, place: &Place) -> Result<
         }
         DecodingResult::U8(v) if bits == 8 => layout.grey(&v, |v| f32::from(v) / f32::from(u8::MAX)),
         DecodingResult::U16(v) if bits == 16 => layout.grey(&v, |v| f32::from(v) / f32::from(u16::MAX)),
-        DecodingResult::U32(v) if bits == 32 => layout.grey(&v, |v| unsigned(f64::from(u32::MAX))(f64::from(v))),
+        DecodingResult::U32(v) if bits == 32 => {
+            layout.grey(&v, |v| unsigned(f64::from(u32::MAX))(f64::from(v)))
+        }
         DecodingResult::U64(v) => layout.grey(&v, |v| unsigned(u64::MAX as f64)(v as f64)),
         DecodingResult::I8(v) => layout.grey(&v, |v| f32::from(v) / f32::from(i8::MAX)),
         DecodingResult::I16(v) => layout.grey(&v, |v| f32::from(v) / f32::from(i16::MAX)),
@@ -151,7 +155,11 @@ fn palette_to_grey(bytes: &[u8], decoder: &mut Source, place: &Place) -> Result<
     let entries = 1usize << bits;
     let [red, green, blue] = [0, 1, 2].map(|c| colours.get(c * entries..(c + 1) * entries));
     let (Some(red), Some(green), Some(blue)) = (red, green, blue) else {
-        return Err(place.damaged(format!("a palette of {} numbers, expected {}", colours.len(), 3 * entries)));
+        return Err(place.damaged(format!(
+            "a palette of {} numbers, expected {}",
+            colours.len(),
+            3 * entries
+        )));
     };
     let scale = |v: u16| f32::from(v) / f32::from(u16::MAX);
     let lookup = |index: usize| {
@@ -166,7 +174,9 @@ fn palette_to_grey(bytes: &[u8], decoder: &mut Source, place: &Place) -> Result<
     let (width, height) = (width as usize, height as usize);
     let layout = Layout { width, height, channels: 1, colour: false, alpha: Alpha::None, planar: false };
     let grey = match read_samples(&mut decoder, place)? {
-        DecodingResult::U8(v) if bits < 8 => layout.grey(&unpack(&v, bits, width, height), |i| lookup(i.into())),
+        DecodingResult::U8(v) if bits < 8 => {
+            layout.grey(&unpack(&v, bits, width, height), |i| lookup(i.into()))
+        }
         DecodingResult::U8(v) if bits == 8 => layout.grey(&v, |i| lookup(i.into())),
         DecodingResult::U16(v) if bits == 16 => layout.grey(&v, |i| lookup(i.into())),
         _ => return Err(place.unsupported(format!("a palette of {bits} bits"))),
@@ -227,7 +237,9 @@ impl Place<'_> {
             TiffError::FormatError(TiffFormatError::InvalidDimensions(width, height)) => {
                 ImageError::NoPixels { name: self.name.to_owned(), width, height }
             }
-            TiffError::IoError(e) if e.kind() == ErrorKind::UnexpectedEof => self.damaged("it ends too early".to_owned()),
+            TiffError::IoError(e) if e.kind() == ErrorKind::UnexpectedEof => {
+                self.damaged("it ends too early".to_owned())
+            }
             TiffError::UnsupportedError(e) => self.unsupported(one_line(e)),
             TiffError::LimitsExceeded => ImageError::TooLarge {
                 name: self.name.to_owned(),

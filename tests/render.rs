@@ -1,0 +1,260 @@
+//! The picture and its truth agree; the same seed makes the same picture.
+
+use conemosaic::detect::{Modality, Polarity};
+use conemosaic::geometry::Point;
+use conemosaic::image::{BitDepth, Plane, read, write_grey};
+use conemosaic::mosaic::hexagonal_spacing;
+use conemosaic::render::{
+    MosaicOptions, RenderError, RenderOptions, Simulation, cone_mosaic, render, simulate,
+};
+use proptest::prelude::*;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+const SPACING: f64 = 12.;
+
+fn rng(seed: u64) -> ChaCha8Rng {
+    ChaCha8Rng::seed_from_u64(seed)
+}
+
+fn picture(options: &RenderOptions, seed: u64) -> Simulation {
+    let mosaic = MosaicOptions { spacing: SPACING, ..Default::default() };
+    simulate(&mosaic, options, &mut rng(seed)).unwrap()
+}
+
+fn options(modality: Modality) -> RenderOptions {
+    RenderOptions { width: 180, height: 160, ..RenderOptions::new(modality) }
+}
+
+/// Mean of the pixels within `radius` of (x, y).
+fn mean_around(image: &Plane, x: f64, y: f64, radius: f64) -> f64 {
+    let within = image.indexed_iter().filter(|((j, i), _)| (*i as f64 - x).hypot(*j as f64 - y) <= radius);
+    let (sum, n) = within.fold((0., 0.), |(sum, n), (_, &v)| (sum + f64::from(v), n + 1.));
+    sum / n
+}
+
+/// Cones far enough from the border that all of them lies in the picture.
+fn inner(simulation: &Simulation) -> Vec<Point> {
+    let (height, width) = simulation.image.dim();
+    let inside = |v: f64, side: usize| v > SPACING && v < side as f64 - SPACING;
+    simulation.cones.iter().copied().filter(|p| inside(p.x, width) && inside(p.y, height)).collect()
+}
+
+fn fraction(of: &[Point], is: impl Fn(&Point) -> bool) -> f64 {
+    of.iter().filter(|p| is(p)).count() as f64 / of.len() as f64
+}
+
+#[test]
+fn confocal_cones_are_brighter_than_the_ring_around_them() {
+    for (polarity, sign) in [(Polarity::Positive, 1.), (Polarity::Negative, -1.)] {
+        let made = picture(&RenderOptions { polarity, ..options(Modality::Confocal) }, 1);
+        let brighter = fraction(&inner(&made), |p| {
+            let centre = mean_around(&made.image, p.x, p.y, 0.15 * SPACING);
+            let wide = mean_around(&made.image, p.x, p.y, 0.45 * SPACING);
+            sign * (centre - wide) > 0.
+        });
+        assert!(brighter > 0.93, "{brighter}");
+    }
+}
+
+#[test]
+fn the_brightest_pixel_near_a_confocal_cone_is_its_centre() {
+    let clean = RenderOptions { noise: 0., texture: 0., dim: 0., ..options(Modality::Confocal) };
+    let made = picture(&clean, 2);
+    let near = fraction(&inner(&made), |p| {
+        let window = made
+            .image
+            .indexed_iter()
+            .filter(|((j, i), _)| (*i as f64 - p.x).hypot(*j as f64 - p.y) <= 0.35 * SPACING);
+        let ((j, i), _) = window.max_by(|a, b| a.1.total_cmp(b.1)).unwrap();
+        (i as f64 - p.x).hypot(j as f64 - p.y) <= 1.5
+    });
+    assert!(near > 0.9, "{near}");
+}
+
+#[test]
+fn split_cones_are_dark_on_the_left_and_bright_on_the_right() {
+    for (polarity, sign) in [(Polarity::Positive, 1.), (Polarity::Negative, -1.)] {
+        let made = picture(&RenderOptions { polarity, ..options(Modality::Split) }, 3);
+        let shaded = fraction(&inner(&made), |p| {
+            let side = |d: f64| mean_around(&made.image, p.x + d * SPACING, p.y, 0.15 * SPACING);
+            sign * (side(0.25) - side(-0.25)) > 0.
+        });
+        assert!(shaded > 0.95, "{shaded}");
+    }
+}
+
+#[test]
+fn histology_discs_differ_from_what_lies_between_them() {
+    for (polarity, sign) in [(Polarity::Positive, 1.), (Polarity::Negative, -1.)] {
+        let made = picture(&RenderOptions { polarity, ..options(Modality::Histology) }, 4);
+        let (mut inside, mut between) = ((0., 0.), (0., 0.));
+        for ((j, i), &v) in made.image.indexed_iter() {
+            let distance = |p: &Point| (p.x - i as f64).hypot(p.y - j as f64);
+            let nearest = made.cones.iter().map(distance).fold(f64::INFINITY, f64::min);
+            // Edges and outlines belong to neither.
+            let bin = match nearest / SPACING {
+                d if d < 0.3 => &mut inside,
+                d if d > 0.48 => &mut between,
+                _ => continue,
+            };
+            *bin = (bin.0 + f64::from(v), bin.1 + 1.);
+        }
+        let difference = sign * (inside.0 / inside.1 - between.0 / between.1);
+        assert!(difference > 0.25, "{difference}");
+    }
+}
+
+#[test]
+fn the_same_seed_makes_the_same_picture_and_another_one_another() {
+    for modality in Modality::ALL {
+        let o = options(modality);
+        let first = picture(&o, 5);
+        assert_eq!(first, picture(&o, 5));
+        let other = picture(&o, 6);
+        assert_ne!(first.image, other.image);
+        assert_ne!(first.cones, other.cones);
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let three = rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap();
+    let o = options(Modality::Confocal);
+    assert_eq!(one.install(|| picture(&o, 7)), three.install(|| picture(&o, 7)));
+}
+
+#[test]
+fn a_mosaic_is_as_dense_and_as_regular_as_a_real_one() {
+    let options = MosaicOptions { width: 400, height: 400, spacing: 10., ..Default::default() };
+    for seed in 0..3 {
+        let points = cone_mosaic(&options, &mut rng(seed)).unwrap();
+        let s = hexagonal_spacing(points.len(), 160_000.).unwrap();
+        assert!((s / 10. - 1.).abs() < 0.02, "spacing {s}");
+        let nearest: Vec<f64> = points
+            .iter()
+            .filter(|p| p.x > 10. && p.y > 10. && p.x < 389. && p.y < 389.)
+            .map(|p| points.iter().filter(|q| *q != p).map(|q| p.distance(*q)).fold(f64::INFINITY, f64::min))
+            .collect();
+        let n = nearest.len() as f64;
+        let mean = nearest.iter().sum::<f64>() / n;
+        let sd = (nearest.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.)).sqrt();
+        assert!((0.80..0.87).contains(&(mean / s)), "mean distance {} s", mean / s);
+        assert!((8.0..11.5).contains(&(mean / sd)), "regularity {}", mean / sd);
+    }
+}
+
+#[test]
+fn a_mosaic_is_not_a_single_crystal() {
+    // In one crystal all directions to neighbours have the same angle modulo 60°: the global order would be as the local.
+    let options = MosaicOptions { width: 500, height: 500, spacing: 10., jitter: 0., ..Default::default() };
+    let points = cone_mosaic(&options, &mut rng(1)).unwrap();
+    let (mut sum, mut local, mut cells) = ((0., 0.), 0., 0.);
+    for p in points.iter().filter(|p| p.x > 15. && p.y > 15. && p.x < 485. && p.y < 485.) {
+        let ring: Vec<f64> = points
+            .iter()
+            .filter(|q| *q != p && p.distance(**q) < 13.5)
+            .map(|q| 6. * (q.y - p.y).atan2(q.x - p.x))
+            .collect();
+        let mean = |f: fn(f64) -> f64| ring.iter().map(|&a| f(a)).sum::<f64>() / ring.len().max(1) as f64;
+        let (re, im) = (mean(f64::cos), mean(f64::sin));
+        sum = (sum.0 + re, sum.1 + im);
+        local += re.hypot(im);
+        cells += 1.;
+    }
+    let (local, global) = (local / cells, sum.0.hypot(sum.1) / cells);
+    assert!(local > 0.5 && global < 0.3, "local {local}, global {global}");
+}
+
+#[test]
+fn a_gradient_makes_one_side_denser_and_its_cones_smaller() {
+    let mosaic = MosaicOptions { spacing: 9., gradient: 4., ..Default::default() };
+    let o = RenderOptions { width: 400, height: 300, ..RenderOptions::new(Modality::Histology) };
+    let made = simulate(&mosaic, &o, &mut rng(8)).unwrap();
+    let count = |from: f64, to: f64| made.cones.iter().filter(|p| p.x >= from && p.x < to).count() as f64;
+    let ratio = count(-0.5, 39.5) / count(359.5, 399.5);
+    // Between the middles of the outer tenths: 4^0.9.
+    assert!((ratio / 4f64.powf(0.9) - 1.).abs() < 0.25, "{ratio}");
+    let expected = 400. * 300. / (0.75f64.sqrt() * 81.);
+    assert!((made.cones.len() as f64 / expected - 1.).abs() < 0.05, "{} of {expected}", made.cones.len());
+}
+
+#[test]
+fn noise_blur_and_contrast_do_what_they_say() {
+    let deviation = |o: &RenderOptions| {
+        let image = picture(o, 9).image;
+        let mean = image.mean().unwrap();
+        image.mapv(|v| (v - mean).powi(2)).mean().unwrap().sqrt()
+    };
+    for modality in Modality::ALL {
+        let o = RenderOptions { noise: 0., ..options(modality) };
+        assert!(deviation(&RenderOptions { contrast: 0.5 * o.contrast, ..o.clone() }) < 0.9 * deviation(&o));
+        assert!(deviation(&RenderOptions { blur: 0.3, ..o.clone() }) < 0.8 * deviation(&o));
+        // Noise comes last: the same seed makes the same picture beneath it.
+        let noisy = picture(&RenderOptions { noise: 0.05, ..o.clone() }, 9).image;
+        let difference = (noisy - picture(&o, 9).image).mapv(|v| v * v).mean().unwrap().sqrt();
+        assert!((0.03..0.055).contains(&difference), "{difference}");
+    }
+}
+
+#[test]
+fn options_out_of_range_are_errors_that_say_the_range() {
+    let bad = RenderOptions { noise: 0.7, ..Default::default() };
+    let message = simulate(&MosaicOptions::default(), &bad, &mut rng(1)).unwrap_err().to_string();
+    assert_eq!(message, "noise is 0.7: it must be from 0 to 0.5 of the full range of grey");
+    for (mosaic, says) in [
+        (
+            MosaicOptions { spacing: 0.5, ..Default::default() },
+            "spacing is 0.5: it must be from 2 to 1000 px",
+        ),
+        (MosaicOptions { gradient: 0., ..Default::default() }, "gradient is 0: it must be from 0.05 to 20"),
+        (MosaicOptions { jitter: f64::NAN, ..Default::default() }, "jitter is NaN: it must be from 0 to 0.5"),
+        (MosaicOptions { width: 0, ..Default::default() }, "width is 0: it must be from 1 to 16384 px"),
+    ] {
+        let message = cone_mosaic(&mosaic, &mut rng(1)).unwrap_err().to_string();
+        assert!(message.starts_with(says), "{message}");
+    }
+}
+
+#[test]
+fn points_that_cannot_be_pictured_are_errors() {
+    let o = RenderOptions::default();
+    let few = [Point::new(1., 1.), Point::new(9., 9.)];
+    assert_eq!(render(&few, &o, &mut rng(1)), Err(RenderError::SpacingUnknown { found: 2 }));
+    let bad = [Point::new(f64::NAN, 1.); 5];
+    assert!(matches!(render(&bad, &o, &mut rng(1)), Err(RenderError::NotFinite { index: 0, .. })));
+    let empty = RenderOptions { spacing: Some(9.), ..o };
+    assert_eq!(render(&[], &empty, &mut rng(1)).unwrap().dim(), (150, 150));
+}
+
+#[test]
+fn a_picture_survives_a_16_bit_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("split.tif");
+    let made = picture(&options(Modality::Split), 10);
+    write_grey(&path, &made.image, BitDepth::Sixteen).unwrap();
+    let worst = read(&path).unwrap().iter().zip(&made.image).map(|(a, b)| (a - b).abs()).fold(0., f32::max);
+    assert!(worst <= 0.5001 / 65535., "{worst}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    #[test]
+    fn any_points_and_sizes_make_a_picture_within_black_and_white(
+        places in proptest::collection::vec((-1e3..1e3f64, -1e3..1e3f64), 4..60),
+        far in any::<f64>().prop_filter("finite", |v| v.is_finite()),
+        (width, height) in (1..40usize, 1..40usize),
+        modality in 0..3usize,
+        seed in any::<u64>(),
+    ) {
+        let mut points: Vec<Point> = places.iter().map(|&(x, y)| Point::new(x, y)).collect();
+        points.push(Point::new(far, -far));
+        points.push(points[0]);
+        let o = RenderOptions { width, height, ..RenderOptions::new(Modality::ALL[modality]) };
+        let image = render(&points, &o, &mut rng(seed)).unwrap();
+        prop_assert_eq!(image.dim(), (height, width));
+        prop_assert!(image.iter().all(|v| (0. ..=1.).contains(v)));
+    }
+}
