@@ -1,10 +1,14 @@
 //! A mosaic against samplers; detections against reference marks.
 
 mod assignment;
+mod l_infinity;
 mod matching;
+mod reference;
 mod validation;
 
+pub use l_infinity::{CompareError, l_infinity};
 pub use matching::{Assignment, MatchError, MatchOptions, Matching, Pair, match_points};
+pub use reference::{ReferenceCurve, References};
 pub use validation::{Rates, Score, Summary, summarise, validate};
 
 /// The middle value, or the mean of the two middle ones; `None` without values.

@@ -1,0 +1,56 @@
+use super::frame::Frame;
+use super::{SampleError, Sampler};
+use crate::geometry::{Point, Window};
+use rand::{Rng, RngExt};
+
+/// One uniform point in each of n cells of equal area (Cook 1986, jittered sampling).
+///
+/// The window is cut into about √(n h/w) rows, each row into cells; rows with a cell more are higher, so all
+/// cells have the area A/n. A square number in a square window gives the √n × √n grid.
+#[derive(Clone, Copy, Debug)]
+pub struct Jittered;
+
+impl Sampler for Jittered {
+    fn name(&self) -> &'static str {
+        "jittered"
+    }
+
+    fn about(&self) -> &'static str {
+        "one uniform point in each of n near-square cells of equal area (Cook 1986); exactly n"
+    }
+
+    fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
+        let frame = Frame::new(n, window)?;
+        let ideal = (n as f64 * frame.height / frame.width).sqrt().round();
+        let rows = (ideal as usize).clamp(1, n.max(1));
+        let first = |row: usize| row * n / rows;
+        let mut points = Vec::with_capacity(n);
+        for row in 0..rows {
+            let columns = first(row + 1) - first(row);
+            let cell_width = frame.width / columns as f64;
+            let cell_height = frame.height * columns as f64 / n as f64;
+            let top = frame.height * first(row) as f64 / n as f64;
+            for column in 0..columns {
+                let (u, v): (f64, f64) = (rng.random(), rng.random());
+                points.push(frame.place((column as f64 + u) * cell_width, top + v * cell_height));
+            }
+        }
+        Ok(points)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::SeedableRng;
+
+    #[test]
+    fn square_number_in_a_square_has_one_point_in_every_grid_cell() {
+        let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(3);
+        let points = Jittered.sample(1024, &Window::unit_square(), &mut rng).unwrap();
+        let mut cells: Vec<_> = points.iter().map(|p| ((p.x * 32.) as usize, (p.y * 32.) as usize)).collect();
+        cells.sort_unstable();
+        cells.dedup();
+        assert_eq!(cells.len(), 1024);
+    }
+}

@@ -1,0 +1,57 @@
+use super::frame::Frame;
+use super::lattice::Lattice;
+use super::{SampleError, Sampler};
+use crate::geometry::{Point, Window};
+use rand::Rng;
+
+/// The triangular (hexagonally packed) lattice of density n/A at a random offset, rows along x, without jitter.
+///
+/// On a torus rows and columns must close, which stretches it by a few per cent.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangular;
+
+impl Sampler for Triangular {
+    fn name(&self) -> &'static str {
+        "triangular"
+    }
+
+    fn about(&self) -> &'static str {
+        "triangular lattice at a random offset, no jitter; as near n as the lattice allows, stretched to close on a torus"
+    }
+
+    fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
+        let frame = Frame::new(n, window)?;
+        let step = frame.spacing(n.max(1));
+        Ok(Lattice { step, row_step: step * 3f64.sqrt() / 2., shift: 0.5 }.fill(n, &frame, rng))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Rectangle;
+    use crate::mosaic::hexagonal_spacing;
+    use crate::stats::nearest_neighbours;
+    use rand::SeedableRng;
+
+    #[test]
+    fn triangular_lattice_has_every_neighbour_at_the_hexagonal_spacing() {
+        let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+        let spacing = hexagonal_spacing(1000, 1.).unwrap();
+        let window = Window::unit_square();
+        let points = Triangular.sample(1000, &window, &mut rng).unwrap();
+        assert!(points.len().abs_diff(1000) <= 30, "{}", points.len());
+        let nearest = nearest_neighbours(&points, &window);
+        assert!(nearest.distances.iter().all(|d| (d / spacing - 1.).abs() < 1e-9));
+    }
+
+    #[test]
+    fn triangular_lattice_on_a_fitting_torus_is_exact_and_undeformed() {
+        let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+        let window = Window::Torus(Rectangle::new(-3., 5., 17., 5. + 12. * 3f64.sqrt()).unwrap());
+        let points = Triangular.sample(20 * 24, &window, &mut rng).unwrap();
+        assert_eq!(points.len(), 480);
+        let nearest = nearest_neighbours(&points, &window);
+        assert!(nearest.distances.iter().all(|d| (d - 1.).abs() < 1e-9));
+    }
+}

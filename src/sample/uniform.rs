@@ -1,0 +1,28 @@
+use super::frame::Frame;
+use super::{SampleError, Sampler};
+use crate::geometry::{Point, Window};
+use rand::{Rng, RngExt};
+
+/// Independent uniform points: complete spatial randomness.
+#[derive(Clone, Copy, Debug)]
+pub struct Uniform;
+
+impl Sampler for Uniform {
+    fn name(&self) -> &'static str {
+        "uniform"
+    }
+
+    fn about(&self) -> &'static str {
+        "independent uniform points (white noise); exactly n"
+    }
+
+    fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
+        let frame = Frame::new(n, window)?;
+        Ok((0..n)
+            .map(|_| {
+                let (u, v): (f64, f64) = (rng.random(), rng.random());
+                frame.place(u * frame.width, v * frame.height)
+            })
+            .collect())
+    }
+}

@@ -1,0 +1,43 @@
+use thiserror::Error;
+
+/// A statistic that cannot be computed.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum StatsError {
+    /// An option is out of its range.
+    #[error("{option} is {value}: {range}")]
+    Option {
+        /// Which one.
+        option: &'static str,
+        /// What it was.
+        value: f64,
+        /// What it must be.
+        range: &'static str,
+    },
+    /// Too few points.
+    #[error("{statistic} needs at least {needed} points, there are {found}")]
+    TooFewPoints {
+        /// What was to be computed.
+        statistic: &'static str,
+        /// The least it can do with.
+        needed: usize,
+        /// What there was.
+        found: usize,
+    },
+    /// A point is not finite or lies outside the window.
+    #[error(
+        "point {index} is ({x}, {y}), which is not inside the window: leave it out or give the window it was seen in"
+    )]
+    Outside {
+        /// 0-based index of the point.
+        index: usize,
+        /// Its x.
+        x: f64,
+        /// Its y.
+        y: f64,
+    },
+    /// Torus correction asked for in a window with a border.
+    #[error(
+        "the torus correction needs a torus window, this one has a border: choose another edge correction"
+    )]
+    NotATorus,
+}

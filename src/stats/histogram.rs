@@ -1,0 +1,116 @@
+use super::Moments;
+use serde::{Deserialize, Serialize};
+
+/// Bounds on the number of bins: fewer hide the shape, more show only noise.
+const BINS: (usize, usize) = (5, 60);
+
+/// How many values fall between successive edges. Bins hold their lower edge, the last one both.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Histogram {
+    /// One more than there are bins, rising; empty without values.
+    pub edges: Vec<f64>,
+    /// Values in each bin.
+    pub counts: Vec<usize>,
+}
+
+impl Histogram {
+    /// Bins of equal width from the least to the greatest value; values that are not finite are left out. The width is
+    /// 2 × interquartile range / ∛n (Freedman & Diaconis 1981), bounded to 5–60 bins. Equal values make one bin.
+    pub fn new(values: &[f64]) -> Self {
+        let mut sorted: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+        sorted.sort_by(f64::total_cmp);
+        let (Some(&low), Some(&high)) = (sorted.first(), sorted.last()) else {
+            return Self { edges: Vec::new(), counts: Vec::new() };
+        };
+        let range = high - low;
+        if !(range > f64::EPSILON * high.abs().max(low.abs()) && range.is_finite()) {
+            let half = (low.abs() * 0.005).max(f64::MIN_POSITIVE);
+            return Self { edges: vec![low - half, low + half], counts: vec![sorted.len()] };
+        }
+        let quantile = |q: f64| sorted[((sorted.len() - 1) as f64 * q).round() as usize];
+        let width = 2. * (quantile(0.75) - quantile(0.25)) / (sorted.len() as f64).cbrt();
+        // Without a spread of the middle half, 1 + log₂ n bins (Sturges 1926).
+        let ideal =
+            if width > 0. { (range / width).ceil() } else { 1. + (sorted.len() as f64).log2().ceil() };
+        let bins = (ideal.min(BINS.1 as f64) as usize).max(BINS.0);
+        let edges: Vec<f64> = (0..=bins).map(|i| low + range * i as f64 / bins as f64).collect();
+        let mut counts = vec![0; bins];
+        for v in sorted {
+            // Rounding of the division must not disagree with the edges as stored.
+            let bin = edges[1..bins].partition_point(|&e| e <= v);
+            counts[bin] += 1;
+        }
+        Self { edges, counts }
+    }
+
+    /// Mean width of a bin; 0 without bins.
+    pub fn bin_width(&self) -> f64 {
+        match (self.edges.first(), self.edges.last()) {
+            (Some(low), Some(high)) => (high - low) / self.counts.len() as f64,
+            _ => 0.,
+        }
+    }
+
+    /// The Gaussian of those moments, scaled to the counts: `steps` + 1 pairs of value and expected count a bin, over the
+    /// bins and μ ± 3σ. Empty where σ is not defined or 0, and without bins.
+    pub fn gaussian(&self, moments: &Moments, steps: usize) -> Vec<(f64, f64)> {
+        let (Some(mean), Some(sd), Some(&low), Some(&high)) =
+            (moments.mean, moments.sd.filter(|&sd| sd > 0.), self.edges.first(), self.edges.last())
+        else {
+            return Vec::new();
+        };
+        let (low, high) = (low.min(mean - 3. * sd), high.max(mean + 3. * sd));
+        let height = moments.n as f64 * self.bin_width() / (sd * (2. * std::f64::consts::PI).sqrt());
+        (0..=steps)
+            .map(|i| {
+                let x = low + (high - low) * i as f64 / steps.max(1) as f64;
+                (x, height * (-0.5 * ((x - mean) / sd).powi(2)).exp())
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stats::{Deviation, moments};
+    use proptest::prelude::*;
+
+    #[test]
+    fn gaussian_has_the_area_of_the_bars() {
+        let values: Vec<f64> = (0..1000).map(|i| 5. + ((f64::from(i) + 0.5) / 1000. - 0.5) * 2.).collect();
+        let histogram = Histogram::new(&values);
+        let curve = histogram.gaussian(&moments(&values, Deviation::Sample), 400);
+        let area: f64 = curve.windows(2).map(|p| (p[1].0 - p[0].0) * (p[0].1 + p[1].1) / 2.).sum();
+        let bars = 1000. * histogram.bin_width();
+        assert!((area / bars - 1.).abs() < 0.005, "{area} {bars}");
+    }
+
+    #[test]
+    fn bins_follow_freedman_and_diaconis() {
+        // 1000 even values on 0..1: interquartile range just below ½, width just below 1/10.
+        let values: Vec<f64> = (0..1000).map(|i| f64::from(i) / 999.).collect();
+        assert_eq!(Histogram::new(&values).counts.len(), 11);
+        assert_eq!(Histogram::new(&values[..2]).counts.len(), 5);
+    }
+
+    #[test]
+    fn no_values_no_bins_and_equal_values_one() {
+        assert!(Histogram::new(&[f64::NAN]).counts.is_empty());
+        assert_eq!(Histogram::new(&[3.; 7]).counts, [7]);
+        assert_eq!(Histogram::new(&[0.; 2]).counts, [2]);
+    }
+
+    proptest! {
+        #[test]
+        fn every_finite_value_is_counted_once_between_rising_edges(
+            values in prop::collection::vec(prop_oneof![-1e3..1e3f64, Just(f64::NAN), Just(1.)], 0..80),
+        ) {
+            let histogram = Histogram::new(&values);
+            let finite = values.iter().filter(|v| v.is_finite()).count();
+            prop_assert_eq!(histogram.counts.iter().sum::<usize>(), finite);
+            prop_assert!(histogram.edges.windows(2).all(|e| e[0] < e[1]));
+            prop_assert!(histogram.counts.len() <= BINS.1);
+        }
+    }
+}

@@ -1,0 +1,154 @@
+use crate::geometry::{Point, Window};
+
+/// Cells a radius is cut into along each side.
+const CELLS_PER_REACH: f64 = 3.;
+
+/// Points sorted into square-ish cells, to visit every pair nearer than a reach in time linear in the number of pairs.
+///
+/// On a torus pairs are those of a point and every image of another one within reach, so that a reach beyond half the
+/// window still sees the whole disk around each point; a point and its own images are no pair.
+pub(super) struct PairGrid {
+    x0: f64,
+    y0: f64,
+    width: f64,
+    height: f64,
+    torus: bool,
+    columns: usize,
+    rows: usize,
+    /// Where each cell begins in the sorted points; one more than there are cells.
+    starts: Vec<usize>,
+    xs: Vec<f64>,
+    ys: Vec<f64>,
+    reach: f64,
+}
+
+impl PairGrid {
+    /// Cells for pairs nearer than `reach`. Points must lie in the window.
+    pub(super) fn new(points: &[Point], window: &Window, torus: bool, reach: f64) -> Self {
+        let bounds = window.bounds();
+        let (x0, y0, width, height) = (bounds.x0(), bounds.y0(), bounds.width(), bounds.height());
+        // No more cells than points, but for a row and a column.
+        let side = (reach / CELLS_PER_REACH).max((width * height / points.len().max(1) as f64).sqrt());
+        let cells_along = |length: f64| ((length / side) as usize).clamp(1, points.len().max(1));
+        let (columns, rows) = (cells_along(width), cells_along(height));
+        let cell_of = |p: &Point| {
+            let column = ((p.x - x0) / width * columns as f64) as usize;
+            let row = ((p.y - y0) / height * rows as f64) as usize;
+            row.min(rows - 1) * columns + column.min(columns - 1)
+        };
+        let mut starts = vec![0; columns * rows + 1];
+        for p in points {
+            starts[cell_of(p) + 1] += 1;
+        }
+        for i in 1..starts.len() {
+            starts[i] += starts[i - 1];
+        }
+        let mut next = starts.clone();
+        let (mut xs, mut ys) = (vec![0.; points.len()], vec![0.; points.len()]);
+        for p in points {
+            let slot = &mut next[cell_of(p)];
+            xs[*slot] = p.x;
+            ys[*slot] = p.y;
+            *slot += 1;
+        }
+        Self { x0, y0, width, height, torus, columns, rows, starts, xs, ys, reach }
+    }
+
+    pub(super) fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Visits each pair once, from the point that lies in one of the cell rows `rows`: the first point, and the way from
+    /// it to the second.
+    pub(super) fn visit(&self, rows: std::ops::Range<usize>, mut pair: impl FnMut(Point, f64, f64)) {
+        let (cell_width, cell_height) = (self.width / self.columns as f64, self.height / self.rows as f64);
+        // Rounding must not leave out a pair at the very reach.
+        let reach = self.reach * (1. + 1e-9);
+        let reach2 = self.reach * self.reach;
+        let mut scan = |from: Point, first: usize, last: usize, shift_x: f64, shift_y: f64| {
+            let (x, y) = (from.x - shift_x, from.y - shift_y);
+            for (px, py) in self.xs[first..last].iter().zip(&self.ys[first..last]) {
+                let (dx, dy) = (px - x, py - y);
+                if dx * dx + dy * dy <= reach2 {
+                    pair(from, dx, dy);
+                }
+            }
+        };
+        let rows_down = (reach / cell_height).floor() as usize + 1;
+        for row in rows {
+            for column in 0..self.columns {
+                let cell = row * self.columns + column;
+                for i in self.starts[cell]..self.starts[cell + 1] {
+                    let from = Point::new(self.xs[i], self.ys[i]);
+                    let (x, y) = (from.x - self.x0, from.y - self.y0);
+                    // Half of the plane: the rest of this row to the right, then the rows below.
+                    scan(from, i + 1, self.starts[cell + 1], 0., 0.);
+                    let right = ((x + reach) / cell_width).floor() as isize;
+                    self.segments(row, column as isize + 1, right, |first, last, shift| {
+                        self.scan_others(i, first, last, shift, 0., from, &mut scan);
+                    });
+                    for down in 1..=rows_down {
+                        let below = row + down;
+                        if !self.torus && below >= self.rows {
+                            break;
+                        }
+                        let gap = (below as f64 * cell_height - y).max(0.);
+                        if gap > reach {
+                            break;
+                        }
+                        let half = (reach * reach - gap * gap).sqrt();
+                        let left = ((x - half) / cell_width).floor() as isize;
+                        let right = ((x + half) / cell_width).floor() as isize;
+                        let shift_y = (below / self.rows) as f64 * self.height;
+                        self.segments(below % self.rows, left, right, |first, last, shift| {
+                            self.scan_others(i, first, last, shift, shift_y, from, &mut scan);
+                        });
+                    }
+                }
+            }
+        }
+    }
+
+    /// Scans sorted points `first..last`, without point `i` (which is among them only as its own image).
+    #[allow(clippy::too_many_arguments)]
+    #[inline]
+    fn scan_others(
+        &self,
+        i: usize,
+        first: usize,
+        last: usize,
+        shift_x: f64,
+        shift_y: f64,
+        from: Point,
+        scan: &mut impl FnMut(Point, usize, usize, f64, f64),
+    ) {
+        if (first..last).contains(&i) {
+            scan(from, first, i, shift_x, shift_y);
+            scan(from, i + 1, last, shift_x, shift_y);
+        } else {
+            scan(from, first, last, shift_x, shift_y);
+        }
+    }
+
+    /// Runs of sorted points in columns `left..=right` of a row, each with the shift of its turn round the torus.
+    #[inline]
+    fn segments(&self, row: usize, left: isize, right: isize, mut run: impl FnMut(usize, usize, f64)) {
+        let columns = self.columns as isize;
+        let begin = row * self.columns;
+        if !self.torus || (left >= 0 && right < columns) {
+            let (left, right) = (left.max(0), right.min(columns - 1));
+            if left <= right {
+                run(self.starts[begin + left as usize], self.starts[begin + right as usize + 1], 0.);
+            }
+            return;
+        }
+        let mut at = left;
+        while at <= right {
+            let turn = at.div_euclid(columns);
+            let last = right.min((turn + 1) * columns - 1);
+            let (a, b) = ((at - turn * columns) as usize, (last - turn * columns) as usize);
+            run(self.starts[begin + a], self.starts[begin + b + 1], turn as f64 * self.width);
+            at = last + 1;
+        }
+    }
+}

@@ -1,0 +1,272 @@
+use crate::geometry::{Point, Window};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{PI, SQRT_2};
+
+/// A trend is called significant below this p-value.
+pub const TREND_LEVEL: f64 = 0.01;
+
+/// Fewest points for which a trend is tested.
+const FEWEST: usize = 20;
+/// Half periods of the waves along one axis alone that measure the scatter of a pattern without trend.
+const NOISE_ALONG_AXIS: std::ops::RangeInclusive<usize> = 3..=8;
+/// Waves along both axes that do the same.
+const NOISE_ACROSS: usize = 12;
+/// Degrees of freedom of the scatter: 2/(2·(4/5)²/12 + 2·(1/5)²/12), rounded down (Satterthwaite 1946).
+const NOISE_FREEDOM: usize = 17;
+/// The slowest waves, in half periods along x and y: together they can follow a linear or quadratic trend.
+const TREND_WAVES: [(usize, usize); 5] = [(1, 0), (0, 1), (2, 0), (1, 1), (0, 2)];
+/// The fitted density is not let below this share of its maximum, where a ratio would mean nothing.
+const LEAST_SHARE: f64 = 0.01;
+
+/// Whether the density of a pattern varies across its window.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Trend {
+    /// Chance of a trend this strong in a pattern without one; `None` for fewer than 20 points.
+    pub p_value: Option<f64>,
+    /// Mean square of the trend's waves over that of the noise's: F(5, 17).
+    pub f: Option<f64>,
+    /// Greatest over least density in the window by a quadratic fit, at most 100. Above 1 by chance alone.
+    pub density_ratio: Option<f64>,
+    /// Change of density from the left to the right edge, as a share of its mean (linear part of the fit).
+    pub change_x: Option<f64>,
+    /// Change of density from the upper to the lower edge, as a share of its mean.
+    pub change_y: Option<f64>,
+    /// p-value below [`TREND_LEVEL`].
+    pub significant: bool,
+}
+
+/// Tests for a trend in density.
+///
+/// A regular pattern scatters far less than a Poisson pattern, so the usual test of quadrat counts against the Poisson
+/// variance sees nothing in it. Here the scatter is estimated from the pattern itself, as in a regression: the
+/// points' sums over cosine waves across the window have, without a trend, zero mean and nearly the same variance (λ
+/// times the structure factor) as long as the waves are much longer than the spacing. The five slowest waves hold
+/// any linear or quadratic trend, the next 24 measure the noise; their ratio of mean squares follows F(5, 17). The
+/// structure factor of a regular pattern may rise with frequency: then trends are reported too rarely, not too often.
+///
+/// The density itself is fitted by a series of Legendre polynomials up to degree 2.
+pub fn trend(points: &[Point], window: &Window) -> Trend {
+    if points.len() < FEWEST || points.iter().any(|p| !p.is_finite()) {
+        return Trend::default();
+    }
+    let bounds = window.bounds();
+    let unit: Vec<(f64, f64)> = points
+        .iter()
+        .map(|p| ((p.x - bounds.x0()) / bounds.width(), (p.y - bounds.y0()) / bounds.height()))
+        .collect();
+
+    let along: Vec<(usize, usize)> = NOISE_ALONG_AXIS.flat_map(|j| [(j, 0), (0, j)]).collect();
+    let across = noise_across(bounds.height() / bounds.width());
+    // Four of the five waves of the trend run along an axis, and so in the noise: the two kinds feel the cut edges of
+    // the window differently.
+    let scatter = 0.8 * mean_square(&unit, &along) + 0.2 * mean_square(&unit, &across);
+    let f = mean_square(&unit, &TREND_WAVES) / scatter;
+    // A lattice that fits its window leaves every sum at rounding: no scatter, no trend.
+    let (f, p_value) = if scatter > 1e-18 * points.len() as f64 {
+        (Some(f), Some(f_tail(f, TREND_WAVES.len(), NOISE_FREEDOM)))
+    } else {
+        (None, Some(1.))
+    };
+
+    let surface = DensityFit::new(&unit);
+    Trend {
+        p_value,
+        f,
+        density_ratio: Some(surface.ratio()),
+        change_x: Some(2. * surface.coefficients[1]),
+        change_y: Some(2. * surface.coefficients[2]),
+        significant: p_value.is_some_and(|p| p < TREND_LEVEL),
+    }
+}
+
+/// The slowest waves along both axes after the trend's, by periods per length in a window of that height over width.
+fn noise_across(aspect: f64) -> Vec<(usize, usize)> {
+    let most = NOISE_ACROSS + 1;
+    let mut modes: Vec<(usize, usize)> = (1..=most)
+        .flat_map(|j| (1..=most).map(move |k| (j, k)))
+        .filter(|m| !TREND_WAVES.contains(m))
+        .collect();
+    let frequency = |&(j, k): &(usize, usize)| (j as f64).powi(2) * aspect + (k as f64).powi(2) / aspect;
+    modes.sort_by(|a, b| frequency(a).total_cmp(&frequency(b)).then(a.cmp(b)));
+    modes.truncate(NOISE_ACROSS);
+    modes
+}
+
+/// Mean square of the points' sums over waves √2cos(jπx) · √2cos(kπy), each of mean square 1 over the unit square.
+fn mean_square(unit: &[(f64, f64)], modes: &[(usize, usize)]) -> f64 {
+    let wave = |i: usize, u: f64| if i == 0 { 1. } else { SQRT_2 * (i as f64 * PI * u).cos() };
+    let sum = |&(j, k): &(usize, usize)| unit.iter().map(|&(u, v)| wave(j, u) * wave(k, v)).sum::<f64>();
+    modes.iter().map(|m| sum(m).powi(2)).sum::<f64>() / modes.len() as f64
+}
+
+/// Density over its mean, 1 + Σ c P_j(2x−1) P_k(2y−1) with 1 ≤ j + k ≤ 2.
+struct DensityFit {
+    /// Of 1, x, y, x², xy, y².
+    coefficients: [f64; 6],
+}
+
+impl DensityFit {
+    const DEGREES: [(i32, i32); 6] = [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)];
+
+    fn term((j, k): (i32, i32), (u, v): (f64, f64)) -> f64 {
+        let legendre = |degree: i32, t: f64| match degree {
+            0 => 1.,
+            1 => t,
+            _ => 1.5 * t * t - 0.5,
+        };
+        legendre(j, 2. * u - 1.) * legendre(k, 2. * v - 1.)
+    }
+
+    fn new(unit: &[(f64, f64)]) -> Self {
+        let coefficients = Self::DEGREES.map(|(j, k)| {
+            let norm = f64::from((2 * j + 1) * (2 * k + 1));
+            norm * unit.iter().map(|&at| Self::term((j, k), at)).sum::<f64>() / unit.len() as f64
+        });
+        Self { coefficients }
+    }
+
+    fn ratio(&self) -> f64 {
+        let steps = 32;
+        let (mut least, mut greatest) = (f64::INFINITY, 0f64);
+        for (i, j) in (0..=steps).flat_map(|i| (0..=steps).map(move |j| (i, j))) {
+            let at = (f64::from(i) / f64::from(steps), f64::from(j) / f64::from(steps));
+            let density: f64 =
+                Self::DEGREES.iter().zip(&self.coefficients).map(|(&d, c)| c * Self::term(d, at)).sum();
+            least = least.min(density);
+            greatest = greatest.max(density);
+        }
+        greatest / least.max(LEAST_SHARE * greatest)
+    }
+}
+
+/// P(F ≥ f) of Fisher's distribution with `a` and `b` degrees of freedom: the regularised incomplete beta function
+/// I_x(b/2, a/2) at x = b/(b + a f) (Abramowitz & Stegun 1964, 26.6.2).
+fn f_tail(f: f64, a: usize, b: usize) -> f64 {
+    let (df1, df2) = (a as f64, b as f64);
+    let x = df2 / (df2 + df1 * f);
+    if x.is_nan() || x <= 0. {
+        return 0.;
+    }
+    let (p, q) = (df2 / 2., df1 / 2.);
+    let log_beta = ln_gamma_of_half(b) + ln_gamma_of_half(a) - ln_gamma_of_half(a + b);
+    let front = (p * x.ln() + q * (-x).ln_1p() - log_beta).exp();
+    // The continued fraction converges fast on one side of the mean only.
+    let value = if x < (p + 1.) / (p + q + 2.) {
+        front * beta_fraction(p, q, x) / p
+    } else {
+        1. - front * beta_fraction(q, p, 1. - x) / q
+    };
+    if value.is_nan() { 1. } else { value.clamp(0., 1.) }
+}
+
+/// ln Γ(k/2) for k ≥ 1, from Γ(1/2) = √π and Γ(1) = 1.
+fn ln_gamma_of_half(k: usize) -> f64 {
+    let (start, base) = if k % 2 == 1 { (1, PI.sqrt().ln()) } else { (2, 0.) };
+    base + (start..k).step_by(2).map(|i| (i as f64 / 2.).ln()).sum::<f64>()
+}
+
+/// Continued fraction of the incomplete beta function (Abramowitz & Stegun 1964, 26.5.8), by Lentz's method.
+fn beta_fraction(p: f64, q: f64, x: f64) -> f64 {
+    let guard = |v: f64| if v.abs() < 1e-300 { 1e-300 } else { v };
+    let mut c = 1.;
+    let mut d = 1. / guard(1. - (p + q) * x / (p + 1.));
+    let mut value = d;
+    for m in 1..300 {
+        let m = f64::from(m);
+        for term in [
+            m * (q - m) * x / ((p + 2. * m - 1.) * (p + 2. * m)),
+            -(p + m) * (p + q + m) * x / ((p + 2. * m) * (p + 2. * m + 1.)),
+        ] {
+            d = 1. / guard(1. + term * d);
+            c = guard(1. + term / c);
+            value *= c * d;
+        }
+        if (c * d - 1.).abs() < 1e-15 {
+            break;
+        }
+    }
+    value
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample::{Sampler, sampler};
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    /// Share of `runs` patterns of about n points in which a trend is reported, thinned linearly so that the density at
+    /// the right edge is `ratio` times lower than at the left.
+    fn reported(sampler: &dyn Sampler, n: usize, window: &Window, ratio: f64, runs: u64) -> f64 {
+        let mean_kept = 0.5 * (1. + 1. / ratio);
+        let bounds = window.bounds();
+        let found = (0..runs).filter(|&seed| {
+            let mut rng = ChaCha8Rng::seed_from_u64(seed);
+            let mut points = sampler.sample((n as f64 / mean_kept) as usize, window, &mut rng).unwrap();
+            points.retain(|p| {
+                let across = (p.x - bounds.x0()) / bounds.width();
+                rng.random::<f64>() < 1. - across * (1. - 1. / ratio)
+            });
+            trend(&points, window).significant
+        });
+        found.count() as f64 / runs as f64
+    }
+
+    #[test]
+    fn false_alarms_stay_at_the_level_for_every_sampler() {
+        let windows = [Window::unit_square(), Window::rectangle(-4., 2., -1., 3.).unwrap()];
+        for (window, n) in windows.iter().flat_map(|w| [80, 300, 1000].map(|n| (w, n))) {
+            for sampler in crate::sample::samplers() {
+                let rate = reported(*sampler, n, window, 1., 300);
+                println!("{} n {n}: {:.1} % false alarms", sampler.name(), 100. * rate);
+                // 1 % expected; 3 % is 3.5 standard deviations above it.
+                assert!(rate <= 0.03, "{} at {n}: {rate}", sampler.name());
+            }
+        }
+        // Neither is it idle: independent points have the level itself.
+        let rate = reported(sampler("uniform").unwrap(), 300, &windows[0], 1., 1500);
+        assert!((0.004..0.018).contains(&rate), "{rate}");
+    }
+
+    #[test]
+    fn thinned_gradients_are_found() {
+        let window = Window::unit_square();
+        for (name, ratio, least) in [("dart-throwing", 2., 0.8), ("bridson", 2., 0.8), ("uniform", 4., 0.8)] {
+            let power = reported(sampler(name).unwrap(), 300, &window, ratio, 200);
+            println!("{name}: ratio {ratio} found in {:.0} %", 100. * power);
+            assert!(power >= least, "{name}: {power}");
+        }
+    }
+
+    #[test]
+    fn fit_tells_the_direction_and_the_ratio_of_a_linear_trend() {
+        // Density falling from 1.5 to .5 of its mean: the distribution is inverted on a fine grid.
+        let side = 200;
+        let points: Vec<Point> = (0..side * side)
+            .map(|i| {
+                let (u, v) = (f64::from(i % side) + 0.5, f64::from(i / side) + 0.5);
+                let u = u / f64::from(side);
+                Point::new(1.5 - (2.25 - 2. * u).sqrt(), v / f64::from(side))
+            })
+            .collect();
+        let trend = trend(&points, &Window::unit_square());
+        assert!((trend.density_ratio.unwrap() - 3.).abs() < 0.01, "{trend:?}");
+        assert!((trend.change_x.unwrap() + 1.).abs() < 0.01 && trend.change_y.unwrap().abs() < 0.01);
+        assert!(trend.significant);
+    }
+
+    #[test]
+    fn few_points_have_no_trend() {
+        assert_eq!(trend(&[Point::new(0.5, 0.5); 19], &Window::unit_square()), Trend::default());
+    }
+
+    #[test]
+    fn tail_of_the_f_distribution_matches_tables() {
+        // Critical values of F(5, 24) at 5 % and 1 %, and of F(2, 10) at 5 %.
+        assert!((f_tail(2.6207, 5, 24) - 0.05).abs() < 1e-5);
+        assert!((f_tail(3.8951, 5, 24) - 0.01).abs() < 1e-5);
+        assert!((f_tail(4.1028, 2, 10) - 0.05).abs() < 1e-5);
+        assert_eq!(f_tail(0., 5, 24), 1.);
+        assert!(f_tail(1e9, 5, 24) < 1e-60);
+    }
+}

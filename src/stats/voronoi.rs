@@ -1,0 +1,291 @@
+use super::{Deviation, Moments, moments};
+use crate::geometry::{Point, Window};
+use crate::mosaic::hexagonal_spacing;
+use serde::{Deserialize, Serialize};
+use spade::handles::VoronoiVertex;
+use spade::{DelaunayTriangulation, Point2, Triangulation};
+
+/// Voronoi vertices nearer than this share of the spacing are one: a side of no length is no side.
+const SAME_VERTEX: f64 = 1e-7;
+/// How far, in spacings, the pattern of a torus is repeated beyond its edges at first.
+const MARGIN: f64 = 5.;
+
+/// The part of the plane nearer to a point than to any other.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Cell {
+    /// In squared units of the coordinates, not clipped; `None` where the cell is infinite, and for a point that
+    /// coincides with an earlier one (which has the cell).
+    pub area: Option<f64>,
+    /// Sides of positive length; 0 where there is no area.
+    pub sides: usize,
+    /// Cooper et al. (2016): the cell is finite and every vertex lies strictly inside the window.
+    pub bound: bool,
+}
+
+/// Voronoi cells of a pattern.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Voronoi {
+    /// One a point, in the order of the points.
+    pub cells: Vec<Cell>,
+}
+
+/// Numbers over the bound cells of a pattern.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VoronoiSummary {
+    /// Cells in all: as many as points.
+    pub n: usize,
+    /// Bound cells.
+    pub bound: usize,
+    /// Per cent of the bound cells that have six sides; `None` without bound cells.
+    pub six_sided_percent: Option<f64>,
+    /// Areas, in squared units of the coordinates.
+    pub area: Moments,
+    /// Standard deviation of the areas over their mean.
+    pub area_cv: Option<f64>,
+    /// Numbers of sides.
+    pub sides: Moments,
+    /// Bound cells over their total area, in points per squared unit of the coordinates.
+    pub density: Option<f64>,
+}
+
+impl Voronoi {
+    /// Numbers over the bound cells; standard deviations with n − 1.
+    pub fn summary(&self) -> VoronoiSummary {
+        let bound: Vec<&Cell> = self.cells.iter().filter(|c| c.bound).collect();
+        let areas: Vec<f64> = bound.iter().filter_map(|c| c.area).collect();
+        let sides: Vec<f64> = bound.iter().map(|c| c.sides as f64).collect();
+        let six = bound.iter().filter(|c| c.sides == 6).count();
+        let area = moments(&areas, Deviation::Sample);
+        VoronoiSummary {
+            n: self.cells.len(),
+            bound: bound.len(),
+            six_sided_percent: (!bound.is_empty()).then(|| 100. * six as f64 / bound.len() as f64),
+            area,
+            area_cv: area.sd.zip(area.mean).map(|(sd, mean)| sd / mean),
+            sides: moments(&sides, Deviation::Sample),
+            density: area.mean.map(f64::recip),
+        }
+    }
+}
+
+/// Voronoi cells by Delaunay triangulation. On a torus the pattern is repeated around the window and every cell is
+/// bound.
+///
+/// Points that are not finite have no cell; where all points lie on a line every cell is infinite.
+pub fn voronoi(points: &[Point], window: &Window) -> Voronoi {
+    let bounds = window.bounds();
+    let Some(spacing) = hexagonal_spacing(points.len(), bounds.area()) else {
+        return Voronoi { cells: Vec::new() };
+    };
+    if !window.is_torus() {
+        let (cells, _) = cells(points, points.len(), window, spacing);
+        return Voronoi { cells };
+    }
+    let (w, h) = (bounds.width(), bounds.height());
+    let repeated_to = |margin: f64| {
+        let mut repeated = points.to_vec();
+        for (i, j) in (-1..=1).flat_map(|i| (-1..=1).map(move |j| (i, j))).filter(|&turn| turn != (0, 0)) {
+            let (dx, dy) = (f64::from(i) * w, f64::from(j) * h);
+            repeated.extend(
+                points
+                    .iter()
+                    .map(|p| Point::new(p.x + dx, p.y + dy))
+                    .filter(|&p| bounds.border_distance(p) >= -margin),
+            );
+        }
+        cells(&repeated, points.len(), window, spacing)
+    };
+    // No image beyond the margin could reach a cell whose vertices are all within half of it.
+    let margin = MARGIN * spacing;
+    let (cells, farthest) = repeated_to(margin);
+    if 2. * farthest <= margin {
+        return Voronoi { cells };
+    }
+    // The pattern and its eight neighbours always suffice: a cell lies in the w × h rectangle around its point, since
+    // the point's own images take the rest, and so does that of a neighbour.
+    Voronoi { cells: repeated_to(f64::INFINITY).0 }
+}
+
+/// Cells of the first `n` points, and the greatest distance of a vertex of theirs from its point (infinite if one is not
+/// finite).
+fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell>, f64) {
+    const NONE: Cell = Cell { area: None, sides: 0, bound: false };
+    let mut cells = vec![NONE; n];
+    let mut farthest = 0f64;
+    let bounds = window.bounds();
+    let side = bounds.width().max(bounds.height());
+    // The triangulation takes a limited range of numbers only: the window becomes the unit square, subnormal 0.
+    let unit = |v: f64, low: f64| {
+        let t = (v - low) / side;
+        if t.abs() < 1e-30 { 0. } else { t }
+    };
+    let mut sites: Vec<(usize, [f64; 2])> = points
+        .iter()
+        .enumerate()
+        .filter(|(_, p)| p.is_finite())
+        .map(|(i, p)| (i, [unit(p.x, bounds.x0()), unit(p.y, bounds.y0())]))
+        .filter(|(_, [x, y])| x.abs() < 1e30 && y.abs() < 1e30)
+        .collect();
+    sites.sort_by(|(i, a), (j, b)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(i.cmp(j)));
+    sites.dedup_by(|later, kept| later.1 == kept.1);
+    sites.sort_unstable_by_key(|(i, _)| *i);
+    let vertices = sites.iter().map(|(_, [x, y])| Point2::new(*x, *y)).collect();
+    let Ok(triangulation) = DelaunayTriangulation::<Point2<f64>>::bulk_load_stable(vertices) else {
+        return (cells, farthest);
+    };
+    let same = SAME_VERTEX * spacing / side;
+    for ((index, site), vertex) in sites.iter().zip(triangulation.vertices()).filter(|((i, _), _)| *i < n) {
+        let mut corners: Vec<[f64; 2]> = Vec::with_capacity(8);
+        let mut finite = true;
+        for edge in vertex.as_voronoi_face().adjacent_edges() {
+            match edge.from() {
+                VoronoiVertex::Inner(face) => {
+                    let c = face.circumcenter();
+                    let at = [c.x, c.y];
+                    if !corners.last().is_some_and(|&last| apart(last, at) <= same) {
+                        corners.push(at);
+                    }
+                }
+                VoronoiVertex::Outer(_) => finite = false,
+            }
+        }
+        while corners.len() > 1 && apart(corners[0], corners[corners.len() - 1]) <= same {
+            corners.pop();
+        }
+        if !finite || corners.len() < 3 {
+            farthest = f64::INFINITY;
+            continue;
+        }
+        let reach = corners.iter().map(|&c| apart(c, *site)).fold(0., f64::max);
+        farthest = farthest.max(reach * side);
+        let twice: f64 = (0..corners.len())
+            .map(|i| {
+                let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
+                // Relative to the point, so that far windows do not cancel.
+                (a[0] - site[0]) * (b[1] - site[1]) - (b[0] - site[0]) * (a[1] - site[1])
+            })
+            .sum();
+        let (right, bottom) = (bounds.width() / side, bounds.height() / side);
+        let inside = corners.iter().all(|c| c[0] > 0. && c[0] < right && c[1] > 0. && c[1] < bottom);
+        cells[*index] = Cell {
+            area: Some(twice.abs() / 2. * side * side),
+            sides: corners.len(),
+            bound: inside || window.is_torus(),
+        };
+    }
+    (cells, farthest)
+}
+
+fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Rectangle;
+    use proptest::prelude::*;
+    use rand::{RngExt, SeedableRng};
+
+    fn uniform(n: usize, seed: u64) -> Vec<Point> {
+        let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(seed);
+        (0..n).map(|_| Point::new(rng.random(), rng.random())).collect()
+    }
+
+    #[test]
+    fn triangular_lattice_has_six_sided_cells_of_equal_area() {
+        let points: Vec<Point> = (0..12)
+            .flat_map(|j| (0..12).map(move |i| (i, j)))
+            .map(|(i, j)| Point::new(f64::from(i) + 0.5 * f64::from(j % 2), f64::from(j) * 3f64.sqrt() / 2.))
+            .collect();
+        let window = Window::rectangle(-0.25, -0.5, 11.75, 10.).unwrap();
+        let summary = voronoi(&points, &window).summary();
+        assert!(summary.bound >= 90, "{}", summary.bound);
+        assert_eq!(summary.six_sided_percent, Some(100.));
+        assert!((summary.area.mean.unwrap() - 3f64.sqrt() / 2.).abs() < 1e-9);
+        assert!(summary.area_cv.unwrap() < 1e-9);
+        assert_eq!(summary.sides.ri, None);
+    }
+
+    #[test]
+    fn square_lattice_has_four_sides_since_sides_without_length_do_not_count() {
+        let points: Vec<Point> =
+            (0..100).map(|i| Point::new(f64::from(i % 10) + 0.5, f64::from(i / 10) + 0.5)).collect();
+        let window = Window::rectangle(0., 0., 10., 10.).unwrap();
+        let cells = voronoi(&points, &window).cells;
+        assert_eq!(cells.iter().filter(|c| c.bound).count(), 64);
+        assert!(
+            cells.iter().filter(|c| c.bound).all(|c| c.sides == 4 && (c.area.unwrap() - 1.).abs() < 1e-9)
+        );
+    }
+
+    #[test]
+    fn cells_of_a_torus_fill_it_and_have_six_sides_on_average() {
+        for n in [1, 2, 3, 10, 300] {
+            for bounds in [(0., 0., 1., 1.), (5., -3., 6., 0.)] {
+                let bounds = Rectangle::new(bounds.0, bounds.1, bounds.2, bounds.3).unwrap();
+                let points: Vec<Point> = uniform(n, n as u64)
+                    .iter()
+                    .map(|p| {
+                        Point::new(bounds.x0() + p.x * bounds.width(), bounds.y0() + p.y * bounds.height())
+                    })
+                    .collect();
+                let cells = voronoi(&points, &Window::Torus(bounds)).cells;
+                assert!(cells.iter().all(|c| c.bound));
+                let area: f64 = cells.iter().filter_map(|c| c.area).sum();
+                assert!((area / bounds.area() - 1.).abs() < 1e-9, "{n}: {area}");
+                let sides: usize = cells.iter().map(|c| c.sides).sum();
+                // A single point has the rectangle of its own images.
+                assert_eq!(sides, if n == 1 { 4 } else { 6 * n });
+            }
+        }
+    }
+
+    #[test]
+    fn clustered_points_on_a_torus_still_fill_it() {
+        let points: Vec<Point> =
+            uniform(400, 1).iter().map(|p| Point::new(0.02 * p.x + 0.4, 0.02 * p.y)).collect();
+        let cells = voronoi(&points, &Window::unit_torus()).cells;
+        let area: f64 = cells.iter().filter_map(|c| c.area).sum();
+        assert!((area - 1.).abs() < 1e-6, "{area}");
+    }
+
+    #[test]
+    fn points_on_a_line_or_fewer_than_three_have_no_finite_cell() {
+        let line: Vec<Point> = (0..9).map(|i| Point::new(0.1 * f64::from(i), 0.05 * f64::from(i))).collect();
+        for points in [&line[..], &line[..2], &line[..1], &[]] {
+            let voronoi = voronoi(points, &Window::unit_square());
+            assert_eq!(voronoi.cells.len(), points.len());
+            assert!(voronoi.cells.iter().all(|c| !c.bound && c.area.is_none()));
+            assert_eq!(voronoi.summary().six_sided_percent, None);
+        }
+    }
+
+    #[test]
+    fn a_point_that_coincides_with_another_leaves_the_cells_as_they_were() {
+        let mut points = uniform(80, 2);
+        let before = voronoi(&points, &Window::unit_square()).cells;
+        points.insert(40, points[7]);
+        let mut after = voronoi(&points, &Window::unit_square()).cells;
+        assert_eq!(after.remove(40), Cell { area: None, sides: 0, bound: false });
+        for (a, b) in before.iter().zip(&after) {
+            assert_eq!((a.sides, a.bound), (b.sides, b.bound));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn any_small_pattern_has_a_cell_per_point_and_bound_cells_fit_the_window(
+            raw in prop::collection::vec((0..7u8, 0..7u8), 0..40), torus: bool, stretch in 1e-6..1e6f64,
+        ) {
+            let bounds = Rectangle::new(0., 0., 6. * stretch, 6.).unwrap();
+            let window = if torus { Window::Torus(bounds) } else { Window::Rectangle(bounds) };
+            let points: Vec<Point> =
+                raw.iter().map(|&(x, y)| Point::new(f64::from(x) * stretch, f64::from(y))).collect();
+            let cells = voronoi(&points, &window).cells;
+            prop_assert_eq!(cells.len(), points.len());
+            let total: f64 = cells.iter().filter(|c| c.bound).filter_map(|c| c.area).sum();
+            prop_assert!(torus || total <= bounds.area() * (1. + 1e-6), "{} of {}", total, bounds.area());
+        }
+    }
+}

@@ -1,0 +1,225 @@
+//! Point sets, mean curves and Voronoi numbers of independent programs, from `../shared/oracle`.
+
+use conemosaic::compare::l_infinity;
+use conemosaic::geometry::{Point, Window};
+use conemosaic::sample::sampler;
+use conemosaic::stats::{
+    Deviation, EdgeCorrection, Pcf, PcfOptions, moments, nearest_neighbours, pcf, voronoi,
+};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use std::f64::consts::{PI, TAU};
+use std::path::PathBuf;
+
+fn oracle(what: &str, name: &str) -> Option<Vec<csv::StringRecord>> {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/oracle").join(name);
+    if !path.exists() {
+        println!("SKIPPED {what}: ../shared is not here");
+        return None;
+    }
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_path(path).unwrap();
+    Some(reader.records().map(Result::unwrap).collect())
+}
+
+fn point_set(what: &str, name: &str) -> Option<Vec<Point>> {
+    let number = |v: &str| v.parse::<f64>().unwrap();
+    let rows = oracle(what, name)?;
+    Some(rows[1..].iter().map(|row| Point::new(number(&row[0]), number(&row[1]))).collect())
+}
+
+const POINT_SETS: [&str; 11] = [
+    "aa_green_1024_paper_exact_1",
+    "aa_green_512_paper_exact_1",
+    "aa_pink_1024_paper_exact_1",
+    "aa_pink_512_paper_exact_1",
+    "bnot_bounded_converged_1024_1",
+    "bnot_bounded_default_1024_1",
+    "bnot_bounded_default_1050_1",
+    "bridson_correct_torus_1024_1",
+    "dart_v1_1024_1",
+    "stratified_1024_1",
+    "white_1024_1",
+];
+
+/// Every pair, as the definitions say.
+fn nearest_directly(points: &[Point]) -> Vec<f64> {
+    let to_others = |i: usize| {
+        points.iter().enumerate().filter(move |&(j, _)| j != i).map(move |(_, q)| points[i].distance(*q))
+    };
+    (0..points.len()).map(|i| to_others(i).fold(f64::INFINITY, f64::min)).collect()
+}
+
+#[test]
+fn regularity_index_of_the_oracle_point_sets_is_that_of_all_pairs() {
+    let window = Window::unit_square();
+    for name in POINT_SETS {
+        let Some(points) = point_set("regularity index", &format!("samplers/{name}.csv")) else { return };
+        let direct = nearest_directly(&points);
+        let n = direct.len() as f64;
+        let mean = direct.iter().sum::<f64>() / n;
+        let sd = (direct.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / n).sqrt();
+        let ri = moments(&nearest_neighbours(&points, &window).distances, Deviation::Population).ri.unwrap();
+        assert!((ri - mean / sd).abs() < 1e-9, "{name}: {ri}");
+    }
+}
+
+/// METHODS §3: the paper's green and pink indexes, with all distances.
+#[test]
+fn regularity_index_of_green_and_pink_is_the_published_one() {
+    let mut found = Vec::new();
+    for name in &POINT_SETS[..4] {
+        let Some(points) = point_set("published regularity index", &format!("samplers/{name}.csv")) else {
+            return;
+        };
+        let nearest = nearest_neighbours(&points, &Window::unit_square());
+        found.push(moments(&nearest.distances, Deviation::Population).ri.unwrap());
+    }
+    found.sort_by(f64::total_cmp);
+    for (ri, published) in found.iter().zip([1.3101, 1.3749, 1.4198, 1.4331]) {
+        assert!((ri - published).abs() < 5e-5, "{ri}, published {published}");
+    }
+}
+
+#[test]
+fn pair_correlation_of_the_oracle_point_sets_is_that_of_all_pairs() {
+    for name in POINT_SETS {
+        let Some(points) = point_set("pair correlation", &format!("samplers/{name}.csv")) else { return };
+        let curve = pcf(&points, &Window::unit_square(), &PcfOptions::default()).unwrap();
+        let n = points.len() as f64;
+        let s = (2. / (3f64.sqrt() * n)).sqrt();
+        let sigma = 0.1 * s;
+        let mut distances = Vec::new();
+        for (i, p) in points.iter().enumerate() {
+            distances.extend(points[..i].iter().map(|q| p.distance(*q)).filter(|d| *d < 3.2 * s));
+        }
+        for (b, &g) in curve.g.iter().enumerate() {
+            let r = (0.15 + b as f64 * 2.35 / 200.) * s;
+            let sum: f64 = distances.iter().map(|d| (-0.5 * ((r - d) / sigma).powi(2)).exp()).sum();
+            let kernel = 2. * sum / (TAU.sqrt() * sigma);
+            let expected = kernel / (n * (n - 1.) * TAU * r * (1. - 4. * r / PI + r * r / PI));
+            assert!((g - expected).abs() < 1e-6, "{name} at {r}: {g}, expected {expected}");
+        }
+    }
+}
+
+/// Mean of our sampler's curves over `seeds` patterns of 1024 points.
+fn mean_curve(name: &str, seeds: u64) -> Pcf {
+    let window = Window::unit_square();
+    let curves: Vec<Pcf> = (0..seeds)
+        .map(|seed| {
+            let mut rng = ChaCha8Rng::seed_from_u64(seed);
+            let points = sampler(name).unwrap().sample(1024, &window, &mut rng).unwrap();
+            pcf(&points, &window, &PcfOptions::default()).unwrap()
+        })
+        .collect();
+    let mean = |bin: usize| curves.iter().map(|c| c.g[bin]).sum::<f64>() / seeds as f64;
+    Pcf { g: (0..200).map(mean).collect(), ..curves[0].clone() }
+}
+
+#[test]
+fn mean_curves_of_samplers_agree_with_those_of_another_program() {
+    let Some(rows) = oracle("mean pair correlation of samplers", "samplers/pcf_mean.csv") else { return };
+    for (name, column) in [
+        ("uniform", "white_1024"),
+        ("jittered", "jitter_1024"),
+        ("dart-throwing", "dart_throwing_1024"),
+        ("bridson", "bridson_1024"),
+    ] {
+        let index = rows[0].iter().position(|c| c == column).unwrap();
+        let ours = mean_curve(name, 24);
+        let of = |column: usize| rows[1..].iter().map(move |row| row[column].parse::<f64>().unwrap());
+        // The oracle's distances are printed to six digits.
+        assert!(of(0).zip(&ours.r).all(|(a, b)| (a - b).abs() < 1e-5));
+        let theirs = Pcf { g: of(index).collect(), ..ours.clone() };
+        let distance = l_infinity(&ours, &theirs).unwrap();
+        println!("{name}: l-infinity {distance:.4} to {column}");
+        assert!(distance <= 0.05, "{name}: {distance}");
+    }
+}
+
+#[test]
+fn edge_corrections_agree_within_a_hundredth() {
+    for name in ["bnot_bounded_converged_1024_1", "dart_v1_1024_1"] {
+        let Some(points) = point_set("edge corrections", &format!("samplers/{name}.csv")) else { return };
+        let window = Window::unit_square();
+        let curve = |edge| pcf(&points, &window, &PcfOptions { edge, ..PcfOptions::default() }).unwrap();
+        let default = curve(EdgeCorrection::SetCovariance);
+        for edge in [EdgeCorrection::Translation, EdgeCorrection::Isotropic] {
+            let distance = l_infinity(&default, &curve(edge)).unwrap();
+            assert!(distance < 0.01, "{name} {edge:?}: {distance}");
+        }
+    }
+}
+
+/// Distances and areas by spatstat, window [.5, 150.5]².
+#[test]
+fn nearest_neighbours_and_inner_cells_agree_with_spatstat() {
+    for name in ["m1_confocal", "m3_confocal"] {
+        let file = format!("metrics/{name}.spatstat_points_jittered.csv");
+        let Some(rows) = oracle("spatstat's distances and areas", &file) else { return };
+        let number = |row: &csv::StringRecord, column: usize| row[column].parse::<f64>().unwrap();
+        let points: Vec<Point> = rows[1..].iter().map(|r| Point::new(number(r, 0), number(r, 1))).collect();
+        let window = Window::rectangle(0.5, 0.5, 150.5, 150.5).unwrap();
+        let nearest = nearest_neighbours(&points, &window);
+        let cells = voronoi(&points, &window).cells;
+        for (i, row) in rows[1..].iter().enumerate() {
+            assert!((nearest.distances[i] - number(row, 2)).abs() < 1e-9);
+            if &row[8] == "FALSE" {
+                assert!((cells[i].area.unwrap() / number(row, 5) - 1.).abs() < 1e-6, "{name} point {i}");
+            }
+        }
+    }
+}
+
+/// METHODS §6: Metricks on jittered points, strictly inside [0, 150]².
+#[test]
+fn bound_cells_agree_with_metricks() {
+    struct Expected {
+        um_per_px: f64,
+        n: usize,
+        bound: usize,
+        density_per_mm2: f64,
+        six_sided: f64,
+        area_ri: f64,
+        sides_ri: f64,
+    }
+    for (name, expected) in [
+        (
+            "m1_confocal",
+            Expected {
+                um_per_px: 0.3936,
+                n: 218,
+                bound: 164,
+                density_per_mm2: 60596.9816831,
+                six_sided: 73.1707317073,
+                area_ri: 8.20684575219,
+                sides_ri: 11.5141453007,
+            },
+        ),
+        (
+            "m3_confocal",
+            Expected {
+                um_per_px: 0.4746,
+                n: 381,
+                bound: 311,
+                density_per_mm2: 73145.6339033,
+                six_sided: 80.0643086817,
+                area_ri: 6.9715993504,
+                sides_ri: 13.4034183306,
+            },
+        ),
+    ] {
+        let Some(mut points) = point_set("Metricks' bound cells", &format!("metrics/{name}.jittered.csv"))
+        else {
+            return;
+        };
+        points.retain(|p| p.x > 0. && p.y > 0. && p.x < 150. && p.y < 150.);
+        let summary = voronoi(&points, &Window::rectangle(0., 0., 150., 150.).unwrap()).summary();
+        assert_eq!((summary.n, summary.bound), (expected.n, expected.bound), "{name}");
+        let density = summary.density.unwrap() * 1e6 / expected.um_per_px.powi(2);
+        assert!((density / expected.density_per_mm2 - 1.).abs() < 1e-9, "{name}: {density}");
+        assert!((summary.six_sided_percent.unwrap() - expected.six_sided).abs() < 1e-9);
+        assert!((summary.area.ri.unwrap() - expected.area_ri).abs() < 1e-8);
+        assert!((summary.sides.ri.unwrap() - expected.sides_ri).abs() < 1e-8);
+    }
+}
