@@ -3,9 +3,8 @@
 use super::flatten::normalise;
 use super::spacing::RingProfile;
 use super::{Detection, Modality, Polarity, filter, local_maxima, suppress};
-use crate::geometry::Window;
+use crate::geometry::{Window, nearest_neighbours};
 use crate::image::{Plane, gaussian};
-use crate::stats::nearest_neighbours;
 
 /// Anisotropy of the ring above which an image shows a derivative along x. Hand-marked images: confocal at most .06,
 /// split at least .24, whatever gamma, noise or polarity is applied to them; simulated discs reach .17.
@@ -67,18 +66,15 @@ fn decide_polarity(flat: &Plane, modality: Modality, spacing: f64) -> Polarity {
     if evidence >= 0. { Polarity::Positive } else { Polarity::Negative }
 }
 
+/// Mean over standard deviation of the maxima's nearest-neighbour distances; 0 where it is not defined.
 fn regularity_index(maxima: &[Detection], (height, width): (usize, usize)) -> f64 {
     let points: Vec<_> = maxima.iter().map(|d| d.centre).collect();
-    Window::of_image(width, height)
-        .ok()
-        .and_then(|window| {
-            crate::stats::moments(
-                &nearest_neighbours(&points, &window).distances,
-                crate::stats::Deviation::Sample,
-            )
-            .ri
-        })
-        .unwrap_or(0.)
+    let Ok(window) = Window::of_image(width, height) else { return 0. };
+    let distances = nearest_neighbours(&points, &window).distances;
+    let n = distances.len() as f64;
+    let mean = distances.iter().sum::<f64>() / n;
+    let variance = distances.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.);
+    if variance > 0. { mean / variance.sqrt() } else { 0. }
 }
 
 /// Third and fourth standardised moments.

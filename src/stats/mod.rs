@@ -12,10 +12,11 @@ mod pcf;
 mod trend;
 mod voronoi;
 
+pub use crate::geometry::{NearestNeighbours, nearest_neighbours};
 pub use error::StatsError;
 pub use histogram::Histogram;
 pub use measure::{MeasureOptions, Measures, measure};
-pub use nearest::{Deviation, Moments, NearestNeighbours, interior, moments, nearest_neighbours};
+pub use nearest::{Deviation, Moments, interior, moments};
 pub(crate) use pcf::pcf_on_one_thread;
 pub use pcf::{EdgeCorrection, Kernel, Pcf, PcfOptions, pcf};
 pub use trend::{TREND_LEVEL, Trend, trend};
