@@ -126,7 +126,7 @@ fn mean_curves_of_samplers_agree_with_those_of_another_program() {
         ("bridson", "bridson_1024"),
     ] {
         let index = rows[0].iter().position(|c| c == column).unwrap();
-        let ours = mean_curve(name, 24);
+        let ours = mean_curve(name, 40);
         let of = |column: usize| rows[1..].iter().map(move |row| row[column].parse::<f64>().unwrap());
         // The oracle's distances are printed to six digits.
         assert!(of(0).zip(&ours.r).all(|(a, b)| (a - b).abs() < 1e-5));
@@ -137,18 +137,33 @@ fn mean_curves_of_samplers_agree_with_those_of_another_program() {
     }
 }
 
+/// METHODS §4 says .007 at n = 300 and −.18 at the first peak without correction, of a pattern it does not name. Dart
+/// throwing gives .0076 and .0078 (40 seeds), hence .01 here; its peak is lower, and 6.7 % of it is .107.
 #[test]
-fn edge_corrections_agree_within_a_hundredth() {
-    for name in ["bnot_bounded_converged_1024_1", "dart_v1_1024_1"] {
-        let Some(points) = point_set("edge corrections", &format!("samplers/{name}.csv")) else { return };
-        let window = Window::unit_square();
-        let curve = |edge| pcf(&points, &window, &PcfOptions { edge, ..PcfOptions::default() }).unwrap();
-        let default = curve(EdgeCorrection::SetCovariance);
-        for edge in [EdgeCorrection::Translation, EdgeCorrection::Isotropic] {
-            let distance = l_infinity(&default, &curve(edge)).unwrap();
-            assert!(distance < 0.01, "{name} {edge:?}: {distance}");
+fn edge_corrections_agree_on_average_and_none_is_low_at_the_peak() {
+    let window = Window::unit_square();
+    let seeds = 40;
+    let mean = |edge| {
+        let mut sum = vec![0.; 200];
+        for seed in 0..seeds {
+            let mut rng = ChaCha8Rng::seed_from_u64(seed);
+            let points = sampler("dart-throwing").unwrap().sample(300, &window, &mut rng).unwrap();
+            let curve = pcf(&points, &window, &PcfOptions { edge, ..PcfOptions::default() }).unwrap();
+            sum.iter_mut().zip(&curve.g).for_each(|(s, g)| *s += g / seeds as f64);
         }
+        sum
+    };
+    let default = mean(EdgeCorrection::SetCovariance);
+    let worst = |g: &[f64]| g.iter().zip(&default).map(|(a, b)| (a - b).abs()).fold(0., f64::max);
+    for edge in [EdgeCorrection::Translation, EdgeCorrection::Isotropic] {
+        let distance = worst(&mean(edge));
+        println!("{edge:?}: {distance:.4}");
+        assert!(distance < 0.01, "{edge:?}: {distance}");
     }
+    let peak = (0..200).max_by(|&a, &b| default[a].total_cmp(&default[b])).unwrap();
+    let bias = mean(EdgeCorrection::None)[peak] - default[peak];
+    println!("none at the peak: {bias:.3}");
+    assert!((-0.12..-0.095).contains(&bias), "{bias}");
 }
 
 /// Distances and areas by spatstat, window [.5, 150.5]².

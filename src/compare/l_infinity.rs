@@ -50,8 +50,8 @@ pub enum CompareError {
 /// l-infinity distance of two pair correlation functions: max |g₁ − g₂| over the bins (Öztireli & Gross 2012).
 ///
 /// Distances are in hexagonal spacings, so patterns of different densities and units compare. Set covariance,
-/// translation, isotropic and torus corrections estimate the same function (they agree within .007 at 300 points) and may
-/// be mixed; an uncorrected curve compares only with another one.
+/// translation, isotropic and torus corrections estimate the same function (on average they agree within .01 at 300
+/// points) and may be mixed; an uncorrected curve compares only with another one.
 ///
 /// # Errors
 /// If the curves are not on the same distances, or differ in kernel or bandwidth, or only one is corrected for edges.

@@ -388,9 +388,10 @@ mod tests {
             let answers: Vec<_> = pool.install(|| {
                 (0..200).into_par_iter().map(|i| shared.curves(40 + i % 3, &Window::unit_torus())).collect()
             });
-            let (whole, square) = (answers.len(), Window::Torus(Rectangle::new(0., 0., 1., 1.).unwrap()));
-            let again = shared.curves(40, &square).unwrap();
-            assert_eq!(whole, answers.iter().filter(|a| **a == Ok(Arc::clone(&again)) || a.is_ok()).count());
+            // Private work and shared work come to the same curves.
+            for (i, answer) in answers.iter().enumerate() {
+                assert_eq!(answer, &shared.curves(40 + i % 3, &Window::unit_torus()), "question {i}");
+            }
         }
     }
 
