@@ -1,19 +1,19 @@
 //! Reading PNG and TIFF as one grey plane, padding, Gaussian and Fourier filters. Knows nothing of cones.
 
+mod error;
 mod fourier;
 mod gaussian;
+mod imaged;
 mod pad;
-
-pub(crate) use fourier::signed_frequency;
-pub use fourier::{Spectrum, fast_length};
-pub use gaussian::gaussian;
-pub use pad::{crop, mirror, reflect_pad};
-
-mod error;
 mod read;
 mod write;
 
 pub use error::ImageError;
+pub(crate) use fourier::signed_frequency;
+pub use fourier::{Spectrum, fast_length};
+pub use gaussian::gaussian;
+pub use imaged::empty_fraction;
+pub use pad::{crop, mirror, reflect_pad};
 pub use read::{MAX_PIXELS, decode, is_image_path, read};
 pub use write::{BitDepth, write_grey, write_png, write_rgb_png, write_tiff};
 

@@ -4,6 +4,8 @@ mod confocal;
 mod histology;
 mod split;
 
+pub(super) use histology::{blobs, evened};
+
 use crate::detect::{Modality, Polarity};
 use crate::image::Plane;
 
