@@ -10,6 +10,7 @@
 pub mod batch;
 pub mod compare;
 pub mod detect;
+pub mod files;
 pub mod geometry;
 pub mod image;
 pub mod mosaic;

@@ -1,5 +1,5 @@
 use super::BatchError;
-use crate::mosaic::io::write_atomically;
+use crate::files::write_atomically;
 use crate::report::{Cell, write_csv};
 use std::fs;
 use std::io::{self, Write};
@@ -24,7 +24,9 @@ impl OutputFolder {
     }
 
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), BatchError> {
-        Ok(write_atomically(&self.join(name), |writer| writer.write_all(bytes))?)
+        let path = self.join(name);
+        write_atomically(&path, |writer| writer.write_all(bytes))
+            .map_err(|source| BatchError::Output { path, source })
     }
 
     pub fn write_table(&self, name: &str, header: &[String], rows: &[Vec<Cell>]) -> Result<(), BatchError> {

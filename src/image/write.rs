@@ -1,11 +1,10 @@
 use super::error::one_line;
 use super::{ImageError, Plane};
+use crate::files::write_atomically;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder, RgbImage};
-use std::fs::{self, OpenOptions};
 use std::io::{self, Cursor, Write};
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::path::Path;
 use tiff::encoder::{TiffEncoder, colortype};
 
 /// Bits of a grey value in a file.
@@ -105,26 +104,6 @@ fn unwritable(path: &Path, source: io::Error) -> ImageError {
     ImageError::Write { name: path.display().to_string(), source }
 }
 
-/// Writes beside the file, then renames: a reader sees the old file or the new one, never half of either.
 fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), ImageError> {
-    let (mut file, beside) = open_beside(path).map_err(|e| unwritable(path, e))?;
-    let written = file.write_all(bytes).and_then(|()| file.flush());
-    drop(file);
-    written.and_then(|()| fs::rename(&beside, path)).map_err(|e| {
-        // What cannot be removed either was reported by the error that led here.
-        let _ = fs::remove_file(&beside);
-        unwritable(path, e)
-    })
-}
-
-/// A new file in the same folder, so that renaming it does not copy it.
-fn open_beside(path: &Path) -> io::Result<(fs::File, PathBuf)> {
-    static COUNT: AtomicU64 = AtomicU64::new(0);
-    let name = path.file_name().ok_or_else(|| io::Error::from(io::ErrorKind::InvalidInput))?;
-    let mut hidden = std::ffi::OsString::from(".");
-    hidden.push(name);
-    hidden.push(format!(".{}-{}.part", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed)));
-    let beside = path.with_file_name(hidden);
-    let file = OpenOptions::new().write(true).create_new(true).open(&beside)?;
-    Ok((file, beside))
+    write_atomically(path, |writer| writer.write_all(bytes)).map_err(|e| unwritable(path, e))
 }

@@ -2,7 +2,6 @@
 //!
 //! Whatever a file counts from, [`read_coordinates`] gives pixels from 0 at the centre of the top-left pixel.
 
-mod atomic;
 mod cells;
 mod delimited;
 mod error;
@@ -15,7 +14,6 @@ mod text;
 mod webplotdigitizer;
 mod write;
 
-pub use atomic::write_atomically;
 pub use error::{Place, ReadError, ReadFault, WriteError};
 pub use origin::Origin;
 pub use read::{CoordinateFile, Dialect, ReadOptions, Series, read_coordinates, read_from};

@@ -1,4 +1,5 @@
-use super::{WriteError, write_atomically};
+use super::WriteError;
+use crate::files::write_atomically;
 use crate::geometry::Point;
 use crate::mosaic::Scale;
 use std::fmt::Write as _;
@@ -18,7 +19,7 @@ pub fn write_points(
 ) -> Result<(), WriteError> {
     check(path, points, scores)?;
     let text = format_points(points, scores, scale);
-    write_atomically(path, |writer| writer.write_all(text.as_bytes()))
+    write_text(path, &text)
 }
 
 /// Writes points without a unit as CSV, `x,y`, whole or not at all.
@@ -28,7 +29,12 @@ pub fn write_points(
 pub fn write_plain_points(path: &Path, points: &[Point]) -> Result<(), WriteError> {
     check(path, points, None)?;
     let text = format_plain_points(points);
+    write_text(path, &text)
+}
+
+fn write_text(path: &Path, text: &str) -> Result<(), WriteError> {
     write_atomically(path, |writer| writer.write_all(text.as_bytes()))
+        .map_err(|source| WriteError::Io { file: path.to_owned(), source })
 }
 
 /// The text that [`write_points`] writes. Missing scores are left out.

@@ -1,4 +1,5 @@
-use super::WriteError;
+//! Files appear whole or not at all.
+
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -12,11 +13,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub fn write_atomically(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> Result<(), WriteError> {
-    attempt(path, write).map_err(|source| WriteError::Io { file: path.to_owned(), source })
-}
-
-fn attempt(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+) -> io::Result<()> {
     if fs::metadata(path).is_ok_and(|m| !m.is_file() && !m.is_dir()) {
         let mut writer = BufWriter::new(OpenOptions::new().write(true).open(path)?);
         write(&mut writer)?;
