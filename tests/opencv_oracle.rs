@@ -1,0 +1,267 @@
+//! Detection, stage by stage, against the same stages written with OpenCV (`scripts/opencv_oracle.py`).
+
+use conemosaic::detect::{
+    Criterion, DetectOptions, Detection, Detections, detect, flatten, local_maxima, response, suppress,
+};
+use conemosaic::geometry::Point;
+use conemosaic::image::{Plane, is_image_path, read};
+use std::collections::HashSet;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::LazyLock;
+
+/// Planes agree within this part of their range: above σ = 16 px, Gaussians are not summed pixel by pixel.
+const PLANE: f32 = 1e-3;
+/// A maximum that only one side sees is a tie if it stands out from its neighbours, or from the threshold, by no more
+/// than this part of the range: five times what rounding to `f32` was measured to do.
+const TIE: f32 = 1e-4;
+/// So many of the maxima may be ties.
+const TIES: f64 = 0.01;
+/// How near a cone of one side must be to one of the other, px.
+const NEAR: f64 = 0.25;
+/// So many of the cones must be.
+const AGREEMENT: f64 = 0.995;
+/// The same maximum of the same plane, px: what rounding does to a parabola.
+const SAME: f64 = 1e-3;
+
+/// The Python to run the oracle with. One that is asked for by CONEMOSAIC_PYTHON must be there.
+fn python() -> Option<PathBuf> {
+    if let Some(python) = std::env::var_os("CONEMOSAIC_PYTHON").filter(|p| !p.is_empty()) {
+        return Some(python.into());
+    }
+    let usual = Path::new(env!("CARGO_MANIFEST_DIR")).join(".venv/bin/python");
+    usual.exists().then_some(usual)
+}
+
+struct Case {
+    name: String,
+    path: PathBuf,
+    image: Plane,
+    found: Detections,
+}
+
+fn cases() -> Vec<Case> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/images");
+    let mut paths: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+    paths.retain(|p| is_image_path(p));
+    paths.sort();
+    let case = |path: PathBuf| {
+        let image = read(&path).unwrap();
+        let found = detect(&image, &DetectOptions::default()).unwrap();
+        Case { name: path.file_stem().unwrap().to_string_lossy().into_owned(), path, image, found }
+    };
+    paths.into_iter().map(case).collect()
+}
+
+fn ask_oracle(python: &Path, cases: &[Case], out: &Path) {
+    let mut jobs = String::from("name,path,modality,polarity,spacing\n");
+    for Case { name, path, found, .. } in cases {
+        let Detections { modality, polarity, spacing, .. } = found;
+        writeln!(jobs, "{name},\"{}\",{modality},{},{spacing}", path.display(), polarity.name()).unwrap();
+    }
+    fs::write(out.join("jobs.csv"), jobs).unwrap();
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts/opencv_oracle.py");
+    let done = Command::new(python).arg(script).arg(out.join("jobs.csv")).arg(out).output().unwrap();
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+}
+
+fn plane(path: PathBuf, like: &Plane) -> Plane {
+    let bytes = fs::read(path).unwrap();
+    let values = bytes.as_chunks().0.iter().map(|b| f32::from_le_bytes(*b)).collect();
+    Plane::from_shape_vec(like.dim(), values).unwrap()
+}
+
+fn rows<const N: usize>(path: PathBuf) -> Vec<[f64; N]> {
+    let text = fs::read_to_string(path).unwrap();
+    let row = |line: &str| {
+        let cells: Vec<f64> = line.split(',').map(|c| c.parse().unwrap()).collect();
+        <[f64; N]>::try_from(cells).unwrap()
+    };
+    text.lines().skip(1).map(row).collect()
+}
+
+fn range(plane: &Plane) -> f32 {
+    let (low, high) =
+        plane.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
+    high - low
+}
+
+/// Largest difference, as a part of the oracle's range.
+fn difference(ours: &Plane, oracle: &Plane) -> f32 {
+    ours.iter().zip(oracle).map(|(a, b)| (a - b).abs()).fold(0., f32::max) / range(oracle)
+}
+
+/// How far a pixel stands out from its highest neighbour and from the threshold.
+fn prominence(plane: &Plane, row: usize, column: usize, threshold: f32) -> f32 {
+    let (h, w) = plane.dim();
+    let neighbours = (row.saturating_sub(1)..(row + 2).min(h))
+        .flat_map(|j| (column.saturating_sub(1)..(column + 2).min(w)).map(move |i| (j, i)))
+        .filter(|&p| p != (row, column));
+    plane[[row, column]] - neighbours.map(|p| plane[p]).fold(threshold, f32::max)
+}
+
+/// The pixel that a maximum was found at: its centre lies half a pixel away at most.
+fn pixel_of(d: &Detection, response: &Plane) -> (usize, usize) {
+    let around = |v: f64| [v.floor().max(0.) as usize, v.ceil() as usize];
+    around(d.centre.y)
+        .into_iter()
+        .flat_map(|row| around(d.centre.x).map(|column| (row, column)))
+        .find(|&p| response.get(p).is_some_and(|&v| f64::from(v) == d.score))
+        .expect("the score of a maximum is the response at its pixel")
+}
+
+/// One image, as both sides see it.
+struct Compared {
+    name: String,
+    image: Plane,
+    flat: Plane,
+    response: Plane,
+    criterion: Criterion,
+    radius: f64,
+    oracle_image: Plane,
+    oracle_flat: Plane,
+    oracle_response: Plane,
+    /// Column, row, x, y, score.
+    oracle_maxima: Vec<[f64; 5]>,
+    /// x, y, score.
+    oracle_cones: Vec<[f64; 3]>,
+}
+
+/// Every fixture, or nothing where there is no OpenCV.
+fn compared() -> &'static [Compared] {
+    static COMPARED: LazyLock<Vec<Compared>> = LazyLock::new(|| {
+        let Some(python) = python() else {
+            println!("SKIPPED opencv oracle: no Python with OpenCV here, run scripts/test");
+            return Vec::new();
+        };
+        let cases = cases();
+        assert!(cases.len() >= 8, "only {} images in fixtures/images", cases.len());
+        let out = tempfile::tempdir().unwrap();
+        ask_oracle(&python, &cases, out.path());
+        let compare = |Case { name, image, found, .. }: Case| {
+            let file = |stage: &str| out.path().join(format!("{name}.{stage}"));
+            let (response, criterion) = response(&image, found.modality, found.polarity, found.spacing);
+            Compared {
+                flat: flatten(&image),
+                response,
+                criterion,
+                radius: criterion.suppression * found.spacing,
+                oracle_image: plane(file("image"), &image),
+                oracle_flat: plane(file("flat"), &image),
+                oracle_response: plane(file("response"), &image),
+                oracle_maxima: rows(file("maxima.csv")),
+                oracle_cones: rows(file("detections.csv")),
+                name,
+                image,
+            }
+        };
+        cases.into_iter().map(compare).collect()
+    });
+    &COMPARED
+}
+
+#[test]
+fn images_are_read_as_opencv_reads_them() {
+    for c in compared() {
+        assert_eq!(c.image, c.oracle_image, "{}", c.name);
+    }
+}
+
+#[test]
+fn flattened_images_agree_with_opencv() {
+    for c in compared() {
+        let off = difference(&c.flat, &c.oracle_flat);
+        println!("{}: flattened image off by {off:.1e} of its range", c.name);
+        assert!(off < PLANE, "{}: {off}", c.name);
+    }
+}
+
+#[test]
+fn responses_agree_with_opencv() {
+    for c in compared() {
+        let off = difference(&c.response, &c.oracle_response);
+        println!("{}: response off by {off:.1e} of its range", c.name);
+        assert!(off < PLANE, "{}: {off}", c.name);
+    }
+}
+
+#[test]
+fn one_response_has_the_same_maxima_by_opencv() {
+    for c in compared() {
+        let ours = local_maxima(&c.oracle_response, c.criterion.threshold);
+        // of a plateau we take the first pixel, dilation takes all
+        let plateaus = c.oracle_maxima.iter().filter(|m| {
+            prominence(&c.oracle_response, m[1] as usize, m[0] as usize, c.criterion.threshold) == 0.
+        });
+        assert_eq!(plateaus.count(), 0, "{}: fixtures have no plateaus", c.name);
+        assert_eq!(ours.len(), c.oracle_maxima.len(), "{}", c.name);
+        // both in reading order
+        for (a, b) in ours.iter().zip(&c.oracle_maxima) {
+            let distance = a.centre.distance(Point::new(b[2], b[3]));
+            assert!(distance < SAME && a.score == b[4], "{}: {a:?}, OpenCV {b:?}", c.name);
+        }
+    }
+}
+
+#[test]
+fn both_responses_have_the_same_maxima_up_to_ties() {
+    for c in compared() {
+        let threshold = c.criterion.threshold;
+        let ours: HashSet<_> =
+            local_maxima(&c.response, threshold).iter().map(|d| pixel_of(d, &c.response)).collect();
+        let oracle: HashSet<_> = c.oracle_maxima.iter().map(|m| (m[1] as usize, m[0] as usize)).collect();
+        let tie = TIE * range(&c.oracle_response);
+        let mut ties = 0;
+        for (lonely, plane) in
+            [(ours.difference(&oracle), &c.response), (oracle.difference(&ours), &c.oracle_response)]
+        {
+            for &(row, column) in lonely {
+                let above = prominence(plane, row, column, threshold);
+                assert!(above <= tie, "{}: ({column}, {row}) stands out by {above}, a tie is {tie}", c.name);
+                ties += 1;
+            }
+        }
+        println!("{}: {} maxima, {ties} ties", c.name, oracle.len());
+        assert!(
+            f64::from(ties) <= TIES * oracle.len() as f64,
+            "{}: {ties} of {} are ties",
+            c.name,
+            oracle.len()
+        );
+    }
+}
+
+#[test]
+fn suppression_keeps_the_same_of_the_same_maxima() {
+    for c in compared() {
+        let maxima =
+            c.oracle_maxima.iter().map(|&[_, _, x, y, score]| Detection { centre: Point::new(x, y), score });
+        let ours = suppress(maxima.collect(), c.radius);
+        let kept: Vec<_> = ours.iter().map(|d| [d.centre.x, d.centre.y, d.score]).collect();
+        assert_eq!(kept, c.oracle_cones, "{}", c.name);
+    }
+}
+
+#[test]
+fn cones_agree_with_opencv() {
+    for c in compared() {
+        let ours = suppress(local_maxima(&c.response, c.criterion.threshold), c.radius);
+        let ours: Vec<Point> = ours.iter().map(|d| d.centre).collect();
+        let oracle: Vec<Point> = c.oracle_cones.iter().map(|m| Point::new(m[0], m[1])).collect();
+        // suppression keeps cones much farther apart than this, so that nobody is near to two
+        let near = |p: &Point, others: &[Point]| others.iter().any(|q| p.distance(*q) <= NEAR);
+        let agreeing = ours.iter().filter(|p| near(p, &oracle)).count()
+            + oracle.iter().filter(|p| near(p, &ours)).count();
+        let agreement = agreeing as f64 / (ours.len() + oracle.len()) as f64;
+        println!(
+            "{}: {} cones, OpenCV {}, {:.2} % agree",
+            c.name,
+            ours.len(),
+            oracle.len(),
+            100. * agreement
+        );
+        assert!(agreement >= AGREEMENT, "{}: {agreement}", c.name);
+    }
+}
