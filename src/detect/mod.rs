@@ -1,4 +1,4 @@
-//! From an image to cone centres: flatten → spacing → filter → maxima → suppress → refine. Every stage can be called
+//! From an image to cone centres: flatten → spacing → filter → maxima → suppress → select → refine. Every stage can be called
 //! alone; [`detect`] is their composition. Knows nothing of files or statistics.
 
 mod filter;
@@ -10,7 +10,7 @@ mod spacing;
 mod suppress;
 mod types;
 
-pub use filter::{Criterion, response};
+pub use filter::{Criterion, RelativeThreshold, response};
 pub use flatten::flatten;
 pub use maxima::local_maxima;
 pub use options::{DetectOptions, Detector};
@@ -77,7 +77,8 @@ pub fn detect(image: &Plane, options: &DetectOptions) -> Result<Detections, Dete
     let mut cones = Vec::new();
     for _ in 0..PASSES {
         let (response, criterion) = response(image, modality, polarity, spacing);
-        cones = suppress(local_maxima(&response, criterion.threshold), criterion.suppression * spacing);
+        let maxima = suppress(local_maxima(&response, criterion.threshold), criterion.suppression * spacing);
+        cones = criterion.select(maxima);
         let centres: Vec<_> = cones.iter().map(|d| d.centre).collect();
         let next = refined(&centres, image.ncols(), image.nrows(), start);
         let settled = (next / spacing - 1.).abs() < SETTLED;

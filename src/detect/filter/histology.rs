@@ -7,7 +7,7 @@ const SIGMA: f64 = 0.22;
 /// Neighbourhood, in spacings, in which the response is made even.
 const CONTRAST: f64 = 2.;
 
-const CRITERION: Criterion = Criterion { threshold: 0.3, suppression: 0.55 };
+const CRITERION: Criterion = Criterion { threshold: 0.3, suppression: 0.55, relative: None };
 
 /// An inner segment is a disc, brighter than what surrounds it: −∇² of G(.22 s)∗I, divided by its local root mean
 /// square (σ = 2 s).

@@ -6,16 +6,39 @@ mod split;
 
 pub(super) use histology::{blobs, evened};
 
-use crate::detect::{Modality, Polarity};
+use crate::detect::{Detection, Modality, Polarity};
 use crate::image::Plane;
 
-/// What to look for in a filter's response.
+/// What counts as a cone in a filter's response.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Criterion {
     /// Maxima must be higher than this.
     pub threshold: f32,
     /// Of two maxima nearer to each other than this, in units of the spacing, the lower one goes.
     pub suppression: f64,
+    /// How high those that remain must be for this image, if that depends on the image.
+    pub relative: Option<RelativeThreshold>,
+}
+
+/// A threshold that follows the image: slope × upper quartile of the maxima + offset.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RelativeThreshold {
+    /// Weight of the upper quartile.
+    pub slope: f64,
+    /// In the unit of the response.
+    pub offset: f64,
+}
+
+impl Criterion {
+    /// The cones among maxima that suppression has left, highest first.
+    pub fn select(&self, mut maxima: Vec<Detection>) -> Vec<Detection> {
+        // highest first: the upper quartile stands a quarter of the way down
+        if let (Some(relative), Some(quartile)) = (self.relative, maxima.get(maxima.len() / 4)) {
+            let least = relative.slope * quartile.score + relative.offset;
+            maxima.retain(|d| d.score > least);
+        }
+        maxima
+    }
 }
 
 /// The response of the modality's classical filter at the given cone spacing (px), and what counts as a cone in it. The

@@ -1,9 +1,15 @@
-use super::Criterion;
+use super::{Criterion, RelativeThreshold};
 use crate::detect::flatten::normalise;
 use crate::image::{Plane, Spectrum, crop, fast_length, gaussian, reflect_pad};
 use rustfft::num_complex::Complex32;
 
-const CRITERION: Criterion = Criterion { threshold: 1., suppression: 0.5 };
+/// In a blurred or noisy image true cones rise less above the rest than in a sharp one, so the threshold follows the image.
+/// Chosen on hand-marked images: leaving subjects out, Dice .9645, with a fixed threshold .9607.
+const CRITERION: Criterion = Criterion {
+    threshold: 0.6,
+    suppression: 0.5,
+    relative: Some(RelativeThreshold { slope: 0.75, offset: -0.7 }),
+};
 
 /// Widths, in spacings: of the drift taken off first, of the band's upper and lower end, of the contrast normalisation.
 const DRIFT: f64 = 1.5;
