@@ -1,51 +1,44 @@
 use super::Detection;
 use crate::geometry::Point;
-use crate::image::Plane;
+use crate::image::{PARALLEL_PIXELS, Plane};
+use rayon::prelude::*;
 
 /// Local maxima of `response` over 3 × 3 px that exceed `threshold`, moved to the top of a parabola through their
 /// neighbours along x and along y (at most half a pixel), score = response at the pixel. A plateau counts once: its
 /// first pixel in reading order.
 pub fn local_maxima(response: &Plane, threshold: f32) -> Vec<Detection> {
     let (h, w) = response.dim();
-    let mut found = Vec::new();
-    for y in 0..h {
-        for x in 0..w {
-            let value = response[[y, x]];
-            if value > threshold && is_maximum(response, y, x) {
-                let offset_x = if x > 0 && x + 1 < w {
-                    parabola_top(response[[y, x - 1]], value, response[[y, x + 1]])
-                } else {
-                    0.
-                };
-                let offset_y = if y > 0 && y + 1 < h {
-                    parabola_top(response[[y - 1, x]], value, response[[y + 1, x]])
-                } else {
-                    0.
-                };
+    let plane = response.as_standard_layout();
+    let data = plane.as_slice().unwrap_or_default();
+    let in_row = |y: usize| {
+        let row = |y: usize| &data[y * w..(y + 1) * w];
+        let (above, here, below) = ((y > 0).then(|| row(y - 1)), row(y), (y + 1 < h).then(|| row(y + 1)));
+        let mut found = Vec::new();
+        for (x, &value) in here.iter().enumerate() {
+            let columns = x.saturating_sub(1)..(x + 2).min(w);
+            // above all earlier neighbours, not below any later one
+            let is_maximum = value > threshold
+                && above.is_none_or(|r| r[columns.clone()].iter().all(|v| *v < value))
+                && (x == 0 || here[x - 1] < value)
+                && (x + 1 == w || here[x + 1] <= value)
+                && below.is_none_or(|r| r[columns].iter().all(|v| *v <= value));
+            if is_maximum {
+                let along_x = (x > 0 && x + 1 < w).then(|| parabola_top(here[x - 1], value, here[x + 1]));
+                let along_y = above.zip(below).map(|(a, b)| parabola_top(a[x], value, b[x]));
+                let top = |offset: Option<f64>| offset.unwrap_or(0.);
                 found.push(Detection {
-                    centre: Point::new(x as f64 + offset_x, y as f64 + offset_y),
+                    centre: Point::new(x as f64 + top(along_x), y as f64 + top(along_y)),
                     score: f64::from(value),
                 });
             }
         }
+        found
+    };
+    if data.len() >= PARALLEL_PIXELS {
+        (0..h).into_par_iter().flat_map_iter(in_row).collect()
+    } else {
+        (0..h).flat_map(in_row).collect()
     }
-    found
-}
-
-/// Above all earlier neighbours and not below any later one.
-fn is_maximum(plane: &Plane, y: usize, x: usize) -> bool {
-    let (h, w) = plane.dim();
-    let value = plane[[y, x]];
-    for j in y.saturating_sub(1)..(y + 2).min(h) {
-        for i in x.saturating_sub(1)..(x + 2).min(w) {
-            let other = plane[[j, i]];
-            let earlier = (j, i) < (y, x);
-            if (j, i) != (y, x) && (other > value || (earlier && other == value)) {
-                return false;
-            }
-        }
-    }
-    true
 }
 
 /// Where the parabola through (−1, a), (0, b), (1, c) has its top, within half a sample.

@@ -1,5 +1,4 @@
-use super::{PARALLEL_PIXELS, Plane, mirror};
-use rayon::prelude::*;
+use super::{Plane, fill_rows, mirror};
 
 /// Where the kernel ends, in standard deviations.
 const CUT: f64 = 4.;
@@ -30,17 +29,6 @@ fn half_kernel(sigma: f64) -> Vec<f32> {
     let weights: Vec<f64> = (0..=radius).map(|k| (-0.5 * (k as f64 / sigma).powi(2)).exp()).collect();
     let sum = 2. * weights.iter().sum::<f64>() - weights[0];
     weights.iter().map(|w| (w / sum) as f32).collect()
-}
-
-/// Runs `fill(y, row)` for every row of a new plane, over all cores if it is large.
-fn fill_rows(height: usize, width: usize, fill: impl Fn(usize, &mut [f32]) + Sync) -> Plane {
-    let mut data = vec![0f32; height * width];
-    if data.len() >= PARALLEL_PIXELS {
-        data.par_chunks_mut(width).enumerate().for_each(|(y, row)| fill(y, row));
-    } else {
-        data.chunks_mut(width).enumerate().for_each(|(y, row)| fill(y, row));
-    }
-    Plane::from_shape_vec((height, width), data).unwrap_or_default()
 }
 
 fn add_scaled(out: &mut [f32], a: &[f32], b: &[f32], weight: f32) {

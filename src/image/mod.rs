@@ -6,6 +6,7 @@ mod gaussian;
 mod imaged;
 mod pad;
 mod read;
+mod rows;
 mod write;
 
 pub use error::ImageError;
@@ -15,10 +16,8 @@ pub use gaussian::gaussian;
 pub use imaged::empty_fraction;
 pub use pad::{crop, mirror, reflect_pad};
 pub use read::{MAX_PIXELS, decode, is_image_path, read};
+pub(crate) use rows::{PARALLEL_PIXELS, fill_rows};
 pub use write::{BitDepth, write_grey, write_png, write_rgb_png, write_tiff};
 
 /// Grey values, one `f32` a pixel, indexed `[[y, x]]`; (0, 0) is the top-left pixel. Stored row by row.
 pub type Plane = ndarray::Array2<f32>;
-
-/// From this many pixels on, a filter spreads one image over all cores. Smaller images travel side by side instead.
-pub(crate) const PARALLEL_PIXELS: usize = 1 << 18;

@@ -7,7 +7,7 @@ mod split;
 pub(super) use histology::{blobs, evened};
 
 use crate::detect::{Detection, Modality, Polarity};
-use crate::image::Plane;
+use crate::image::{Plane, fill_rows};
 
 /// What counts as a cone in a filter's response.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,14 +58,22 @@ pub fn response(image: &Plane, modality: Modality, polarity: Polarity, spacing: 
 /// −∇² by five points, the border mirrored.
 fn negative_laplacian(plane: &Plane) -> Plane {
     let (h, w) = plane.dim();
-    let mut out = Plane::zeros((h, w));
-    for y in 0..h {
-        let (up, down) = (y.saturating_sub(1), (y + 1).min(h - 1));
-        for x in 0..w {
-            let (left, right) = (x.saturating_sub(1), (x + 1).min(w - 1));
-            out[[y, x]] =
-                4. * plane[[y, x]] - plane[[up, x]] - plane[[down, x]] - plane[[y, left]] - plane[[y, right]];
+    let plane = plane.as_standard_layout();
+    let data = plane.as_slice().unwrap_or_default();
+    let row = |y: usize| &data[y * w..(y + 1) * w];
+    fill_rows(h, w, |y, out| {
+        let (here, up, down) = (row(y), row(y.saturating_sub(1)), row((y + 1).min(h - 1)));
+        for (x, o) in out.iter_mut().enumerate() {
+            *o = 4. * here[x] - up[x] - down[x];
         }
-    }
-    out
+        for (o, left) in out[1..].iter_mut().zip(here) {
+            *o -= left;
+        }
+        for (o, right) in out.iter_mut().zip(&here[1..]) {
+            *o -= right;
+        }
+        // beyond the border lies the edge pixel itself
+        out[0] -= here[0];
+        out[w - 1] -= here[w - 1];
+    })
 }
