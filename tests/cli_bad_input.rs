@@ -280,7 +280,7 @@ fn a_crop_that_leaves_nothing_names_the_image() {
     let outcome = place.run(&["run", "a.png", "--crop", "500,500,600,600", "--out", "out"]);
     assert_eq!(outcome.code, 2);
     let failure = &place.table("out/failures.csv")[0];
-    assert!(failure["reason"].contains("a.png: the crop") && failure["reason"].contains("96 × 80 px"));
+    assert!(failure["reason"].contains("a.png: the crop") && failure["reason"].contains("64 × 56 px"));
 }
 
 #[test]

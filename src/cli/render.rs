@@ -43,7 +43,7 @@ pub struct Render {
     #[arg(long, value_name = "BITS", default_value = "8", value_parser = ["8", "16"])]
     bits: String,
 
-    /// Hexagonal spacing of the cones in px (2–1000) [default: 9; with --points or --mosaic each cone's own]
+    /// Hexagonal spacing of the cones in px (2–1000) [default: 9; with --points each cone's own]
     #[arg(long, value_name = "PX", help_heading = "Mosaic")]
     spacing: Option<f64>,
     /// Density at the left edge over that at the right edge (0.05–20)
@@ -141,7 +141,8 @@ impl Render {
             polarity: self.polarity,
             width: self.width,
             height: self.height,
-            spacing: None,
+            // cones of a file may be too few to tell it; a sampler's are not, and differ from place to place
+            spacing: self.points.as_ref().and(self.spacing),
             diameter: self.diameter.unwrap_or(defaults.diameter),
             brightness: self.brightness.unwrap_or(defaults.brightness),
             contrast: self.contrast.unwrap_or(defaults.contrast),

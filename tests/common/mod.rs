@@ -77,7 +77,7 @@ impl Place {
         fs::create_dir_all(self.path(name).parent().unwrap()).unwrap();
         let (path, seed) = (self.path(name), seed.to_string());
         let path = path.to_str().unwrap();
-        self.ok(&["render", "--width", "96", "--height", "80", "--seed", &seed, "--out", path, "-q"]);
+        self.ok(&["render", "--width", "64", "--height", "56", "--seed", &seed, "--out", path, "-q"]);
     }
 
     /// Every file below a folder, by its path in it.
