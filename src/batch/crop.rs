@@ -56,6 +56,11 @@ impl fmt::Display for Crop {
 }
 
 impl Crop {
+    /// Whether it is in µm, so that a scale is needed.
+    pub const fn in_micrometres(&self) -> bool {
+        self.micrometres
+    }
+
     /// The window, in px, that the crop leaves of an image of `width` × `height` px.
     ///
     /// # Errors
@@ -80,8 +85,10 @@ impl Crop {
             }
             Shape::Edges(edges) => edges.map(|v| v * px),
         };
-        Window::rectangle(x0.max(-0.5), y0.max(-0.5), x1.min(w - 0.5), y1.min(h - 0.5))
-            .map_err(|_| BatchError::Crop { crop: self.to_string(), width, height })
+        Window::rectangle(x0.max(-0.5), y0.max(-0.5), x1.min(w - 0.5), y1.min(h - 0.5)).map_err(|_| {
+            let file = file.to_owned();
+            BatchError::Crop { file, crop: self.to_string(), width, height }
+        })
     }
 }
 

@@ -8,10 +8,14 @@ use crate::mosaic::Scale;
 use crate::mosaic::io::write_points;
 use crate::report::{MarkKind, OverlayMark, encode_png, overlay};
 use std::fs;
+use std::io::Read;
 use std::path::Path;
 
 /// Radius of the rings of an overlay, in cone spacings: inside the cone, so that neighbours' rings stay apart.
 const RING: f64 = 0.3;
+
+/// How a file of detections begins.
+const DETECTIONS: &[u8] = b"x_px,y_px,score";
 
 /// What came of detecting cones in a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,7 +45,9 @@ pub fn detect_files(
         let (_, image) = read_image(input)?;
         let found = detect_in(input, &image, options)?;
         let scale = scales.scale_of(&input.path, image.ncols())?;
-        write_detections(&out.join(format!("{}.csv", input.name)), &found, scale)?;
+        let path = out.join(format!("{}.csv", input.name));
+        refuse_foreign(&path)?;
+        write_detections(&path, &found, scale)?;
         if overlays {
             out.write(&format!("{}.overlay.png", input.name), &overlay_of(&image, &found)?)?;
         }
@@ -49,6 +55,17 @@ pub fn detect_files(
     });
     write_failures(&out, &failures)?;
     Ok(DetectionOutcome { images: cones.len(), cones: cones.iter().sum(), failures })
+}
+
+/// Hand marks may be called as detections are, and hours of work: only detections are replaced.
+fn refuse_foreign(path: &Path) -> Result<(), BatchError> {
+    let Ok(file) = fs::File::open(path) else { return Ok(()) };
+    let mut start = Vec::new();
+    let readable = file.take(DETECTIONS.len() as u64).read_to_end(&mut start).is_ok();
+    if readable && start == DETECTIONS {
+        return Ok(());
+    }
+    Err(BatchError::Foreign { path: path.to_owned() })
 }
 
 /// The bytes of the file and the image in them.

@@ -47,8 +47,12 @@ pub enum BatchError {
         file: PathBuf,
     },
     /// The crop does not fit.
-    #[error("the crop {crop} leaves nothing of the image of {width} × {height} px")]
+    #[error(
+        "{file}: the crop {crop} leaves nothing of the image of {width} × {height} px: choose a part of it"
+    )]
     Crop {
+        /// The image.
+        file: PathBuf,
         /// As given.
         crop: String,
         /// Width of the image in px.
@@ -57,12 +61,26 @@ pub enum BatchError {
         height: usize,
     },
     /// A length in micrometres where no scale is known.
-    #[error("{what} is given in µm, but the scale of {file} is not known: give --um-per-px or --scale-table")]
+    #[error("{file}: {what} is in µm, but the scale is not known: give --um-per-px or --scale-table")]
     NoScale {
         /// The option.
         what: &'static str,
         /// The file.
         file: PathBuf,
+    },
+    /// An input lies where results take the place of what is there.
+    #[error("{file} lies in {folder}, which results are written to: choose another --out folder", folder = folder.display())]
+    Overlap {
+        /// The image.
+        file: PathBuf,
+        /// The folder of results.
+        folder: PathBuf,
+    },
+    /// Coordinates of somebody else stand where detections would be written.
+    #[error("{path}: holds other coordinates than detections: choose another --out folder", path = path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
     },
     /// Reference marks without anything to hold against them.
     #[error("{file}: {problem}")]

@@ -1,6 +1,7 @@
 use super::BatchError;
 use crate::image::is_image_path;
 use std::collections::{HashMap, HashSet};
+use std::io;
 use std::path::{Component, Path, PathBuf};
 use walkdir::WalkDir;
 
@@ -17,12 +18,13 @@ pub struct Input {
 const COORDINATE_EXTENSIONS: [&str; 7] = ["csv", "tsv", "txt", "json", "tar", "roi", "zip"];
 
 /// All PNG and TIFF files among `paths` and below their folders, in the order given, folders in order of name. Hidden
-/// files and what lies in `except` (the output folder) are left out; a file found twice counts once.
+/// files, overlays of this program and what lies in `except` (the output folder) are left out; a file found twice
+/// counts once.
 ///
 /// # Errors
 /// If a path does not exist or there is no image at all.
 pub fn image_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec<Input>, BatchError> {
-    let files = walk(paths, except, is_image_path)?;
+    let files = walk(paths, except, |path| is_image_path(path) && !is_overlay(path))?;
     if files.is_empty() {
         let expected = "files ending in .png, .tif or .tiff";
         return Err(BatchError::Nothing { what: "images", paths: listed(paths), expected });
@@ -35,16 +37,40 @@ pub fn image_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec<Input
 /// # Errors
 /// If a path does not exist or there is no coordinate file at all.
 pub fn coordinate_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec<Input>, BatchError> {
-    let known = |path: &Path| {
-        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
-        COORDINATE_EXTENSIONS.contains(&extension.as_str())
-    };
+    let known = |path: &Path| COORDINATE_EXTENSIONS.contains(&extension(path).as_str()) && !is_table(path);
     let files = walk(paths, except, known)?;
     if files.is_empty() {
         let expected = "files ending in .csv, .tsv, .txt, .json, .tar, .roi or .zip";
         return Err(BatchError::Nothing { what: "coordinate files", paths: listed(paths), expected });
     }
     Ok(named(files))
+}
+
+/// An overlay of this program, with the coordinates or the metrics that it was written with beside it: no image of a
+/// retina.
+fn is_overlay(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default();
+    if name == "overlay.png" {
+        return path.with_file_name("metrics.json").is_file();
+    }
+    let drawn = name.to_str().and_then(|name| name.strip_suffix(".overlay.png"));
+    drawn.is_some_and(|name| path.with_file_name(format!("{name}.csv")).is_file())
+}
+
+/// Tables and records of this program that hold no coordinates.
+fn is_table(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let known = [
+        "summary.csv",
+        "failures.csv",
+        "l_infinity.csv",
+        "validation.csv",
+        "validation.json",
+        "pcf.csv",
+        "metrics.json",
+        "run.json",
+    ];
+    known.contains(&&*name) || name.ends_with(".pcf.csv")
 }
 
 fn listed(paths: &[PathBuf]) -> String {
@@ -78,14 +104,24 @@ fn walk(
                 e.depth() == 0 || !(hidden(e.file_name()) || e.file_type().is_dir() && excluded(e.path()))
             });
         for entry in entries {
-            let entry = entry.map_err(|error| BatchError::Unreadable {
-                path: error.path().unwrap_or(given).to_owned(),
-                source: error
-                    .into_io_error()
-                    .unwrap_or_else(|| std::io::Error::other("a folder contains itself")),
-            })?;
-            if entry.file_type().is_file() && wanted(entry.path()) {
-                add(entry.into_path());
+            match entry {
+                Ok(entry) if entry.file_type().is_file() && wanted(entry.path()) => add(entry.into_path()),
+                Ok(_) => {}
+                // a folder that contains itself is being walked already
+                Err(error) if error.loop_ancestor().is_some() => {}
+                // what cannot be looked at fails when it is read, and stops nobody else
+                Err(error) => match error.path() {
+                    Some(path) if path != given => {
+                        let folder = path.symlink_metadata().is_ok_and(|m| m.is_dir());
+                        if folder || wanted(path) {
+                            add(path.to_owned());
+                        }
+                    }
+                    _ => {
+                        let source = error.into_io_error().unwrap_or_else(|| io::ErrorKind::Other.into());
+                        return Err(BatchError::Unreadable { path: given.clone(), source });
+                    }
+                },
             }
         }
     }
@@ -97,7 +133,9 @@ fn walk(
 fn named(files: Vec<PathBuf>) -> Vec<Input> {
     let mut names: Vec<String> = files.iter().map(|f| stem(f)).collect();
     for folders in 1..16 {
-        let clashing = clashes(&names);
+        // a second folder helps only against a file that lies elsewhere
+        let helps = |a: &Path, b: &Path| folders == 1 || a.parent() != b.parent();
+        let clashing = clashes(&files, &names, helps);
         if clashing.is_empty() {
             break;
         }
@@ -105,9 +143,8 @@ fn named(files: Vec<PathBuf>) -> Vec<Input> {
             names[i] = with_folders(&files[i], folders);
         }
     }
-    for i in clashes(&names) {
-        let extension = files[i].extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-        names[i] = format!("{}_{extension}", names[i]);
+    for i in clashes(&files, &names, |a, b| extension(a) != extension(b)) {
+        names[i] = format!("{}_{}", names[i], extension(&files[i]));
     }
     // what still clashes has strange folders; a number always tells files apart
     let mut taken: HashSet<String> = HashSet::new();
@@ -146,12 +183,21 @@ fn with_folders(path: &Path, count: usize) -> String {
     [&folders[first..], &[stem(path)]].concat().join("_")
 }
 
-fn clashes(names: &[String]) -> Vec<usize> {
-    let mut counts: HashMap<String, usize> = HashMap::new();
-    for name in names {
-        *counts.entry(folded(name)).or_default() += 1;
+fn extension(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
+}
+
+/// The files that share their name with another for which `matters` holds.
+fn clashes(files: &[PathBuf], names: &[String], matters: impl Fn(&Path, &Path) -> bool) -> Vec<usize> {
+    let mut groups: HashMap<String, Vec<usize>> = HashMap::new();
+    for (i, name) in names.iter().enumerate() {
+        groups.entry(folded(name)).or_default().push(i);
     }
-    (0..names.len()).filter(|&i| counts[&folded(&names[i])] > 1).collect()
+    let clash = |&i: &usize| {
+        let group = groups.get(&folded(&names[i])).map_or(&[][..], Vec::as_slice);
+        group.iter().any(|&k| k != i && matters(&files[i], &files[k]))
+    };
+    (0..names.len()).filter(clash).collect()
 }
 
 #[cfg(test)]
@@ -175,7 +221,8 @@ mod tests {
 
     #[test]
     fn names_are_unique_whatever_happens() {
-        assert_eq!(names(&["/a/1.png", "/a/1.tif"]), ["a_1_png", "a_1_tif"]);
+        assert_eq!(names(&["/p/a/1.png", "/p/a/1.tif"]), ["a_1_png", "a_1_tif"]);
+        assert_eq!(names(&["/p/a/X.png", "/p/a/x.png"]), ["a_X", "a_x_2"]);
         assert_eq!(
             names(&["/a/x/1.png", "/a/y/1.png", "/a/x_1.png"]).iter().collect::<HashSet<_>>().len(),
             3
@@ -194,6 +241,18 @@ mod tests {
         let found =
             image_files(&[folder.path().to_owned(), folder.path().join("a.PNG")], Some(&out)).unwrap();
         assert_eq!(found.iter().map(|i| i.name.as_str()).collect::<Vec<_>>(), ["a", "b"]);
+    }
+
+    #[test]
+    fn results_of_earlier_runs_are_no_inputs() {
+        let folder = tempfile::tempdir().unwrap();
+        for file in ["a.png", "a.csv", "a.overlay.png", "b.overlay.png", "a.pcf.csv", "summary.csv"] {
+            std::fs::write(folder.path().join(file), "").unwrap();
+        }
+        let names = |inputs: Vec<Input>| inputs.into_iter().map(|i| i.name).collect::<Vec<_>>();
+        let paths = [folder.path().to_owned()];
+        assert_eq!(names(image_files(&paths, None).unwrap()), ["a", "b.overlay"]);
+        assert_eq!(names(coordinate_files(&paths, None).unwrap()), ["a"]);
     }
 
     #[test]

@@ -23,6 +23,8 @@ use std::time::Instant;
 
 const IMAGES: &str = "images";
 const METRICS: &str = "metrics.json";
+/// What an image's folder holds.
+const FILES: [&str; 5] = ["points.csv", "overlay.png", "pcf.csv", METRICS, "figure.svg"];
 
 /// Options of the main job.
 #[derive(Clone)]
@@ -104,6 +106,7 @@ pub fn run_files(
     progress: &dyn Progress,
 ) -> Result<RunOutcome, BatchError> {
     let started = Instant::now();
+    refuse_overlap(inputs, &out.join(IMAGES))?;
     let out = OutputFolder::create(out)?;
     let images = OutputFolder::create(&out.join(IMAGES))?;
     let references = References::new(options.samplers.clone(), options.measure.pcf, options.seed);
@@ -120,6 +123,16 @@ pub fn run_files(
     out.write("run.json", &run_json(options, &done, &failures, started)?)?;
     let reused = done.iter().filter(|d| d.seconds.is_none()).count();
     Ok(RunOutcome { records, failures, reused })
+}
+
+/// The folder of an image's results takes the place of what stood there: no input may.
+fn refuse_overlap(inputs: &[Input], images: &Path) -> Result<(), BatchError> {
+    let Ok(results) = images.canonicalize() else { return Ok(()) };
+    let within = |input: &&Input| input.path.canonicalize().is_ok_and(|path| path.starts_with(&results));
+    match inputs.iter().find(within) {
+        Some(input) => Err(BatchError::Overlap { file: input.path.clone(), folder: images.to_owned() }),
+        None => Ok(()),
+    }
 }
 
 fn one_image(
@@ -290,7 +303,11 @@ fn fingerprint(options: &RunOptions, scale: Option<Scale>, window: &Window) -> R
 
 /// The record of an earlier run, if it is complete and belongs to the same image and options.
 fn earlier(images: &OutputFolder, input: &Input, sha256: &str, options_sha256: &str) -> Option<ImageRecord> {
-    let text = fs::read(images.join(&input.name).join(METRICS)).ok()?;
+    let folder = images.join(&input.name);
+    if !FILES.iter().all(|file| folder.join(file).is_file()) {
+        return None;
+    }
+    let text = fs::read(folder.join(METRICS)).ok()?;
     let record: ImageRecord = serde_json::from_slice(&text).ok()?;
     let same = record.sha256 == sha256 && record.options_sha256 == options_sha256;
     same.then(|| ImageRecord { file: input.path.display().to_string(), name: input.name.clone(), ..record })

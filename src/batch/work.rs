@@ -20,6 +20,7 @@ pub(super) fn for_each<T: Send>(
             Err(error) => {
                 let file = input.path.display().to_string();
                 let reason = one_line(&error);
+                let reason = if reason.contains(&file) { reason } else { format!("{file}: {reason}") };
                 progress.done(&input.name, Err(&reason));
                 Err(Failure { file, reason })
             }

@@ -1,7 +1,7 @@
-use super::progress::{Bar, Lines};
+use super::progress::{Bar, Failures, Lines};
 use anyhow::{Context, Result};
 use clap::Args;
-use conemosaic::batch::{Progress, Silent};
+use conemosaic::batch::Progress;
 use std::io::{IsTerminal, Write};
 
 /// What means the same for every command.
@@ -13,7 +13,7 @@ pub struct Common {
     /// Cores to use [default: all]; the output is the same for any number
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), help_heading = "Common options")]
     pub threads: Option<u16>,
-    /// Print errors only
+    /// Print errors and failed files only
     #[arg(long, short, global = true, help_heading = "Common options")]
     pub quiet: bool,
     /// Print diagnostics (-v what is done, -vv how long it takes)
@@ -44,10 +44,10 @@ impl Common {
         Ok(())
     }
 
-    /// A bar on a terminal, lines elsewhere, nothing if quiet.
+    /// A bar on a terminal, lines elsewhere, failures only if quiet.
     pub fn progress(&self) -> Box<dyn Progress> {
         if self.quiet {
-            Box::new(Silent)
+            Box::new(Failures)
         } else if std::io::stderr().is_terminal() {
             Box::new(Bar::new())
         } else {

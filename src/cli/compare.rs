@@ -1,10 +1,11 @@
 use super::Done;
 use super::common::Common;
-use super::measure::{MosaicArgs, say_failures};
+use super::measure::{MosaicArgs, marked, say_failures, warned};
+use super::short_table;
 use anyhow::Result;
 use clap::Args;
 use conemosaic::batch::{CoordinatesOutcome, compare_files, coordinate_files};
-use conemosaic::report::{significant, table};
+use conemosaic::report::significant;
 use conemosaic::sample::{Sampler, sampler, samplers};
 use std::path::PathBuf;
 
@@ -14,8 +15,11 @@ use std::path::PathBuf;
 Example:
   conemosaic compare marks --window 150x150 --samplers jittered,dart-throwing --out compared
 
-Each mosaic is compared with the mean function of samples of its own size in its own window. Writes to compared/:
-l_infinity.csv (one row a file, one column a sampler), failures.csv if a file failed (exit code 2).")]
+Each mosaic is compared with the mean function of samples of its own size in its own window: the greatest difference of g(r), without unit.
+
+Writes to compared/:
+  l_infinity.csv   one row a file, one column a sampler
+  failures.csv     files that failed, if any; then the exit code is 2")]
 pub struct Compare {
     /// Coordinate files and folders of them
     #[arg(required = true)]
@@ -52,7 +56,9 @@ impl Compare {
         let inputs = coordinate_files(&self.files, Some(&self.out))?;
         let outcome =
             compare_files(&inputs, &options, &samplers, common.seed, &self.out, &*common.progress())?;
-        common.say(&summary(&outcome, &samplers));
+        if !outcome.records.is_empty() {
+            common.say(&summary(&outcome, &samplers));
+        }
         common.say(&format!("Table: {}/l_infinity.csv", self.out.display()));
         say_failures(common, &outcome, &self.out);
         Ok(Done::with(&outcome.failures))
@@ -70,12 +76,12 @@ fn summary(outcome: &CoordinatesOutcome, samplers: &[&'static dyn Sampler]) -> S
                 let found = r.mosaic.l_infinity.iter().find(|d| d.sampler == s.name());
                 found.map_or("–".into(), |d| significant(d.l_infinity, 3))
             };
-            [r.file.clone(), r.mosaic.n.to_string()]
+            [marked(r), r.mosaic.n.to_string()]
                 .into_iter()
                 .chain(samplers.iter().map(distance))
                 .chain([r.mosaic.closest_sampler().unwrap_or("–").to_owned()])
                 .collect()
         })
         .collect();
-    table(&headers, &rows)
+    short_table(&headers, &rows, "l_infinity.csv", warned(outcome))
 }

@@ -1,6 +1,6 @@
-use super::Done;
 use super::common::Common;
 use super::scale::ScaleArgs;
+use super::{Done, counted};
 use anyhow::Result;
 use clap::Args;
 use conemosaic::batch::{detect_files, image_files};
@@ -51,8 +51,11 @@ impl DetectArgs {
 Example:
   conemosaic detect images --out cones --overlay
 
-Writes to cones/: NAME.csv with x_px,y_px,score (px from 0 at the centre of the top-left pixel, best first; also
-x_um,y_um if a scale is given), NAME.overlay.png with --overlay, failures.csv if an image failed (exit code 2).")]
+Writes to cones/:
+  NAME.csv           x_px,y_px,score, best first (and x_um,y_um where a scale is known);
+                     px from 0 at the centre of the top-left pixel
+  NAME.overlay.png   with --overlay: the image with its cones marked
+  failures.csv       images that failed, if any; then the exit code is 2")]
 pub struct Detect {
     /// Images (PNG, TIFF; 8 or 16 bit, grey or colour) and folders of them
     #[arg(required = true)]
@@ -76,9 +79,14 @@ impl Detect {
         let inputs = image_files(&self.paths, Some(&self.out))?;
         let outcome = detect_files(&inputs, &options, &scales, self.overlay, &self.out, &*common.progress())?;
         let out = self.out.display();
-        common.say(&format!("{} cones in {} images: {out}/NAME.csv", outcome.cones, outcome.images));
+        common.say(&format!(
+            "{} in {}: {out}/NAME.csv",
+            counted(outcome.cones, "cone"),
+            counted(outcome.images, "image")
+        ));
         if !outcome.failures.is_empty() {
-            common.say(&format!("{} images failed: {out}/failures.csv", outcome.failures.len()));
+            let failed = counted(outcome.failures.len(), "image");
+            common.say(&format!("{failed} failed: {out}/failures.csv"));
         }
         Ok(Done::with(&outcome.failures))
     }

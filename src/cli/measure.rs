@@ -1,27 +1,27 @@
 use super::Done;
 use super::common::Common;
 use super::scale::ScaleArgs;
+use super::{counted, short_table};
 use anyhow::Result;
 use clap::Args;
 use conemosaic::batch::{CoordinatesOptions, CoordinatesOutcome, Region, coordinate_files, measure_files};
 use conemosaic::mosaic::io::{Origin, ReadOptions};
-use conemosaic::report::{Cell, table};
+use conemosaic::report::{Cell, CoordinatesRecord};
 use conemosaic::stats::{Deviation, MeasureOptions};
 use std::path::{Path, PathBuf};
 
 /// How coordinate files are to be understood.
 #[derive(Args)]
-#[command(next_help_heading = "Coordinates")]
 pub struct CoordinateArgs {
     /// What the file calls the centre of the top-left pixel: 0, 0.5 (ImageJ, WebPlotDigitizer) or 1 (MATLAB)
     /// [default: as the kind of file says, otherwise 0]
-    #[arg(long, value_name = "O", value_parser = origin)]
+    #[arg(long, value_name = "O", value_parser = origin, help_heading = "Coordinates")]
     origin: Option<Origin>,
     /// y points up, as in WebPlotDigitizer's XY axes: the height of the image in the unit of the file
-    #[arg(long, value_name = "HEIGHT")]
+    #[arg(long, value_name = "HEIGHT", help_heading = "Coordinates")]
     flip_y: Option<f64>,
     /// Take only the dataset (WebPlotDigitizer) or region (ImageJ) of this name
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help_heading = "Coordinates")]
     dataset: Option<String>,
 }
 
@@ -75,9 +75,13 @@ impl MosaicArgs {
 Example:
   conemosaic measure marks --window 150x150 --origin 1 --um-per-px 0.42 --out measured
 
-Reads CSV and its relatives, WebPlotDigitizer projects and CSVs, ImageJ results and regions. Writes to measured/:
-summary.csv (one row a file: n, nearest neighbours, regularity index, density, …; lengths in the unit of column
-unit), NAME.pcf.csv (r in hexagonal spacings, g), failures.csv if a file failed (exit code 2).")]
+Reads CSV and its relatives, WebPlotDigitizer projects and CSVs, ImageJ results and regions.
+
+Writes to measured/:
+  summary.csv    one row a file: n, nearest neighbours, regularity index, density, …
+                 (lengths in the unit of the column unit, or of the suffix)
+  NAME.pcf.csv   pair correlation function (r in hexagonal spacings, g)
+  failures.csv   files that failed, if any; then the exit code is 2")]
 pub struct Measure {
     /// Coordinate files and folders of them
     #[arg(required = true)]
@@ -94,7 +98,9 @@ impl Measure {
         let options = self.mosaic.options()?;
         let inputs = coordinate_files(&self.files, Some(&self.out))?;
         let outcome = measure_files(&inputs, &options, &self.out, &*common.progress())?;
-        common.say(&summary(&outcome));
+        if !outcome.records.is_empty() {
+            common.say(&summary(&outcome));
+        }
         common.say(&format!("Table: {}/summary.csv", self.out.display()));
         say_failures(common, &outcome, &self.out);
         Ok(Done::with(&outcome.failures))
@@ -103,12 +109,15 @@ impl Measure {
 
 pub fn say_failures(common: &Common, outcome: &CoordinatesOutcome, out: &Path) {
     if !outcome.failures.is_empty() {
-        common.say(&format!("{} files failed: {}/failures.csv", outcome.failures.len(), out.display()));
+        let failed = counted(outcome.failures.len(), "file");
+        common.say(&format!("{failed} failed: {}/failures.csv", out.display()));
     }
 }
 
 fn summary(outcome: &CoordinatesOutcome) -> String {
-    let headers = ["file", "points", "unit", "NN mean", "NN SD", "RI", "RI interior", "cones/mm²"];
+    let scaled = outcome.records.iter().any(|r| r.mosaic.um_per_unit.is_some());
+    let density = if scaled { "points/mm²" } else { "points/unit²" };
+    let headers = ["file", "points", "unit", "NN mean", "NN SD", "RI", "RI interior", density];
     let rows: Vec<Vec<String>> = outcome
         .records
         .iter()
@@ -116,16 +125,25 @@ fn summary(outcome: &CoordinatesOutcome) -> String {
             let m = &r.mosaic;
             let number = |value: Option<f64>| Cell::from(value).readable();
             vec![
-                r.file.clone(),
+                marked(r),
                 m.n.to_string(),
-                m.unit.symbol().to_owned(),
+                m.unit.symbol().replace("um", "µm"),
                 number(m.nearest.mean),
                 number(m.nearest.sd),
                 number(m.nearest.ri),
                 number(m.nearest_interior.ri),
-                number(m.density_per_mm2()),
+                number(if scaled { m.density_per_mm2() } else { Some(m.density) }),
             ]
         })
         .collect();
-    table(&headers, &rows)
+    short_table(&headers, &rows, "summary.csv", warned(outcome))
+}
+
+/// The file's name, marked if there is a warning.
+pub fn marked(record: &CoordinatesRecord) -> String {
+    format!("{}{}", record.file, if record.warnings.is_empty() { "" } else { " !" })
+}
+
+pub fn warned(outcome: &CoordinatesOutcome) -> bool {
+    outcome.records.iter().any(|r| !r.warnings.is_empty())
 }

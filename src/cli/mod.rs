@@ -13,8 +13,11 @@ mod sample;
 mod scale;
 mod validate;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::error::ErrorKind;
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use common::Common;
+use conemosaic::report::table;
+use std::io::Write;
 use std::process::ExitCode;
 
 const ABOUT: &str =
@@ -65,13 +68,10 @@ impl Done {
 
 /// Runs the program.
 pub fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let parsed = command().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches));
+    let cli = match parsed {
         Ok(cli) => cli,
-        Err(message) => {
-            // a broken pipe is the reader's choice
-            let _ = message.print();
-            return if message.use_stderr() { ExitCode::from(1) } else { ExitCode::SUCCESS };
-        }
+        Err(message) => return say_usage(&message),
     };
     let common = &cli.common;
     let result = common.apply().and_then(|()| match cli.command {
@@ -82,15 +82,91 @@ pub fn main() -> ExitCode {
         Command::Validate(command) => command.execute(common),
         Command::Sample(command) => command.execute(common),
         Command::Render(command) => command.execute(common),
-        Command::Completions(command) => command.execute(&mut Cli::command()),
+        Command::Completions(command) => command.execute(&mut self::command()),
     });
     match result {
         Ok(Done::Completely) => ExitCode::SUCCESS,
         Ok(Done::WithFailures) => ExitCode::from(2),
         Err(error) => {
-            let words = format!("{error:#}");
-            eprintln!("error: {}", words.split_whitespace().collect::<Vec<_>>().join(" "));
+            complain(&said_once(&error));
             ExitCode::from(1)
         }
     }
+}
+
+/// The arguments. A negative number after an option is its value, so that the error says which values there are.
+fn command() -> clap::Command {
+    let may_be_negative = |arg: clap::Arg| {
+        let takes_value = !arg.is_positional() && arg.get_action().takes_values();
+        if takes_value { arg.allow_negative_numbers(true) } else { arg }
+    };
+    Cli::command().mut_args(may_be_negative).mut_subcommands(|command| command.mut_args(may_be_negative))
+}
+
+/// Help as it is; what is wrong with the arguments in one line.
+fn say_usage(message: &clap::Error) -> ExitCode {
+    if !message.use_stderr() || message.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        // a broken pipe is the reader's choice
+        let _ = message.print();
+        return if message.use_stderr() { ExitCode::from(1) } else { ExitCode::SUCCESS };
+    }
+    let text = message.to_string();
+    let text = text.split("\nUsage:").next().unwrap_or_default();
+    let text = text.split("\nFor more information").next().unwrap_or_default();
+    let text = text
+        .trim()
+        .trim_start_matches("error: ")
+        .split("\n\n")
+        .filter(|part| !part.trim_start().starts_with("tip: to pass"))
+        .collect::<Vec<_>>()
+        .join("; ")
+        .replace("invalid digit found in string", "expected a whole number, 0 or more")
+        .replace("invalid float literal", "expected a number");
+    let named = std::env::args().skip(1).find(|word| Cli::command().find_subcommand(word).is_some());
+    let help = named.map_or("conemosaic --help".to_owned(), |name| format!("conemosaic {name} --help"));
+    complain(&format!("{text} (see {help})"));
+    ExitCode::from(1)
+}
+
+/// The error and its causes; those that a message has already told are not told again.
+fn said_once(error: &anyhow::Error) -> String {
+    let mut text = String::new();
+    for cause in error.chain().map(ToString::to_string) {
+        if text.is_empty() {
+            text = cause;
+        } else if !text.contains(&cause) {
+            text = format!("{text}: {cause}");
+        }
+    }
+    text
+}
+
+fn complain(text: &str) {
+    let _ = writeln!(std::io::stderr(), "error: {}", one_line(text));
+}
+
+/// What file names hold must neither break the line nor steer the terminal.
+fn one_line(text: &str) -> String {
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    words.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
+}
+
+/// More rows than these are for the file.
+const MOST_ROWS: usize = 24;
+
+/// The first rows of a table; where the others are, and the warnings that rows are marked for.
+fn short_table(headers: &[&str], rows: &[Vec<String>], file: &str, warned: bool) -> String {
+    let mut text = table(headers, &rows[..rows.len().min(MOST_ROWS)]);
+    if rows.len() > MOST_ROWS {
+        text.push_str(&format!("\n… and {} more in {file}", rows.len() - MOST_ROWS));
+    }
+    if warned {
+        text.push_str(&format!("\n! has a warning: see the last column of {file}"));
+    }
+    text
+}
+
+/// “1 image”, “2 images”.
+fn counted(count: usize, one: &str) -> String {
+    format!("{count} {one}{}", if count == 1 { "" } else { "s" })
 }

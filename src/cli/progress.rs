@@ -1,3 +1,4 @@
+use super::one_line;
 use conemosaic::batch::Progress;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::Write;
@@ -25,8 +26,8 @@ impl Progress for Bar {
 
     fn done(&self, name: &str, outcome: Result<&str, &str>) {
         match outcome {
-            Ok(line) => self.0.set_message(format!("{name}: {line}")),
-            Err(reason) => self.0.println(format!("failed: {reason}")),
+            Ok(line) => self.0.set_message(one_line(&format!("{name}: {line}"))),
+            Err(reason) => self.0.println(one_line(&format!("failed: {reason}"))),
         }
         self.0.inc(1);
     }
@@ -60,7 +61,22 @@ impl Progress for Lines {
             Ok(line) => format!("[{done}/{total}] {name}: {line}"),
             Err(reason) => format!("[{done}/{total}] failed: {reason}"),
         };
-        let _ = writeln!(std::io::stderr(), "{line}");
+        let _ = writeln!(std::io::stderr(), "{}", one_line(&line));
+    }
+
+    fn end(&self) {}
+}
+
+/// Failures only.
+pub struct Failures;
+
+impl Progress for Failures {
+    fn begin(&self, _total: usize) {}
+
+    fn done(&self, _name: &str, outcome: Result<&str, &str>) {
+        if let Err(reason) = outcome {
+            let _ = writeln!(std::io::stderr(), "{}", one_line(&format!("failed: {reason}")));
+        }
     }
 
     fn end(&self) {}

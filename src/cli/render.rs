@@ -1,5 +1,5 @@
-use super::Done;
 use super::common::Common;
+use super::{Done, counted};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use conemosaic::detect::{Modality, Polarity};
@@ -17,10 +17,9 @@ use std::path::PathBuf;
 #[derive(Args)]
 #[command(after_help = "\
 Example:
-  conemosaic render --modality split --spacing 16 --width 256 --height 256 --out sim.png --truth sim.csv
+  conemosaic render --modality split --spacing 16 --out sim.png --truth sim.csv
 
-The unit s is the local distance of the cones. Without --points or --mosaic the cones form a mosaic like a real one:
-a warped, jittered triangular lattice with defects. --truth gets the cones' centres as x_px,y_px.")]
+The unit s is the local distance of the cones. Without --points or --mosaic the cones form a mosaic like a real one: a warped, jittered triangular lattice with defects. --truth gets the cones' centres as x_px,y_px.")]
 pub struct Render {
     /// Image to write: .png, .tif or .tiff
     #[arg(long, value_name = "FILE")]
@@ -44,7 +43,7 @@ pub struct Render {
     #[arg(long, value_name = "BITS", default_value = "8", value_parser = ["8", "16"])]
     bits: String,
 
-    /// Hexagonal spacing of the cones in px (2–1000) [default: 9; with --points or --mosaic each cone's own]
+    /// Hexagonal spacing of the cones in px (2–1000) [default: 9; with --points each cone's own]
     #[arg(long, value_name = "PX", help_heading = "Mosaic")]
     spacing: Option<f64>,
     /// Density at the left edge over that at the right edge (0.05–20)
@@ -97,6 +96,9 @@ impl Render {
         let mut rng = ChaCha8Rng::seed_from_u64(common.seed);
         let options = self.options();
         options.validate()?;
+        if self.truth.as_ref() == Some(&self.out) {
+            bail!("--out and --truth name the same file: give each its own");
+        }
         let simulation = if let Some(points) = self.given_points(&options, &mut rng)? {
             let image = render(&points, &options, &mut rng)?;
             let window = Window::of_image(self.width, self.height)?;
@@ -114,11 +116,22 @@ impl Render {
             simulate(&mosaic, &options, &mut rng)?
         };
         let depth = if self.bits == "16" { BitDepth::Sixteen } else { BitDepth::Eight };
-        write_grey(&self.out, &simulation.image, depth)?;
         if let Some(truth) = &self.truth {
             write_points(truth, &simulation.cones, None, None)?;
         }
-        common.say(&format!("{} cones, {}: {}", simulation.cones.len(), self.modality, self.out.display()));
+        if let Err(error) = write_grey(&self.out, &simulation.image, depth) {
+            if let Some(truth) = &self.truth {
+                // a truth without its image is worth nothing, and the reason is already on its way
+                let _ = std::fs::remove_file(truth);
+            }
+            return Err(error.into());
+        }
+        common.say(&format!(
+            "{}, {}: {}",
+            counted(simulation.cones.len(), "cone"),
+            self.modality,
+            self.out.display()
+        ));
         Ok(Done::Completely)
     }
 
@@ -128,7 +141,8 @@ impl Render {
             polarity: self.polarity,
             width: self.width,
             height: self.height,
-            spacing: None,
+            // cones of a file may be too few to tell it; a sampler's are not, and differ from place to place
+            spacing: self.points.as_ref().and(self.spacing),
             diameter: self.diameter.unwrap_or(defaults.diameter),
             brightness: self.brightness.unwrap_or(defaults.brightness),
             contrast: self.contrast.unwrap_or(defaults.contrast),

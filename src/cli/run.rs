@@ -1,11 +1,12 @@
 use super::common::Common;
 use super::detect::DetectArgs;
 use super::scale::ScaleArgs;
-use super::{Done, compare::samplers_named};
-use anyhow::Result;
+use super::short_table;
+use super::{Done, compare::samplers_named, counted};
+use anyhow::{Result, bail};
 use clap::Args;
-use conemosaic::batch::{Crop, RunOptions, RunOutcome, image_files, run_files};
-use conemosaic::report::{Cell, significant, table};
+use conemosaic::batch::{Crop, RunOptions, RunOutcome, ScaleSource, image_files, run_files};
+use conemosaic::report::{Cell, significant};
 use conemosaic::stats::MeasureOptions;
 use std::path::PathBuf;
 
@@ -18,10 +19,10 @@ Example:
 Writes to report/:
   summary.csv               one row an image
   index.html                the same as a page, with figures
-  images/NAME/points.csv    cone centres (x_px, y_px from 0 at the centre of the top-left pixel; score)
+  images/NAME/points.csv    cone centres: x_px,y_px,score (0,0: first pixel's centre)
   images/NAME/overlay.png   the image with its cones marked
-  images/NAME/figure.svg    picture, points, nearest neighbours, pair correlation function
-  images/NAME/pcf.csv       the pair correlation functions (r in hexagonal spacings)
+  images/NAME/figure.svg    picture, points, nearest neighbours, g(r)
+  images/NAME/pcf.csv       g(r) of the mosaic and the samplers (r in spacings)
   images/NAME/metrics.json  everything measured
   run.json                  version, options, seed, hashes of the inputs, timings
   failures.csv              images that failed, if any; then the exit code is 2")]
@@ -47,9 +48,6 @@ pub struct Run {
     scale: ScaleArgs,
 }
 
-/// More rows than these are for summary.csv.
-const MOST_ROWS: usize = 24;
-
 impl Run {
     pub fn execute(self, common: &Common) -> Result<Done> {
         let options = RunOptions {
@@ -62,6 +60,11 @@ impl Run {
             resume: self.resume,
             command: std::env::args().collect(),
         };
+        if let (Some(crop), ScaleSource::Unknown) = (&options.crop, &options.scales)
+            && crop.in_micrometres()
+        {
+            bail!("--crop {crop} needs a scale: give --um-per-px or another of the scale options");
+        }
         let inputs = image_files(&self.paths, Some(&self.out))?;
         let outcome = run_files(&inputs, &options, &self.out, &*common.progress())?;
         common.say(&self.summary(&outcome));
@@ -83,7 +86,6 @@ impl Run {
         let rows: Vec<Vec<String>> = outcome
             .records
             .iter()
-            .take(MOST_ROWS)
             .map(|r| {
                 let density = if scaled { r.mosaic.density_per_mm2() } else { Some(r.mosaic.density) };
                 let least = r.mosaic.l_infinity.iter().map(|d| d.l_infinity).min_by(f64::total_cmp);
@@ -102,26 +104,23 @@ impl Run {
             .collect();
         let mut text = String::new();
         if !rows.is_empty() {
-            text = table(&headers, &rows);
-            if outcome.records.len() > MOST_ROWS {
-                text.push_str(&format!("\n… and {} more in summary.csv", outcome.records.len() - MOST_ROWS));
-            }
-            if outcome.records.iter().any(|r| !r.warnings.is_empty()) {
-                text.push_str("\n! has a warning: see the last column of summary.csv");
-            }
+            let warned = outcome.records.iter().any(|r| !r.warnings.is_empty());
+            text = short_table(&headers, &rows, "summary.csv", warned);
             text.push_str("\n\n");
         }
         let cones: usize = outcome.records.iter().map(|r| r.mosaic.n).sum();
-        text.push_str(&format!("{cones} cones in {} images", outcome.records.len()));
+        text.push_str(&format!("{} in {}", counted(cones, "cone"), counted(outcome.records.len(), "image")));
         if outcome.reused > 0 {
             text.push_str(&format!(" ({} kept from an earlier run)", outcome.reused));
         }
         let out = self.out.display();
-        text.push_str(&format!(
-            "\nTable:   {out}/summary.csv\nPage:    {out}/index.html\nFigures: {out}/images/NAME/figure.svg"
-        ));
+        text.push_str(&format!("\nTable:   {out}/summary.csv\nPage:    {out}/index.html"));
+        if !outcome.records.is_empty() {
+            text.push_str(&format!("\nFigures: {out}/images/NAME/figure.svg"));
+        }
         if !outcome.failures.is_empty() {
-            text.push_str(&format!("\n{} images failed: {out}/failures.csv", outcome.failures.len()));
+            let failed = counted(outcome.failures.len(), "image");
+            text.push_str(&format!("\n{failed} failed: {out}/failures.csv"));
         }
         text
     }

@@ -1,5 +1,5 @@
-use super::Done;
 use super::common::Common;
+use super::{Done, counted};
 use anyhow::{Context, Result};
 use clap::Args;
 use conemosaic::geometry::Window;
@@ -50,7 +50,7 @@ impl Sample {
         let points = sampler(name)?.sample(n, &window, &mut ChaCha8Rng::seed_from_u64(common.seed))?;
         if let Some(path) = &self.out {
             write_plain_points(path, &points)?;
-            common.say(&format!("{} points: {}", points.len(), path.display()));
+            common.say(&format!("{}: {}", counted(points.len(), "point"), path.display()));
         } else {
             match std::io::stdout().write_all(format_plain_points(&points).as_bytes()) {
                 Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {

@@ -29,10 +29,10 @@ pub struct ScaleArgs {
     #[arg(long, requires = "scale_table")]
     unscaled: bool,
     /// Micrometres per degree [default: 288, Drasdo & Fowler 1974]
-    #[arg(long, value_name = "UM", conflicts_with = "axial_length")]
+    #[arg(long, value_name = "UM", requires = "scale", conflicts_with = "axial_length")]
     um_per_degree: Option<f64>,
     /// Axial length of the eye in mm: 291 µm per degree × length / 24 mm
-    #[arg(long, value_name = "MM")]
+    #[arg(long, value_name = "MM", requires = "scale")]
     axial_length: Option<f64>,
 }
 

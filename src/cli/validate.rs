@@ -1,7 +1,7 @@
-use super::Done;
 use super::common::Common;
 use super::detect::DetectArgs;
 use super::measure::CoordinateArgs;
+use super::{Done, counted};
 use anyhow::{Result, bail};
 use clap::Args;
 use conemosaic::batch::{Detected, ValidationOptions, ValidationOutcome, validate_files};
@@ -17,9 +17,12 @@ Examples:
   conemosaic validate --reference marks --origin 1 --images marks --out scores
   conemosaic validate --reference marks --detections cones --out scores --assignment optimal
 
-Marks are NAME_coords.csv or NAME.csv. A mark matches the nearest detection within 0.75 × the median nearest-neighbour
-distance of the marks; 7 px along the border do not count (Cunefare et al. 2017). Writes to scores/: validation.csv (one
-row an image), validation.json (means, pooled rates), failures.csv if marks could not be scored (exit code 2).")]
+Marks are NAME_coords.csv or NAME.csv. A mark matches the nearest detection within 0.75 × the median nearest-neighbour distance of the marks; 7 px along the border do not count (Cunefare et al. 2017).
+
+Writes to scores/:
+  validation.csv    one row an image
+  validation.json   means and pooled rates
+  failures.csv      marks that could not be scored, if any; then the exit code is 2")]
 pub struct Validate {
     /// Folder of hand marks
     #[arg(long, value_name = "DIR")]
@@ -109,8 +112,12 @@ impl Validate {
                 ],
             ));
             text.push_str(&format!(
-                "\n{} images; {} hits, {} misses, {} false alarms; assignment: {}",
-                summary.images, pooled.tp, pooled.fn_, pooled.fp, self.assignment
+                "\n{}; {} hits, {} misses, {} false alarms; assignment: {}",
+                counted(summary.images, "image"),
+                pooled.tp,
+                pooled.fn_,
+                pooled.fp,
+                self.assignment
             ));
             if let (Some(px), Some(s)) = (summary.localisation_px, summary.localisation_s) {
                 let (px, s) = (significant(px, 2), significant(s, 2));
@@ -134,11 +141,13 @@ impl Validate {
                 .collect();
             text.push_str("\n\n");
             text.push_str(&table(&["lowest Dice", "misses", "false alarms", "Dice"], &worst));
+            text.push_str("\n\n");
         }
         let out = self.out.display();
-        text.push_str(&format!("\nTable: {out}/validation.csv"));
+        text.push_str(&format!("Table: {out}/validation.csv"));
         if !outcome.failures.is_empty() {
-            text.push_str(&format!("\n{} files of marks failed: {out}/failures.csv", outcome.failures.len()));
+            let failed = counted(outcome.failures.len(), "file");
+            text.push_str(&format!("\n{failed} of marks failed: {out}/failures.csv"));
         }
         text
     }

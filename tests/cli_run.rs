@@ -1,0 +1,270 @@
+//! What `run` and `detect` write, under which names, and that they write the same every time.
+
+mod common;
+
+use common::{Place, number};
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+use std::fs;
+
+fn two_images() -> Place {
+    let place = Place::new();
+    place.image("in/a.png", 1);
+    place.image("in/b.0.5_x.png", 2);
+    place
+}
+
+/// All but the record of the run itself, which holds times.
+fn results(place: &Place, folder: &str) -> BTreeMap<String, Vec<u8>> {
+    let mut files = place.files(folder);
+    files.remove("run.json");
+    files
+}
+
+#[test]
+fn run_writes_the_documented_files_and_nothing_else() {
+    let place = two_images();
+    let outcome = place.ok(&["run", "in", "--out", "out"]);
+    let mut expected: Vec<String> =
+        ["index.html", "run.json", "summary.csv"].into_iter().map(str::to_owned).collect();
+    for name in ["a", "b.0.5_x"] {
+        for file in ["figure.svg", "metrics.json", "overlay.png", "pcf.csv", "points.csv"] {
+            expected.push(format!("images/{name}/{file}"));
+        }
+    }
+    expected.sort();
+    assert_eq!(place.names("out"), expected);
+    for word in ["out/summary.csv", "out/index.html", "modality", "cones in 2 images"] {
+        assert!(outcome.stdout.contains(word), "{word}: {}", outcome.stdout);
+    }
+    assert!(!outcome.stdout.contains('\u{1b}') && !outcome.stderr.contains('\u{1b}'));
+    assert_eq!(outcome.stderr.lines().count(), 2);
+}
+
+#[test]
+fn the_files_of_a_run_agree_with_each_other() {
+    let place = two_images();
+    place.ok(&["run", "in", "--out", "out", "--um-per-px", "0.5", "--samplers", "jittered,dart-throwing"]);
+    let header = place.header("out/summary.csv");
+    for column in [
+        "file",
+        "width_px",
+        "height_px",
+        "um_per_px",
+        "modality",
+        "n",
+        "density_per_mm2",
+        "density_per_px2",
+        "spacing_ring_px",
+        "spacing_density_px",
+        "nn_mean_px",
+        "nn_sd_px",
+        "ri",
+        "ri_interior",
+        "l_infinity_jittered",
+        "l_infinity_dart_throwing",
+        "closest_sampler",
+        "warnings",
+    ] {
+        assert!(header.iter().any(|h| h == column), "{column} is not in {header:?}");
+    }
+    let rows = place.table("out/summary.csv");
+    assert_eq!(rows[0]["file"], "in/a.png");
+    let points = place.table("out/images/a/points.csv");
+    assert_eq!(points.len(), number(&rows[0], "n") as usize);
+    assert_eq!((number(&rows[0], "width_px"), number(&rows[0], "height_px")), (64., 56.));
+    let expected = points.len() as f64 / (64. * 56.) * 1e6 / 0.25;
+    assert!((number(&rows[0], "density_per_mm2") / expected - 1.).abs() < 1e-12);
+    for point in &points {
+        assert!((number(point, "x_um") - 0.5 * number(point, "x_px")).abs() < 1e-12);
+        assert!(number(point, "x_px") >= -0.5 && number(point, "x_px") <= 63.5);
+    }
+    let pcf = place.header("out/images/a/pcf.csv");
+    assert_eq!(pcf, ["r", "g", "g_jittered", "g_dart_throwing"]);
+    let curves = place.table("out/images/a/pcf.csv");
+    assert_eq!(curves.len(), 200);
+    let apart = |r: &BTreeMap<String, String>| (number(r, "g") - number(r, "g_jittered")).abs();
+    let l_infinity = curves.iter().map(apart).fold(0., f64::max);
+    assert!((l_infinity - number(&rows[0], "l_infinity_jittered")).abs() < 1e-12);
+    let metrics = place.json("out/images/a/metrics.json");
+    assert_eq!(metrics["mosaic"]["n"], points.len());
+    let svg = place.read("out/images/a/figure.svg");
+    roxmltree::Document::parse(&svg).unwrap();
+}
+
+#[test]
+fn run_json_records_how_the_results_came_about() {
+    let place = two_images();
+    place.ok(&["run", "in", "--out", "out", "--seed", "7", "--samplers", "jittered"]);
+    let run = place.json("out/run.json");
+    assert_eq!(run["version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(run["seed"], 7);
+    assert_eq!(run["command"][1], "run");
+    assert_eq!(run["options"]["samplers"][0], "jittered");
+    assert!(run["seconds"].as_f64().unwrap() > 0.);
+    for image in run["images"].as_array().unwrap() {
+        let bytes = fs::read(place.path(image["file"].as_str().unwrap())).unwrap();
+        let hash: String = Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect();
+        assert_eq!(image["sha256"], hash);
+        assert!(image["seconds"]["detect"].as_f64().is_some());
+    }
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bytes() {
+    let place = Place::new();
+    for seed in 1..=3 {
+        place.image(&format!("in/{seed}.png"), seed);
+    }
+    place.ok(&["run", "in", "--out", "one", "--threads", "1", "-q"]);
+    place.ok(&["--threads", "2", "run", "in", "--out", "two", "-q"]);
+    assert_eq!(results(&place, "one"), results(&place, "two"));
+    for threads in ["1", "2"] {
+        place.ok(&["detect", "in", "--overlay", "--out", &format!("d{threads}"), "--threads", threads]);
+        place.ok(&[
+            "compare",
+            "d1",
+            "--window",
+            "64x56",
+            "--out",
+            &format!("c{threads}"),
+            "--threads",
+            threads,
+        ]);
+    }
+    assert_eq!(place.files("d1"), place.files("d2"));
+    assert_eq!(place.files("c1"), place.files("c2"));
+}
+
+#[test]
+fn another_seed_gives_other_reference_curves_and_the_same_cones() {
+    let place = two_images();
+    for seed in ["1", "2"] {
+        place.ok(&["run", "in/a.png", "--out", seed, "--seed", seed, "--samplers", "jittered"]);
+    }
+    let (one, two) = (place.files("1"), place.files("2"));
+    assert_eq!(one["images/a/points.csv"], two["images/a/points.csv"]);
+    assert_ne!(one["images/a/pcf.csv"], two["images/a/pcf.csv"]);
+}
+
+#[test]
+fn a_resumed_run_ends_like_an_undisturbed_one() {
+    let place = Place::new();
+    for seed in 1..=4 {
+        place.image(&format!("in/{seed}.png"), seed);
+    }
+    let run = ["run", "in", "--out", "out", "--samplers", "jittered", "--um-per-px", "0.4", "--resume"];
+    place.ok(&run);
+    let undisturbed = results(&place, "out");
+    fs::remove_dir_all(place.path("out/images/1")).unwrap();
+    fs::remove_file(place.path("out/summary.csv")).unwrap();
+    fs::remove_file(place.path("out/images/2/figure.svg")).unwrap();
+    fs::rename(place.path("out/images/3"), place.path("out/images/.3.partial")).unwrap();
+    let outcome = place.ok(&run);
+    assert!(outcome.stdout.contains("1 kept from an earlier run"), "{}", outcome.stdout);
+    assert_eq!(results(&place, "out"), undisturbed);
+}
+
+#[test]
+fn resuming_redoes_what_changed() {
+    let place = two_images();
+    let run = ["run", "in", "--out", "out", "--samplers", "jittered", "--resume"];
+    place.ok(&run);
+    assert!(place.ok(&run).stdout.contains("2 kept"));
+    place.image("in/a.png", 9);
+    assert!(place.ok(&run).stdout.contains("1 kept"));
+    for changed in [&["--um-per-px", "0.4"][..], &["--seed", "5"], &["--crop", "40x40"]] {
+        let outcome = place.ok(&[&run[..], changed].concat());
+        assert!(!outcome.stdout.contains("kept"), "{changed:?}: {}", outcome.stdout);
+    }
+    place.ok(&["run", "in", "--out", "fresh", "--samplers", "jittered", "--crop", "40x40"]);
+    assert_eq!(results(&place, "fresh"), results(&place, "out"));
+}
+
+#[test]
+fn a_crop_leaves_the_cones_inside() {
+    let place = two_images();
+    place.ok(&["run", "in/a.png", "--out", "out", "--crop", "0,0,50,40", "--samplers", "jittered"]);
+    let points = place.table("out/images/a/points.csv");
+    assert!(points.len() > 5);
+    assert!(points.iter().all(|p| number(p, "x_px") <= 50. && number(p, "y_px") <= 40.));
+    let density = number(&place.table("out/summary.csv")[0], "density_per_px2");
+    assert!((density - points.len() as f64 / 2000.).abs() < 1e-12);
+}
+
+#[test]
+fn names_keep_their_dots_and_equal_ones_get_their_folder() {
+    let place = Place::new();
+    place.image("first.png", 1);
+    for copy in [
+        "in/x/1.png",
+        "in/y/1.PNG",
+        "in/JC_0.08_aligned.Png",
+        "in/two words, “and” a comma.png",
+        "in/Zäpfchen_錐体.png",
+        "in/<b>&'.png",
+        "in/.hidden.png",
+        "in/.git/z.png",
+        "in/same.png",
+    ] {
+        place.copy("first.png", copy);
+    }
+    let tif = place.path("in/same.tif");
+    place.ok(&["render", "--width", "64", "--height", "64", "--bits", "16", "--out", tif.to_str().unwrap()]);
+    place.ok(&["run", "in", "in/x/1.png", "./in/x/1.png", "--out", "out", "--samplers", "jittered", "-q"]);
+    let rows = place.table("out/summary.csv");
+    let mut names: Vec<&str> = rows.iter().map(|r| r["name"].as_str()).collect();
+    names.sort_unstable();
+    let mut expected = [
+        "<b>&'",
+        "JC_0.08_aligned",
+        "Zäpfchen_錐体",
+        "in_same_png",
+        "in_same_tif",
+        "two words, “and” a comma",
+        "x_1",
+        "y_1",
+    ];
+    expected.sort_unstable();
+    assert_eq!(names, expected);
+    for name in expected {
+        roxmltree::Document::parse(&place.read(&format!("out/images/{name}/figure.svg"))).unwrap();
+    }
+    let page = place.read("out/index.html");
+    assert!(!page.contains("<b>&'") && page.contains("&lt;b&gt;&amp;"), "names are escaped on the page");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn names_that_differ_in_case_only_do_not_meet() {
+    let place = Place::new();
+    place.image("in/Cone.png", 1);
+    place.image("in/cone.png", 2);
+    place.ok(&["detect", "in", "--out", "out", "-q"]);
+    assert_eq!(place.names("out"), ["in_Cone.csv", "in_cone_2.csv"]);
+}
+
+#[test]
+fn results_inside_the_folder_of_images_are_not_taken_for_images() {
+    let place = two_images();
+    place.ok(&["run", "in", "--out", "in/report", "--samplers", "jittered", "-q"]);
+    let first = results(&place, "in/report");
+    place.ok(&["run", "in", "--out", "in/report", "--samplers", "jittered", "-q"]);
+    assert_eq!(results(&place, "in/report"), first);
+    place.ok(&["detect", "in", "--out", "in/cones", "--overlay", "-q"]);
+    place.ok(&["detect", "in", "--out", "elsewhere", "--overlay", "-q"]);
+    assert_eq!(place.files("in/cones"), place.files("elsewhere"));
+}
+
+#[test]
+fn long_tables_are_cut_on_the_terminal_and_whole_in_the_file() {
+    let place = Place::new();
+    for i in 0..40 {
+        place.write(&format!("csv/{i:02}.csv"), "x,y\n1,1\n5,5\n9,1\n");
+    }
+    let outcome = place.ok(&["measure", "csv", "--window", "10x10", "--out", "out"]);
+    assert!(outcome.stdout.contains("… and 16 more in summary.csv"), "{}", outcome.stdout);
+    assert_eq!(place.table("out/summary.csv").len(), 40);
+    let outcome = place.ok(&["compare", "csv", "--window", "10x10", "--samplers", "square", "--out", "out"]);
+    assert!(outcome.stdout.contains("… and 16 more in l_infinity.csv"), "{}", outcome.stdout);
+}

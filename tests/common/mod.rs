@@ -1,0 +1,141 @@
+//! What tests of the command line share. Each test file uses a part of it.
+#![allow(dead_code)]
+
+use assert_cmd::Command;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// What a run of the program left behind.
+pub struct Outcome {
+    pub code: i32,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+/// A folder in which the program is run; it goes with the test.
+pub struct Place(TempDir);
+
+impl Place {
+    pub fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    pub fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
+        let path = self.path(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, bytes).unwrap();
+    }
+
+    pub fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
+    }
+
+    pub fn copy(&self, from: &str, to: &str) {
+        self.write(to, fs::read(self.path(from)).unwrap());
+    }
+
+    /// Runs the program here, with these arguments.
+    pub fn run(&self, arguments: &[&str]) -> Outcome {
+        let output = Command::new(env!("CARGO_BIN_EXE_conemosaic"))
+            .current_dir(self.0.path())
+            .args(arguments)
+            .output()
+            .unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        Outcome {
+            code: output.status.code().expect("killed by a signal"),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        }
+    }
+
+    /// Runs the program and insists on success.
+    pub fn ok(&self, arguments: &[&str]) -> Outcome {
+        let outcome = self.run(arguments);
+        assert_eq!(outcome.code, 0, "{arguments:?}\n{}{}", outcome.stdout, outcome.stderr);
+        outcome
+    }
+
+    /// Runs the program and insists on exit code 1 and one line of complaint, which is returned.
+    pub fn refused(&self, arguments: &[&str]) -> String {
+        let outcome = self.run(arguments);
+        assert_eq!(outcome.code, 1, "{arguments:?}\n{}{}", outcome.stdout, outcome.stderr);
+        assert_eq!(outcome.stderr.lines().count(), 1, "{arguments:?}\n{}", outcome.stderr);
+        assert!(outcome.stderr.starts_with("error: "), "{}", outcome.stderr);
+        assert_eq!(outcome.stdout, "", "{arguments:?}");
+        outcome.stderr
+    }
+
+    /// A small simulated image.
+    pub fn image(&self, name: &str, seed: u32) {
+        fs::create_dir_all(self.path(name).parent().unwrap()).unwrap();
+        let (path, seed) = (self.path(name), seed.to_string());
+        let path = path.to_str().unwrap();
+        self.ok(&["render", "--width", "64", "--height", "56", "--seed", &seed, "--out", path, "-q"]);
+    }
+
+    /// Every file below a folder, by its path in it.
+    pub fn files(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
+        let mut found = BTreeMap::new();
+        collect(&self.path(folder), &self.path(folder), &mut found);
+        found
+    }
+
+    /// The paths of these files.
+    pub fn names(&self, folder: &str) -> Vec<String> {
+        self.files(folder).into_keys().collect()
+    }
+
+    /// The rows of a CSV, each by its column names.
+    pub fn table(&self, name: &str) -> Vec<BTreeMap<String, String>> {
+        table(&self.path(name))
+    }
+
+    /// The column names of a CSV.
+    pub fn header(&self, name: &str) -> Vec<String> {
+        let mut reader = csv::Reader::from_path(self.path(name)).unwrap();
+        reader.headers().unwrap().iter().map(str::to_owned).collect()
+    }
+
+    pub fn json(&self, name: &str) -> serde_json::Value {
+        serde_json::from_str(&self.read(name)).unwrap()
+    }
+}
+
+pub fn table(path: &Path) -> Vec<BTreeMap<String, String>> {
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    reader.deserialize().map(Result::unwrap).collect()
+}
+
+fn collect(root: &Path, folder: &Path, found: &mut BTreeMap<String, Vec<u8>>) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            collect(root, &path, found);
+        } else {
+            let name = path.strip_prefix(root).unwrap().to_string_lossy().into_owned();
+            found.insert(name, fs::read(&path).unwrap());
+        }
+    }
+}
+
+/// A folder of the shared data, or a word that the test is skipped.
+pub fn shared(folder: &str, what: &str) -> Option<PathBuf> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared").join(folder);
+    if path.is_dir() {
+        return Some(path);
+    }
+    println!("SKIPPED {what}: ../shared is not here");
+    None
+}
+
+pub fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
+    row[column].parse().unwrap_or_else(|_| panic!("{column}: {:?}", row.get(column)))
+}
