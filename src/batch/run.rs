@@ -7,7 +7,7 @@ use super::{BatchError, Crop, Failure, Input, Progress, ScaleSource};
 use crate::compare::{ReferenceCurve, References};
 use crate::detect::{DetectOptions, Detections};
 use crate::geometry::Window;
-use crate::image::Plane;
+use crate::image::{Plane, empty_fraction};
 use crate::mosaic::{LengthUnit, Mosaic, Scale};
 use crate::report::{
     Curve, DetectionRecord, ImageRecord, MosaicFigure, MosaicRecord, ReferenceLine, mosaic_figure, page,
@@ -22,6 +22,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 const IMAGES: &str = "images";
+/// A smaller part of an image that was not imaged changes no density that matters.
+const EMPTY: f64 = 0.01;
 const METRICS: &str = "metrics.json";
 /// What an image's folder holds.
 const FILES: [&str; 5] = ["points.csv", "overlay.png", "pcf.csv", METRICS, "figure.svg"];
@@ -183,6 +185,14 @@ fn one_image(
     let mosaic_record = record_of(&mosaic, &measures, distances(&measures, &curves)?);
     lap(&mut seconds.compare);
 
+    let mut warnings = warnings_of(Some(&found), &mosaic_record, &measures);
+    let empty = if options.crop.is_none() { empty_fraction(&image) } else { 0. };
+    if empty > EMPTY {
+        let percent = 100. * empty;
+        warnings.push(format!(
+            "{percent:.0} % of the image was not imaged (black margin) but counts as area: restrict it with --crop"
+        ));
+    }
     let record = ImageRecord {
         file: input.path.display().to_string(),
         name: input.name.clone(),
@@ -200,7 +210,7 @@ fn one_image(
             ring_strength: found.ring_strength,
             density_spacing_px: found.spacing,
         },
-        warnings: warnings_of(Some(&found), &mosaic_record, &measures),
+        warnings,
         mosaic: mosaic_record,
     };
     images.replace_folder(&input.name, |folder| {
@@ -208,6 +218,16 @@ fn one_image(
     })?;
     lap(&mut seconds.report);
     let line = describe(&found);
+    tracing::debug!(
+        file = record.file,
+        modality = %found.modality,
+        polarity = found.polarity.name(),
+        ring_spacing_px = found.ring_spacing,
+        ring_strength = found.ring_strength,
+        spacing_px = found.spacing,
+        cones = found.cones.len(),
+    );
+    tracing::trace!(file = record.file, ?seconds);
     Ok((Done { record, seconds: Some(seconds) }, line))
 }
 

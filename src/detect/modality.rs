@@ -8,6 +8,8 @@ use crate::image::Plane;
 /// Anisotropy of the ring above which an image shows a derivative along x. Hand-marked images: confocal at most .06,
 /// split at least .24, whatever gamma, noise or polarity is applied to them; simulated discs reach .17.
 const DIRECTED: f64 = 0.2;
+/// With fewer cones than this, the spectrum's own scatter passes for a direction: then it takes more.
+const ENOUGH_CONES: f64 = 100.;
 
 /// Scatter of the cones' heights, as a coefficient of variation, above which they are waveguides seen end-on (confocal)
 /// rather than cut discs (histology). Hand-marked confocal images: at least .43, with gamma 0.5 still .35; simulated
@@ -35,7 +37,9 @@ pub(super) fn decide(
 }
 
 fn decide_modality(flat: &Plane, ring: &RingProfile) -> Modality {
-    if ring.anisotropy(ring.spacing(Modality::Split).spacing) > DIRECTED {
+    let spacing = ring.spacing(Modality::Split).spacing;
+    let cones = flat.len() as f64 / (0.75f64.sqrt() * spacing * spacing);
+    if ring.anisotropy(spacing) > DIRECTED * (ENOUGH_CONES / cones).sqrt().max(1.) {
         return Modality::Split;
     }
     let spacing = ring.spacing(Modality::Histology).spacing;
