@@ -17,7 +17,9 @@ import numpy as np
 
 BORDER = cv2.BORDER_REFLECT
 # threshold of a maximum, radius of suppression in spacings
-CRITERIA = {'confocal': (0.0, 0.55), 'split': (1.0, 0.5), 'histology': (0.3, 0.6)}
+CRITERIA = {'confocal': (0.0, 0.55), 'split': (0.6, 0.5), 'histology': (0.3, 0.55)}
+# slope and offset of the threshold that follows the upper quartile of the maxima
+RELATIVE = {'split': (0.75, -0.7)}
 
 
 def read_grey(path):
@@ -103,6 +105,14 @@ def suppress(maxima, radius):
     return kept
 
 
+def select(kept, modality):
+    if modality not in RELATIVE or not kept:
+        return kept
+    slope, offset = RELATIVE[modality]
+    upper_quartile = kept[len(kept) // 4][2].astype(np.float64)
+    return [cone for cone in kept if cone[2] > slope * upper_quartile + offset]
+
+
 def write_rows(path, header, rows):
     with open(path, 'w', newline='') as file:
         writer = csv.writer(file)
@@ -124,7 +134,8 @@ def main(jobs, out):
             for stage, plane in (('image', image), ('flat', flatten(image)), ('response', response)):
                 plane.astype('<f4').tofile(out / f'{job["name"]}.{stage}')
             write_rows(out / f'{job["name"]}.maxima.csv', ('column', 'row', 'x', 'y', 'score'), maxima)
-            write_rows(out / f'{job["name"]}.detections.csv', ('x', 'y', 'score'), suppress(maxima, reach * s))
+            cones = select(suppress(maxima, reach * s), job['modality'])
+            write_rows(out / f'{job["name"]}.detections.csv', ('x', 'y', 'score'), cones)
 
 
 if __name__ == '__main__':

@@ -238,7 +238,7 @@ fn suppression_keeps_the_same_of_the_same_maxima() {
     for c in compared() {
         let maxima =
             c.oracle_maxima.iter().map(|&[_, _, x, y, score]| Detection { centre: Point::new(x, y), score });
-        let ours = suppress(maxima.collect(), c.radius);
+        let ours = c.criterion.select(suppress(maxima.collect(), c.radius));
         let kept: Vec<_> = ours.iter().map(|d| [d.centre.x, d.centre.y, d.score]).collect();
         assert_eq!(kept, c.oracle_cones, "{}", c.name);
     }
@@ -247,7 +247,7 @@ fn suppression_keeps_the_same_of_the_same_maxima() {
 #[test]
 fn cones_agree_with_opencv() {
     for c in compared() {
-        let ours = suppress(local_maxima(&c.response, c.criterion.threshold), c.radius);
+        let ours = c.criterion.select(suppress(local_maxima(&c.response, c.criterion.threshold), c.radius));
         let ours: Vec<Point> = ours.iter().map(|d| d.centre).collect();
         let oracle: Vec<Point> = c.oracle_cones.iter().map(|m| Point::new(m[0], m[1])).collect();
         // suppression keeps cones much farther apart than this, so that nobody is near to two
