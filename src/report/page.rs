@@ -1,14 +1,14 @@
-use super::{Cell, ImageRecord, significant};
+use super::{Cell, ImageRecord, MosaicRecord, significant};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 const STYLE: &str = "
 :root { color-scheme: light dark; --line: #8884; --soft: #8882; --warn: #b45309; }
-body { font: 15px/1.5 system-ui, sans-serif; max-width: 1200px; margin: 2rem auto; padding: 0 1.2rem; }
+body { font: 15px/1.5 system-ui, sans-serif; max-width: 1280px; margin: 2rem auto; padding: 0 1.2rem; }
 h1 { font-size: 1.5rem; margin-bottom: .2rem; } h2 { font-size: 1.1rem; margin: 2.6rem 0 .4rem; overflow-wrap: anywhere; }
 p.lead { margin-top: 0; opacity: .75; }
 .scroll { overflow-x: auto; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .9rem; }
-th, td { padding: .3rem .7rem; border-bottom: 1px solid var(--line); text-align: right; white-space: nowrap; }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .85rem; }
+th, td { padding: .3rem .55rem; border-bottom: 1px solid var(--line); text-align: right; white-space: nowrap; }
 th { vertical-align: bottom; } th:first-child, td:first-child, .word { text-align: left; }
 td:first-child { max-width: 22rem; overflow: hidden; text-overflow: ellipsis; }
 tr:hover td { background: var(--soft); }
@@ -87,13 +87,19 @@ fn overview(records: &[ImageRecord], samplers: &[String], scaled: bool) -> Marku
                     td { (number(m.nearest.ri, 3)) }
                     td { (number(m.nearest_interior.ri, 3)) }
                     @for sampler in samplers {
-                        td { (number(m.l_infinity.iter().find(|d| d.sampler == *sampler).map(|d| d.l_infinity), 2)) }
+                        td { (distance(m, sampler)) }
                     }
                     td.word { (Cell::from(m.closest_sampler()).readable()) }
                 }
             } }
         }
     }
+}
+
+/// Two decimals, so that a column can be compared at a glance.
+fn distance(mosaic: &MosaicRecord, sampler: &str) -> String {
+    let found = mosaic.l_infinity.iter().find(|d| d.sampler == sampler);
+    found.map_or("–".into(), |d| format!("{:.2}", d.l_infinity))
 }
 
 fn one(k: usize, record: &ImageRecord) -> Markup {
