@@ -8,12 +8,12 @@ h1 { font-size: 1.5rem; margin-bottom: .2rem; } h2 { font-size: 1.1rem; margin: 
 p.lead { margin-top: 0; opacity: .75; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .85rem; }
-th, td { padding: .3rem .55rem; border-bottom: 1px solid var(--line); text-align: right; white-space: nowrap; }
-th { vertical-align: bottom; } th:first-child, td:first-child, .word { text-align: left; }
+th, td { padding: .3rem .5rem; border-bottom: 1px solid var(--line); text-align: right; white-space: nowrap; }
+th { vertical-align: bottom; white-space: normal; } th:first-child, td:first-child, .word { text-align: left; }
 td:first-child { max-width: 22rem; overflow: hidden; text-overflow: ellipsis; }
 tr:hover td { background: var(--soft); }
 .warning { color: var(--warn); }
-figure { margin: .6rem 0; } img { max-width: 100%; background: #fff; border-radius: 4px; }
+figure { margin: .6rem 0; } img { width: 100%; max-width: 1060px; background: #fff; border-radius: 4px; }
 nav a { margin-right: 1rem; font-size: .9rem; }
 @media print { section { break-inside: avoid; } nav { display: none; } }
 ";
