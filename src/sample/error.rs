@@ -4,14 +4,14 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SampleError {
     /// No sampler has that name.
-    #[error("there is no sampler “{name}”: did you mean {closest}? There are {names}")]
+    #[error("there is no sampler “{name}”{hint}: there are {names}")]
     Unknown {
         /// What was asked for.
         name: String,
         /// Every name there is.
         names: String,
-        /// The name with the fewest different letters.
-        closest: String,
+        /// The name that may have been meant, as a question; empty if none resembles it.
+        hint: String,
     },
     /// More points than fit into memory.
     #[error("{n} points were asked for: at most {max} can be made")]
@@ -45,37 +45,16 @@ pub enum SampleError {
     },
 }
 
+/// Names that differ by more letters are other words.
+const MISSPELT: usize = 3;
+
 impl SampleError {
     pub(super) fn unknown(name: &str, names: &[&str]) -> Self {
-        let closest = names.iter().min_by_key(|n| edits(name, n)).copied().unwrap_or_default();
-        Self::Unknown { name: name.to_owned(), names: names.join(", "), closest: closest.to_owned() }
-    }
-}
-
-/// Insertions, deletions and substitutions that turn `a` into `b` (Levenshtein 1966).
-fn edits(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, ca) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, &cb) in b.iter().enumerate() {
-            let substituted = diagonal + usize::from(ca != cb);
-            diagonal = row[j + 1];
-            row[j + 1] = substituted.min(row[j] + 1).min(row[j + 1] + 1);
-        }
-    }
-    row[b.len()]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn edits_count_letters_changed() {
-        assert_eq!(edits("kitten", "sitting"), 3);
-        assert_eq!(edits("", "abc"), 3);
-        assert_eq!(edits("same", "same"), 0);
+        let resembling = names.iter().map(|n| (strsim::levenshtein(name, n), n)).min();
+        let hint = match resembling {
+            Some((edits, closest)) if edits <= MISSPELT => format!(" (did you mean {closest}?)"),
+            _ => String::new(),
+        };
+        Self::Unknown { name: name.to_owned(), names: names.join(", "), hint }
     }
 }

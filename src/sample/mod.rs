@@ -84,6 +84,7 @@ mod tests {
     fn unknown_name_lists_the_names_and_the_closest() {
         let message = sampler("brideson").err().unwrap().to_string();
         assert!(message.contains("did you mean bridson?"), "{message}");
+        assert!(!sampler("nonsense-of-its-own").err().unwrap().to_string().contains("did you mean"));
         assert!(samplers().iter().all(|s| message.contains(s.name())), "{message}");
     }
 
