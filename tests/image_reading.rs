@@ -1,8 +1,7 @@
 //! Every kind of PNG and TIFF becomes the same grey plane; everything else becomes an error.
 
 use conemosaic::image::{
-    BitDepth, ImageError, Plane, decode, is_image_path, read, write_grey, write_png, write_rgb_png,
-    write_tiff,
+    BitDepth, ImageError, Plane, decode, is_image_path, read, write_grey, write_png, write_tiff,
 };
 use proptest::prelude::*;
 use std::io::Cursor;
@@ -449,15 +448,6 @@ fn writing_into_a_folder_that_is_not_there_is_an_error_and_leaves_nothing() {
     std::fs::create_dir_all(taken.join("full")).unwrap();
     assert!(write_png(&taken, &expected(), BitDepth::Eight).is_err());
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
-}
-
-#[test]
-fn overlays_are_written_in_colour() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("overlay.png");
-    let picture = image::RgbImage::from_fn(3, 2, |x, y| image::Rgb([x as u8 * 80, y as u8 * 200, 7]));
-    write_rgb_png(&path, &picture).unwrap();
-    assert_eq!(image::open(&path).unwrap().into_rgb8(), picture);
 }
 
 #[test]

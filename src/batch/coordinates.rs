@@ -1,5 +1,5 @@
 use super::failures::write_failures;
-use super::measured::{distances, pcf_table, record_of, warnings_of};
+use super::measured::{distances, not_compared, pcf_table, record_of, warnings_of};
 use super::outputs::OutputFolder;
 use super::pairing::image_beside;
 use super::work::for_each;
@@ -9,9 +9,10 @@ use crate::geometry::Window;
 use crate::image;
 use crate::mosaic::io::{ReadOptions, read_coordinates};
 use crate::mosaic::{LengthUnit, Mosaic, Scale};
-use crate::report::CoordinatesRecord;
+use crate::report::{CoordinatesRecord, counted};
 use crate::sample::Sampler;
 use crate::stats::{MeasureOptions, Measures, measure};
+use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 use std::sync::Arc;
@@ -44,6 +45,17 @@ impl FromStr for Region {
             (_, Some(&[w, h]), _) if w > 0. && h > 0. => Ok(Self::Size(w, h)),
             (_, _, Some(&[x0, y0, x1, y1])) if x0 < x1 && y0 < y1 => Ok(Self::Edges([x0, y0, x1, y1])),
             _ => Err(format!("“{text}” is no window: expected unit, image, WxH or X0,Y0,X1,Y1")),
+        }
+    }
+}
+
+impl fmt::Display for Region {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unit => f.write_str("unit"),
+            Self::Size(w, h) => write!(f, "{w}x{h}"),
+            Self::Edges([x0, y0, x1, y1]) => write!(f, "{x0},{y0},{x1},{y1}"),
+            Self::Image => f.write_str("image"),
         }
     }
 }
@@ -100,6 +112,7 @@ pub fn measure_files(
     });
     let rows: Vec<_> = records.iter().map(CoordinatesRecord::row).collect();
     out.write_table("summary.csv", &CoordinatesRecord::header(), &rows)?;
+    out.write("options.json", &options_json(options, serde_json::Value::Null)?)?;
     write_failures(&out, &failures)?;
     Ok(CoordinatesOutcome { records, failures })
 }
@@ -122,10 +135,11 @@ pub fn compare_files(
         let (mosaic, outside) = load(input, options)?;
         let measures = measure(&mosaic, &options.measure);
         let curves = match &measures.pcf {
-            Ok(_) => references.curves(mosaic.len(), mosaic.window())?,
+            Ok(_) => references.curves(mosaic.len(), mosaic.window()).unwrap_or_default(),
             Err(_) => Arc::default(),
         };
-        let record = record(input, &mosaic, outside, &measures, distances(&measures, &curves)?);
+        let mut record = record(input, &mosaic, outside, &measures, distances(&measures, &curves)?);
+        record.warnings.extend(not_compared(&measures, samplers, &curves));
         let closest = record.mosaic.closest_sampler().unwrap_or("none");
         let line = format!("{}, closest to {closest}", line_about(&record));
         Ok((record, line))
@@ -133,13 +147,31 @@ pub fn compare_files(
     let names: Vec<String> = samplers.iter().map(|s| s.name().to_owned()).collect();
     let rows: Vec<_> = records.iter().map(|r| r.distance_row(&names)).collect();
     out.write_table("l_infinity.csv", &CoordinatesRecord::distance_header(&names), &rows)?;
+    let samplers = serde_json::json!({ "names": names, "seed": seed });
+    out.write("options.json", &options_json(options, samplers)?)?;
     write_failures(&out, &failures)?;
     Ok(CoordinatesOutcome { records, failures })
 }
 
+/// How coordinates were read and measured, and what they were compared with.
+fn options_json(options: &CoordinatesOptions, samplers: serde_json::Value) -> Result<Vec<u8>, BatchError> {
+    let mut json = serde_json::to_vec_pretty(&serde_json::json!({
+        "program": "conemosaic",
+        "version": env!("CARGO_PKG_VERSION"),
+        "read": options.read,
+        "window": options.region.to_string(),
+        "torus": options.torus,
+        "scale": options.scales.describe(),
+        "measure": options.measure,
+        "samplers": samplers,
+    }))?;
+    json.push(b'\n');
+    Ok(json)
+}
+
 fn line_about(record: &CoordinatesRecord) -> String {
     let ri = record.mosaic.nearest.ri.map(|ri| format!(", RI {ri:.2}")).unwrap_or_default();
-    format!("{} points{ri}", record.mosaic.n)
+    format!("{}{ri}", counted(record.mosaic.n, "point"))
 }
 
 fn record(

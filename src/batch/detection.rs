@@ -3,10 +3,10 @@ use super::outputs::OutputFolder;
 use super::work::for_each;
 use super::{BatchError, Failure, Input, Progress, ScaleSource};
 use crate::detect::{DetectOptions, Detections, detect};
-use crate::image::{Plane, decode};
+use crate::image::{Plane, decode, read_bytes};
 use crate::mosaic::Scale;
 use crate::mosaic::io::write_points;
-use crate::report::{MarkKind, OverlayMark, encode_png, overlay};
+use crate::report::{MarkKind, OverlayMark, counted, encode_png, overlay};
 use std::fs;
 use std::io::Read;
 use std::path::Path;
@@ -42,6 +42,9 @@ pub fn detect_files(
 ) -> Result<DetectionOutcome, BatchError> {
     let out = OutputFolder::create(out)?;
     let (cones, failures) = for_each(inputs, progress, |input| {
+        if input.name.eq_ignore_ascii_case("failures") {
+            return Err(BatchError::Reserved { file: input.path.clone() });
+        }
         let (_, image) = read_image(input)?;
         let found = detect_in(input, &image, options)?;
         let scale = scales.scale_of(&input.path, image.ncols())?;
@@ -70,8 +73,7 @@ fn refuse_foreign(path: &Path) -> Result<(), BatchError> {
 
 /// The bytes of the file and the image in them.
 pub(super) fn read_image(input: &Input) -> Result<(Vec<u8>, Plane), BatchError> {
-    let unreadable = |source| BatchError::Unreadable { path: input.path.clone(), source };
-    let bytes = fs::read(&input.path).map_err(unreadable)?;
+    let bytes = read_bytes(&input.path)?;
     let image = decode(&bytes, &input.path.display().to_string())?;
     Ok((bytes, image))
 }
@@ -109,5 +111,6 @@ pub(super) fn overlay_of(image: &Plane, found: &Detections) -> Result<Vec<u8>, B
 
 /// One line about what was found.
 pub(super) fn describe(found: &Detections) -> String {
-    format!("{} cones, {}, spacing {:.1} px", found.cones.len(), found.modality, found.spacing)
+    let cones = counted(found.cones.len(), "cone");
+    format!("{cones}, {}, spacing {:.1} px", found.modality, found.spacing)
 }

@@ -2,8 +2,8 @@ use crate::compare::{CompareError, MatchError};
 use crate::detect::DetectError;
 use crate::geometry::WindowError;
 use crate::image::ImageError;
-use crate::mosaic::MosaicError;
 use crate::mosaic::io::{ReadError, ScaleTableError, WriteError};
+use crate::mosaic::{LengthUnit, MosaicError};
 use crate::report::ReportError;
 use std::io;
 use std::path::PathBuf;
@@ -81,6 +81,28 @@ pub enum BatchError {
     Foreign {
         /// The file.
         path: PathBuf,
+    },
+    /// A folder that holds more than results stands where results would be written.
+    #[error("{path}: holds other files than results: choose another --out folder", path = path.display())]
+    ForeignFolder {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// An image whose results would be called like the list of failures.
+    #[error(
+        "{file}: its results would be failures.csv, which lists the images that failed: rename the image"
+    )]
+    Reserved {
+        /// The image.
+        file: PathBuf,
+    },
+    /// Coordinates in another unit than pixels where pixels are needed.
+    #[error("{file}: the coordinates are in {unit}, expected px", unit = unit.symbol())]
+    NotPixels {
+        /// The file.
+        file: PathBuf,
+        /// Its unit.
+        unit: LengthUnit,
     },
     /// Reference marks without anything to hold against them.
     #[error("{file}: {problem}")]

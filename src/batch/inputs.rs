@@ -165,7 +165,9 @@ fn folded(name: &str) -> String {
 }
 
 fn stem(path: &Path) -> String {
-    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    // "...png" has the stem "..", which as a folder would be another one
+    if matches!(&*stem, "" | "." | "..") { "image".into() } else { stem.into_owned() }
 }
 
 fn with_folders(path: &Path, count: usize) -> String {
@@ -206,6 +208,12 @@ mod tests {
 
     fn names(files: &[&str]) -> Vec<String> {
         named(files.iter().map(PathBuf::from).collect()).into_iter().map(|i| i.name).collect()
+    }
+
+    #[test]
+    fn no_name_is_a_way_to_another_folder() {
+        assert_eq!(names(&["/a/...png"]), ["image"]);
+        assert_eq!(names(&["/a/..png"]), ["image"]);
     }
 
     #[test]

@@ -2,7 +2,8 @@ use super::BatchError;
 use crate::compare::{ReferenceCurve, l_infinity};
 use crate::detect::Detections;
 use crate::mosaic::Mosaic;
-use crate::report::{Cell, MosaicRecord, SamplerDistance};
+use crate::report::{Cell, MosaicRecord, SamplerDistance, counted};
+use crate::sample::Sampler;
 use crate::stats::{Measures, Pcf};
 
 /// Fewer cones than this leave every statistic uncertain: the RI of 30 points scatters by about 15 %.
@@ -25,6 +26,7 @@ pub(super) fn record_of(
         window: [bounds.x0(), bounds.y0(), bounds.x1(), bounds.y1()],
         density: mosaic.density(),
         spacing: mosaic.hexagonal_spacing(),
+        deviation: measures.deviation,
         nearest: measures.nearest,
         nearest_interior: measures.nearest_interior,
         voronoi: measures.voronoi,
@@ -62,6 +64,19 @@ pub(super) fn pcf_table(pcf: &Pcf, curves: &[ReferenceCurve]) -> (Vec<String>, V
     (header, rows)
 }
 
+/// A warning for every sampler that cannot fill the mosaic's window.
+pub(super) fn not_compared(
+    measures: &Measures,
+    samplers: &[&'static dyn Sampler],
+    curves: &[ReferenceCurve],
+) -> Vec<String> {
+    if measures.pcf.is_err() {
+        return Vec::new();
+    }
+    let missing = samplers.iter().filter(|s| !curves.iter().any(|c| c.sampler == s.name()));
+    missing.map(|s| format!("not compared with {}: it cannot fill this window", s.name())).collect()
+}
+
 /// What a reader of the numbers should know.
 pub(super) fn warnings_of(
     found: Option<&Detections>,
@@ -83,7 +98,7 @@ pub(super) fn warnings_of(
         }
     }
     if record.n < FEW {
-        warnings.push(format!("only {} points: every statistic is uncertain", record.n));
+        warnings.push(format!("only {}: every statistic is uncertain", counted(record.n, "point")));
     }
     if record.trend.significant {
         let ratio = record.trend.density_ratio.map(|r| format!(" about {r:.1}:1")).unwrap_or_default();

@@ -46,12 +46,15 @@ impl OutputFolder {
         }
     }
 
-    /// A sub-folder that takes its place, instead of what stood there, when `fill` has filled it.
+    /// A sub-folder of the files `known` that takes its place, instead of earlier results, when `fill` has filled it.
+    /// A folder that holds anything else is somebody's and stays.
     pub fn replace_folder(
         &self,
         name: &str,
+        known: &[&str],
         fill: impl FnOnce(&OutputFolder) -> Result<(), BatchError>,
     ) -> Result<(), BatchError> {
+        self.refuse_foreign(name, known)?;
         let partial = self.join(format!(".{name}.partial"));
         let refused = |source: io::Error| BatchError::Output { path: partial.clone(), source };
         remove_folder(&partial).map_err(refused)?;
@@ -65,6 +68,23 @@ impl OutputFolder {
             let _ = remove_folder(&partial);
         }
         done
+    }
+
+    /// Removes a sub-folder of earlier results, unless it holds anything but the files `known`.
+    pub fn remove_results(&self, name: &str, known: &[&str]) -> Result<(), BatchError> {
+        self.refuse_foreign(name, known)?;
+        let path = self.join(name);
+        remove_folder(&path).map_err(|source| BatchError::Output { path, source })
+    }
+
+    fn refuse_foreign(&self, name: &str, known: &[&str]) -> Result<(), BatchError> {
+        let path = self.join(name);
+        let foreign = fs::read_dir(&path)
+            .into_iter()
+            .flatten()
+            .flatten()
+            .any(|entry| !known.iter().any(|k| entry.file_name() == *k));
+        if foreign { Err(BatchError::ForeignFolder { path }) } else { Ok(()) }
     }
 }
 

@@ -1,6 +1,6 @@
 use super::detection::{describe, detect_in, overlay_of, read_image, write_detections};
 use super::failures::write_failures;
-use super::measured::{distances, pcf_table, record_of, warnings_of};
+use super::measured::{distances, not_compared, pcf_table, record_of, warnings_of};
 use super::outputs::OutputFolder;
 use super::work::for_each;
 use super::{BatchError, Crop, Failure, Input, Progress, ScaleSource};
@@ -24,6 +24,8 @@ use std::time::Instant;
 const IMAGES: &str = "images";
 /// A smaller part of an image that was not imaged changes no density that matters.
 const EMPTY: f64 = 0.01;
+/// A larger part is no margin.
+const ALL: f64 = 0.9;
 const METRICS: &str = "metrics.json";
 /// What an image's folder holds.
 const FILES: [&str; 5] = ["points.csv", "overlay.png", "pcf.csv", METRICS, "figure.svg"];
@@ -112,8 +114,12 @@ pub fn run_files(
     let out = OutputFolder::create(out)?;
     let images = OutputFolder::create(&out.join(IMAGES))?;
     let references = References::new(options.samplers.clone(), options.measure.pcf, options.seed);
-    let (done, failures) =
-        for_each(inputs, progress, |input| one_image(input, options, &references, &images));
+    let (done, failures) = for_each(inputs, progress, |input| {
+        one_image(input, options, &references, &images).inspect_err(|_| {
+            // results of an earlier run would look like this one's; what cannot be removed is not ours
+            let _ = images.remove_results(&input.name, &FILES);
+        })
+    });
     write_failures(&out, &failures)?;
 
     let samplers: Vec<String> = options.samplers.iter().map(|s| s.name().to_owned()).collect();
@@ -179,15 +185,16 @@ fn one_image(
     lap(&mut seconds.measure);
 
     let curves = match &measures.pcf {
-        Ok(_) => references.curves(mosaic.len(), &window)?,
+        Ok(_) => references.curves(mosaic.len(), &window).unwrap_or_default(),
         Err(_) => Arc::default(),
     };
     let mosaic_record = record_of(&mosaic, &measures, distances(&measures, &curves)?);
     lap(&mut seconds.compare);
 
     let mut warnings = warnings_of(Some(&found), &mosaic_record, &measures);
+    warnings.extend(not_compared(&measures, &options.samplers, &curves));
     let empty = if options.crop.is_none() { empty_fraction(&image) } else { 0. };
-    if empty > EMPTY {
+    if empty > EMPTY && empty < ALL {
         let percent = 100. * empty;
         warnings.push(format!(
             "{percent:.0} % of the image was not imaged (black margin) but counts as area: restrict it with --crop"
@@ -213,7 +220,7 @@ fn one_image(
         warnings,
         mosaic: mosaic_record,
     };
-    images.replace_folder(&input.name, |folder| {
+    images.replace_folder(&input.name, &FILES, |folder| {
         write_image_folder(folder, &image, &found, &mosaic, &measures, &curves, &record)
     })?;
     lap(&mut seconds.report);

@@ -9,9 +9,9 @@ use crate::compare::{MatchOptions, Score, Summary, summarise, validate};
 use crate::detect::DetectOptions;
 use crate::geometry::Point;
 use crate::image;
+use crate::mosaic::LengthUnit;
 use crate::mosaic::io::{ReadOptions, read_coordinates};
 use crate::report::Cell;
-use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// Where detections come from.
@@ -100,19 +100,14 @@ pub fn validate_files(
     out: &Path,
     progress: &dyn Progress,
 ) -> Result<ValidationOutcome, BatchError> {
+    let (Detected::Folder { folder, .. } | Detected::Images { folder, .. }) = &options.detected;
+    folder.read_dir().map_err(|source| BatchError::Unreadable { path: folder.clone(), source })?;
     let (marks, ignored) = marks_in(reference, options, out)?;
-    let detections = match &options.detected {
-        Detected::Folder { folder, .. } => coordinate_files(std::slice::from_ref(folder), None)?
-            .into_iter()
-            .map(|i| (image_name(&i.path), i.path))
-            .collect(),
-        Detected::Images { .. } => HashMap::new(),
-    };
     let out = OutputFolder::create(out)?;
     let (rows, failures) = for_each(&marks, progress, |input| {
         let name = image_name(&input.path);
-        let truth = read_coordinates(&input.path, &options.read)?.points;
-        let (found, size) = detections_of(input, &name, options, &detections)?;
+        let truth = read_pixels(&input.path, &options.read)?;
+        let (found, size) = detections_of(input, reference, options)?;
         let (width, height) = match options.size.or(size) {
             Some(size) => size,
             None => size_of_image(input)?,
@@ -147,13 +142,9 @@ fn marks_in(
 ) -> Result<(Vec<Input>, Vec<PathBuf>), BatchError> {
     let files = coordinate_files(&[reference.to_owned()], Some(out))?;
     let belongs = |input: &Input| {
-        let name = image_name(&input.path);
         says_coords(&input.path)
             || image_beside(&input.path).is_some()
-            || match &options.detected {
-                Detected::Folder { folder, .. } => folder.join(format!("{name}.csv")).is_file(),
-                Detected::Images { folder, .. } => image_in(folder, &name).is_some(),
-            }
+            || partner(input, reference, &options.detected).is_some()
     };
     let (mut marks, ignored): (Vec<Input>, Vec<Input>) = files.into_iter().partition(belongs);
     let twice: Vec<PathBuf> = marks.iter().filter(|m| says_coords(&m.path)).map(|m| m.path.clone()).collect();
@@ -171,25 +162,45 @@ fn marks_in(
 
 type Found = (Vec<Point>, Option<(usize, usize)>);
 
-fn detections_of(
-    input: &Input,
-    name: &str,
-    options: &ValidationOptions,
-    files: &HashMap<String, PathBuf>,
-) -> Result<Found, BatchError> {
+/// The detections or the image that belong to a file of marks: in the folder that lies below the one given as the
+/// marks lie below the reference, or in the one given itself. Never the marks themselves.
+fn partner(marks: &Input, reference: &Path, detected: &Detected) -> Option<PathBuf> {
+    let name = image_name(&marks.path);
+    let below = marks.path.parent().and_then(|p| p.strip_prefix(reference).ok()).unwrap_or(Path::new(""));
+    let (Detected::Folder { folder, .. } | Detected::Images { folder, .. }) = detected;
+    [folder.join(below), folder.clone()].into_iter().find_map(|folder| match detected {
+        Detected::Folder { .. } => {
+            let path = folder.join(format!("{name}.csv"));
+            (path.is_file() && path.canonicalize().ok() != marks.path.canonicalize().ok()).then_some(path)
+        }
+        Detected::Images { .. } => image_in(&folder, &name),
+    })
+}
+
+/// Points of a file in px.
+fn read_pixels(path: &Path, read: &ReadOptions) -> Result<Vec<Point>, BatchError> {
+    let file = read_coordinates(path, read)?;
+    match file.unit {
+        Some(unit) if unit != LengthUnit::Pixel => Err(BatchError::NotPixels { file: path.to_owned(), unit }),
+        _ => Ok(file.points),
+    }
+}
+
+fn detections_of(input: &Input, reference: &Path, options: &ValidationOptions) -> Result<Found, BatchError> {
+    let name = image_name(&input.path);
+    let path = partner(input, reference, &options.detected);
     let missing = |problem: String| BatchError::Pairing { file: input.path.clone(), problem };
     match &options.detected {
         Detected::Folder { folder, read } => {
-            let path = files
-                .get(name)
-                .ok_or_else(|| missing(format!("no detections {name}.csv in {}", folder.display())))?;
-            Ok((read_coordinates(path, read)?.points, None))
+            let path =
+                path.ok_or_else(|| missing(format!("no detections {name}.csv in {}", folder.display())))?;
+            Ok((read_pixels(&path, read)?, None))
         }
         Detected::Images { folder, detect } => {
-            let path = image_in(folder, name).ok_or_else(|| {
+            let path = path.ok_or_else(|| {
                 missing(format!("no image {name}.png or {name}.tif in {}", folder.display()))
             })?;
-            let input = Input { path, name: name.to_owned() };
+            let input = Input { path, name };
             let (_, image) = read_image(&input)?;
             let found = detect_in(&input, &image, detect)?;
             Ok((found.centres(), Some((image.ncols(), image.nrows()))))

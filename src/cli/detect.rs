@@ -1,27 +1,33 @@
+use super::Done;
 use super::common::Common;
 use super::scale::ScaleArgs;
-use super::{Done, counted};
 use anyhow::Result;
 use clap::Args;
+use clap::builder::PossibleValuesParser;
 use conemosaic::batch::{detect_files, image_files};
 use conemosaic::detect::{DetectOptions, Detector, Modality, Polarity};
+use conemosaic::report::counted;
 use std::path::PathBuf;
 
 /// What may be fixed about detection; the defaults decide everything from the image.
 #[derive(Args)]
 pub struct DetectArgs {
     /// How the images were taken
-    #[arg(long, value_name = "M", default_value = "auto", value_parser = ["auto", "confocal", "split", "histology"])]
+    #[arg(long, value_name = "M", default_value = "auto", value_parser = or_auto(Modality::ALL.map(Modality::name)))]
     modality: String,
     /// Contrast: positive is bright cones, in split detection dark left and bright right
-    #[arg(long, value_name = "P", default_value = "auto", value_parser = ["auto", "positive", "negative"])]
+    #[arg(long, value_name = "P", default_value = "auto", value_parser = or_auto(Polarity::ALL.map(Polarity::name)))]
     polarity: String,
     /// Filters that find the cones
-    #[arg(long, value_name = "D", default_value = "auto", value_parser = ["auto", "classical"])]
+    #[arg(long, value_name = "D", default_value = "auto", value_parser = PossibleValuesParser::new(Detector::ALL.map(Detector::name)))]
     detector: String,
     /// Cone spacing in px (4–40) to start from [default: from Yellott's ring]
     #[arg(long, value_name = "PX")]
     spacing: Option<f64>,
+}
+
+fn or_auto<const N: usize>(names: [&'static str; N]) -> PossibleValuesParser {
+    PossibleValuesParser::new(["auto"].into_iter().chain(names))
 }
 
 impl DetectArgs {

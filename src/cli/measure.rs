@@ -1,13 +1,13 @@
 use super::Done;
 use super::common::Common;
 use super::scale::ScaleArgs;
-use super::{counted, short_table};
+use super::short_table;
 use anyhow::Result;
 use clap::Args;
 use conemosaic::batch::{CoordinatesOptions, CoordinatesOutcome, Region, coordinate_files, measure_files};
 use conemosaic::mosaic::io::{Origin, ReadOptions};
-use conemosaic::report::{Cell, CoordinatesRecord};
-use conemosaic::stats::{Deviation, MeasureOptions};
+use conemosaic::report::{Cell, CoordinatesRecord, counted};
+use conemosaic::stats::{Deviation, EdgeCorrection, Kernel, MeasureOptions, PcfOptions};
 use std::path::{Path, PathBuf};
 
 /// How coordinate files are to be understood.
@@ -53,7 +53,58 @@ pub struct MosaicArgs {
     #[command(flatten)]
     coordinates: CoordinateArgs,
     #[command(flatten)]
+    pcf: PcfArgs,
+    #[command(flatten)]
     scale: ScaleArgs,
+}
+
+/// How the pair correlation function is estimated. The unit s is the hexagonal spacing of the mosaic.
+#[derive(Args)]
+#[command(next_help_heading = "Pair correlation function (s: hexagonal spacing)")]
+pub struct PcfArgs {
+    /// What makes up for pairs hidden by the border; torus needs --torus
+    #[arg(long, value_name = "E", default_value = "set-covariance", value_parser = ["set-covariance", "translation", "isotropic", "torus", "none"])]
+    edge: String,
+    /// Shape of the smoothing kernel
+    #[arg(long, value_name = "K", default_value = "gaussian", value_parser = ["gaussian", "box", "triangle"])]
+    kernel: String,
+    /// Standard deviation of the kernel in s (0.005–1)
+    #[arg(long, value_name = "S", default_value_t = PcfOptions::default().bandwidth)]
+    bandwidth: f64,
+    /// First bin in s (at least 1.5 bandwidths)
+    #[arg(long, value_name = "S", default_value_t = PcfOptions::default().r_min)]
+    r_min: f64,
+    /// End of the last bin in s (at most 50)
+    #[arg(long, value_name = "S", default_value_t = PcfOptions::default().r_max)]
+    r_max: f64,
+    /// Number of bins (1–2000)
+    #[arg(long, value_name = "N", default_value_t = PcfOptions::default().bins)]
+    bins: usize,
+}
+
+impl PcfArgs {
+    fn options(&self) -> Result<PcfOptions> {
+        let options = PcfOptions {
+            kernel: match self.kernel.as_str() {
+                "box" => Kernel::Box,
+                "triangle" => Kernel::Triangle,
+                _ => Kernel::Gaussian,
+            },
+            bandwidth: self.bandwidth,
+            r_min: self.r_min,
+            r_max: self.r_max,
+            bins: self.bins,
+            edge: match self.edge.as_str() {
+                "translation" => EdgeCorrection::Translation,
+                "isotropic" => EdgeCorrection::Isotropic,
+                "torus" => EdgeCorrection::Torus,
+                "none" => EdgeCorrection::None,
+                _ => EdgeCorrection::SetCovariance,
+            },
+        };
+        options.validate()?;
+        Ok(options)
+    }
 }
 
 impl MosaicArgs {
@@ -64,7 +115,7 @@ impl MosaicArgs {
             region: self.window,
             torus: self.torus,
             scales: self.scale.source()?,
-            measure: MeasureOptions { deviation, ..MeasureOptions::default() },
+            measure: MeasureOptions { deviation, pcf: self.pcf.options()? },
         })
     }
 }
@@ -81,6 +132,7 @@ Writes to measured/:
   summary.csv    one row a file: n, nearest neighbours, regularity index, density, …
                  (lengths in the unit of the column unit, or of the suffix)
   NAME.pcf.csv   pair correlation function (r in hexagonal spacings, g)
+  options.json   how it was measured
   failures.csv   files that failed, if any; then the exit code is 2")]
 pub struct Measure {
     /// Coordinate files and folders of them

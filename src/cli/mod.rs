@@ -29,7 +29,7 @@ Start with:
   conemosaic COMMAND --help              what a command does, with an example
 
 Exit codes: 0 all done; 1 nothing done (wrong arguments, no input, no place to write);
-2 done, but some files failed: they are listed in failures.csv with their reasons.";
+2 some or all files failed: they are listed in failures.csv with their reasons.";
 
 #[derive(Parser)]
 #[command(name = "conemosaic", version, about = ABOUT, after_help = AFTER, max_term_width = 110)]
@@ -161,12 +161,7 @@ fn short_table(headers: &[&str], rows: &[Vec<String>], file: &str, warned: bool)
         text.push_str(&format!("\n… and {} more in {file}", rows.len() - MOST_ROWS));
     }
     if warned {
-        text.push_str(&format!("\n! has a warning: see the last column of {file}"));
+        text.push_str(&format!("\n! has a warning: see the column warnings of {file}"));
     }
     text
-}
-
-/// “1 image”, “2 images”.
-fn counted(count: usize, one: &str) -> String {
-    format!("{count} {one}{}", if count == 1 { "" } else { "s" })
 }

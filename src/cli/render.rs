@@ -1,5 +1,5 @@
+use super::Done;
 use super::common::Common;
-use super::{Done, counted};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use conemosaic::detect::{Modality, Polarity};
@@ -8,6 +8,7 @@ use conemosaic::image::{BitDepth, write_grey};
 use conemosaic::mosaic::hexagonal_spacing;
 use conemosaic::mosaic::io::{ReadOptions, read_coordinates, write_points};
 use conemosaic::render::{MosaicOptions, RenderOptions, Simulation, render, simulate};
+use conemosaic::report::counted;
 use conemosaic::sample::sampler;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -19,7 +20,7 @@ use std::path::PathBuf;
 Example:
   conemosaic render --modality split --spacing 16 --out sim.png --truth sim.csv
 
-The unit s is the local distance of the cones. Without --points or --mosaic the cones form a mosaic like a real one: a warped, jittered triangular lattice with defects. --truth gets the cones' centres as x_px,y_px.")]
+The unit s is the local distance of the cones. Without --points or --mosaic the cones form a mosaic like a real one: patches of triangular lattice with defects between, jittered. --truth gets the cones' centres as x_px,y_px.")]
 pub struct Render {
     /// Image to write: .png, .tif or .tiff
     #[arg(long, value_name = "FILE")]

@@ -2,11 +2,11 @@ use super::common::Common;
 use super::detect::DetectArgs;
 use super::scale::ScaleArgs;
 use super::short_table;
-use super::{Done, compare::samplers_named, counted};
+use super::{Done, compare::samplers_named};
 use anyhow::{Result, bail};
 use clap::Args;
 use conemosaic::batch::{Crop, RunOptions, RunOutcome, ScaleSource, image_files, run_files};
-use conemosaic::report::{Cell, significant};
+use conemosaic::report::{Cell, counted, significant};
 use conemosaic::stats::MeasureOptions;
 use std::path::PathBuf;
 

@@ -1,10 +1,10 @@
+use super::Done;
 use super::common::Common;
-use super::{Done, counted};
 use anyhow::{Context, Result};
 use clap::Args;
 use conemosaic::geometry::Window;
 use conemosaic::mosaic::io::{format_plain_points, write_plain_points};
-use conemosaic::report::table;
+use conemosaic::report::{counted, table};
 use conemosaic::sample::{sampler, samplers};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -26,7 +26,7 @@ pub struct Sample {
     /// Number of points; a lattice makes the nearest number it can
     #[arg(short, long, value_name = "N", required_unless_present = "list")]
     n: Option<usize>,
-    /// Points keep their distance across opposite edges as well
+    /// Opposite edges are the same place: lattices close on themselves (Poisson disks always do)
     #[arg(long)]
     torus: bool,
     /// File for the points

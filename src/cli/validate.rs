@@ -1,13 +1,13 @@
+use super::Done;
 use super::common::Common;
 use super::detect::DetectArgs;
 use super::measure::CoordinateArgs;
-use super::{Done, counted};
 use anyhow::{Result, bail};
 use clap::Args;
 use conemosaic::batch::{Detected, ValidationOptions, ValidationOutcome, validate_files};
 use conemosaic::compare::{Assignment, MatchOptions};
 use conemosaic::mosaic::io::{Origin, ReadOptions};
-use conemosaic::report::{significant, table};
+use conemosaic::report::{counted, significant, table};
 use std::path::PathBuf;
 
 /// Holds detections against hand-plotted marks: sensitivity, false discovery rate, Dice

@@ -275,10 +275,12 @@ impl Job {
 
     /// Means over each sampler's realisations, given in the order of tasks.
     fn average(&self, done: impl Iterator<Item = Result<Realisation, CompareError>>) -> Curves {
-        let done = done.collect::<Result<Vec<_>, _>>()?;
+        let done: Vec<_> = done.collect();
         let realisations = self.class.realisations();
         let n = self.class.points();
         let curves = self.setup.samplers.iter().zip(done.chunks(realisations)).map(|(sampler, patterns)| {
+            let patterns = patterns.iter().map(|p| p.as_ref()).collect::<Result<Vec<_>, _>>();
+            let patterns = patterns.map_err(Clone::clone)?;
             let pcfs: Vec<&Pcf> = patterns.iter().filter_map(|p| p.pcf.as_ref()).collect();
             let Some(&first) = pcfs.first() else {
                 return Err(CompareError::TooFewPoints { found: n.min(1) });
@@ -298,7 +300,13 @@ impl Job {
                 ri: moments(&indexes, Deviation::Sample).mean,
             })
         });
-        curves.collect::<Result<Vec<_>, _>>().map(Arc::new)
+        // a sampler that cannot fill this window is left out, unless none can
+        let (made, refused): (Vec<_>, Vec<_>) = curves.partition(Result::is_ok);
+        let made: Vec<ReferenceCurve> = made.into_iter().flatten().collect();
+        match refused.into_iter().find_map(Result::err) {
+            Some(error) if made.is_empty() => Err(error),
+            _ => Ok(Arc::new(made)),
+        }
     }
 }
 

@@ -5,18 +5,17 @@ use imageproc::region_labelling::{Connectivity, connected_components};
 /// Smaller regions, as a part of the image, are dark places rather than places that were not imaged.
 const SMALLEST: f64 = 0.005;
 
-/// The part of an image that was not imaged: regions of the darkest grey that touch its border and cover at least
-/// 0.5 % of it each. Montages and registered averages leave them black.
+/// The part of an image that was not imaged: black regions that touch its border and cover at least 0.5 % of it each, as
+/// montages and registered averages leave them.
 pub fn empty_fraction(plane: &Plane) -> f64 {
     let (height, width) = plane.dim();
-    let darkest = plane.iter().copied().fold(f32::INFINITY, f32::min);
     let (Ok(w), Ok(h)) = (u32::try_from(width), u32::try_from(height)) else { return 0. };
     // the commonest case, an image without margin, needs no labelling
-    let dark = plane.iter().filter(|&&v| v == darkest).count();
+    let dark = plane.iter().filter(|&&v| v == 0.).count();
     if (dark as f64) < SMALLEST * plane.len() as f64 {
         return 0.;
     }
-    let mask = GrayImage::from_fn(w, h, |x, y| Luma([u8::from(plane[[y as usize, x as usize]] == darkest)]));
+    let mask = GrayImage::from_fn(w, h, |x, y| Luma([u8::from(plane[[y as usize, x as usize]] == 0.)]));
     let labels = connected_components(&mask, Connectivity::Four, Luma([0]));
     let count = labels.iter().copied().max().unwrap_or(0) as usize + 1;
     let (mut sizes, mut touches) = (vec![0usize; count], vec![false; count]);

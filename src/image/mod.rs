@@ -15,9 +15,9 @@ pub use fourier::{Spectrum, fast_length};
 pub use gaussian::gaussian;
 pub use imaged::empty_fraction;
 pub use pad::{crop, mirror, reflect_pad};
-pub use read::{MAX_PIXELS, decode, is_image_path, read};
+pub use read::{MAX_PIXELS, decode, is_image_path, read, read_bytes};
 pub(crate) use rows::{PARALLEL_PIXELS, fill_rows};
-pub use write::{BitDepth, write_grey, write_png, write_rgb_png, write_tiff};
+pub use write::{BitDepth, write_grey, write_png, write_tiff};
 
 /// Grey values, one `f32` a pixel, indexed `[[y, x]]`; (0, 0) is the top-left pixel. Stored row by row.
 pub type Plane = ndarray::Array2<f32>;

@@ -25,6 +25,14 @@ pub fn is_image_path(path: &Path) -> bool {
 /// # Errors
 /// If the file cannot be read, and as [`decode`].
 pub fn read(path: &Path) -> Result<Plane, ImageError> {
+    decode(&read_bytes(path)?, &path.display().to_string())
+}
+
+/// The bytes of a file that is not unreasonably large.
+///
+/// # Errors
+/// If it cannot be read or has more bytes than the largest image.
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ImageError> {
     let name = path.display().to_string();
     let unreadable = |source| ImageError::Read { name: name.clone(), source };
     let mut bytes = Vec::new();
@@ -34,7 +42,7 @@ pub fn read(path: &Path) -> Result<Plane, ImageError> {
         let size = format!("a file of more than {MAX_BYTES} bytes");
         return Err(ImageError::TooLarge { name, size, limit: format!("{MAX_BYTES} bytes") });
     }
-    decode(&bytes, &name)
+    Ok(bytes)
 }
 
 /// The image in the bytes of a PNG or TIFF file as one grey plane. The content decides, not the name, which serves

@@ -2,7 +2,7 @@ use super::error::one_line;
 use super::{ImageError, Plane};
 use crate::files::write_atomically;
 use image::codecs::png::PngEncoder;
-use image::{ExtendedColorType, ImageEncoder, RgbImage};
+use image::{ExtendedColorType, ImageEncoder};
 use std::io::{self, Cursor, Write};
 use std::path::Path;
 use tiff::encoder::{TiffEncoder, colortype};
@@ -62,19 +62,6 @@ pub fn write_tiff(path: &Path, plane: &Plane, depth: BitDepth) -> Result<(), Ima
     });
     encoded.map_err(|e| unwritable(path, io::Error::other(one_line(e))))?;
     write_whole(path, bytes.get_ref())
-}
-
-/// Writes an overlay as RGB PNG. The file appears whole or not at all.
-///
-/// # Errors
-/// If the file cannot be written.
-pub fn write_rgb_png(path: &Path, picture: &RgbImage) -> Result<(), ImageError> {
-    let mut bytes = Vec::new();
-    let (width, height) = picture.dimensions();
-    PngEncoder::new(&mut bytes)
-        .write_image(picture.as_raw(), width, height, ExtendedColorType::Rgb8)
-        .map_err(|e| unwritable(path, io::Error::other(one_line(e))))?;
-    write_whole(path, &bytes)
 }
 
 /// Width and height of a plane that can be written.

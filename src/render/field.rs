@@ -96,37 +96,18 @@ pub(super) fn smoothed_deviation(sigma: f64) -> f64 {
     gaussian(sigma).iter().map(|&w| f64::from(w).powi(2)).sum()
 }
 
-/// Convolution with a Gaussian of standard deviation `sigma` px, cut at 4 σ; the border is reflected.
+/// Convolution with a Gaussian of standard deviation `sigma` px, the border mirrored.
 pub(super) fn smooth(plane: &Plane, sigma: f64) -> Plane {
-    let kernel = gaussian(sigma);
-    if kernel.len() == 1 {
-        return plane.clone();
-    }
-    let (height, width) = plane.dim();
-    let radius = kernel.len() / 2;
-    let mut across = Plane::zeros((height, width));
-    let mut padded = vec![0f32; width + 2 * radius];
-    for (source, mut target) in plane.outer_iter().zip(across.outer_iter_mut()) {
-        for (i, value) in padded.iter_mut().enumerate() {
-            *value = source[reflect(i as isize - radius as isize, width)];
-        }
-        for (k, &weight) in kernel.iter().enumerate() {
-            target.iter_mut().zip(&padded[k..]).for_each(|(sum, &v)| *sum += weight * v);
-        }
-    }
-    let mut down = Plane::zeros((height, width));
-    for (y, mut target) in down.outer_iter_mut().enumerate() {
-        for (k, &weight) in kernel.iter().enumerate() {
-            let source = across.row(reflect((y + k) as isize - radius as isize, height));
-            target.zip_mut_with(&source, |sum, &v| *sum += weight * v);
-        }
-    }
-    down
+    // narrower than this it does not reach the next pixel
+    if sigma < NARROWEST { plane.clone() } else { crate::image::gaussian(plane, sigma) }
 }
+
+/// Standard deviation, in px, below which a Gaussian stays within a pixel.
+const NARROWEST: f64 = 0.15;
 
 /// Samples of a Gaussian with sum 1, from −⌈4σ⌉ to ⌈4σ⌉; just [1] where σ is too small to reach the next pixel.
 fn gaussian(sigma: f64) -> Vec<f32> {
-    if sigma < 0.15 {
+    if sigma < NARROWEST {
         return vec![1.];
     }
     let radius = (4. * sigma).ceil() as i32;
@@ -134,13 +115,6 @@ fn gaussian(sigma: f64) -> Vec<f32> {
         (-radius..=radius).map(|i| (-0.5 * (f64::from(i) / sigma).powi(2)).exp()).collect();
     let sum: f64 = weights.iter().sum();
     weights.iter().map(|w| (w / sum) as f32).collect()
-}
-
-/// Index of the pixel that stands for place `i` when the image is mirrored at its edges, the edge pixel repeated.
-fn reflect(i: isize, side: usize) -> usize {
-    let period = 2 * side as isize;
-    let i = i.rem_euclid(period);
-    (if i < side as isize { i } else { period - 1 - i }) as usize
 }
 
 #[cfg(test)]

@@ -18,4 +18,4 @@ pub use figure::{Curve, MosaicFigure, ReferenceLine, mosaic_figure};
 pub use overlay::{MarkKind, OverlayMark, encode_png, overlay};
 pub use page::page;
 pub use record::{CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord, SamplerDistance};
-pub use table::{significant, table};
+pub use table::{counted, significant, table};

@@ -1,4 +1,4 @@
-use super::{Cell, ImageRecord, MosaicRecord, significant};
+use super::{Cell, ImageRecord, MosaicRecord, counted, significant};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 const STYLE: &str = "
@@ -28,13 +28,13 @@ pub fn page(records: &[ImageRecord], failures: &[(&str, &str)], samplers: &[Stri
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "Cone mosaics of " (records.len()) " images" }
+                title { "Cone mosaics of " (counted(records.len(), "image")) }
                 style { (PreEscaped(STYLE)) }
             }
             body {
                 h1 { "Cone mosaics" }
                 p.lead {
-                    (cones) " cones in " (records.len()) " images. All columns, in full precision: "
+                    (counted(cones, "cone")) " in " (counted(records.len(), "image")) ". All columns, in full precision: "
                     a href="summary.csv" { "summary.csv" }
                     "; how they were made: " a href="run.json" { "run.json" } "."
                 }
@@ -54,7 +54,7 @@ pub fn page(records: &[ImageRecord], failures: &[(&str, &str)], samplers: &[Stri
 
 fn failed(failures: &[(&str, &str)]) -> Markup {
     html! {
-        h2.warning { (failures.len()) " images failed" }
+        h2.warning { (counted(failures.len(), "image")) " failed" }
         ul { @for (file, reason) in failures { li title=(file) { (reason) } } }
     }
 }

@@ -3,7 +3,7 @@
 use super::Cell;
 use crate::detect::{Detector, Modality, Polarity};
 use crate::mosaic::LengthUnit;
-use crate::stats::{Moments, Trend, VoronoiSummary};
+use crate::stats::{Deviation, Moments, Trend, VoronoiSummary};
 use serde::{Deserialize, Serialize};
 
 /// Points measured in their window, and compared with samplers.
@@ -21,6 +21,8 @@ pub struct MosaicRecord {
     pub density: f64,
     /// Hexagonal spacing of that density.
     pub spacing: Option<f64>,
+    /// Divisor of the variances.
+    pub deviation: Deviation,
     /// Nearest-neighbour distances of all points.
     pub nearest: Moments,
     /// The same of points whose distance to the border is at least that to their nearest neighbour.
@@ -120,12 +122,10 @@ type Column<T> = (&'static str, fn(&T) -> Cell);
 
 const IMAGE_COLUMNS: &[Column<ImageRecord>] = &[
     ("file", |r| r.file.as_str().into()),
-    ("name", |r| r.name.as_str().into()),
     ("width_px", |r| r.width_px.into()),
     ("height_px", |r| r.height_px.into()),
     ("um_per_px", |r| r.mosaic.um_per_unit.into()),
     ("modality", |r| r.detection.modality.name().into()),
-    ("polarity", |r| r.detection.polarity.name().into()),
     ("n", |r| r.mosaic.n.into()),
     ("density_per_px2", |r| r.mosaic.density.into()),
     ("density_per_mm2", |r| r.mosaic.density_per_mm2().into()),
@@ -137,6 +137,9 @@ const IMAGE_COLUMNS: &[Column<ImageRecord>] = &[
     ("nn_mean_um", |r| r.mosaic.in_um(r.mosaic.nearest.mean).into()),
     ("nn_sd_um", |r| r.mosaic.in_um(r.mosaic.nearest.sd).into()),
 ];
+
+const IMAGE_DETAILS: &[Column<ImageRecord>] =
+    &[("name", |r| r.name.as_str().into()), ("polarity", |r| r.detection.polarity.name().into())];
 
 const COORDINATE_COLUMNS: &[Column<CoordinatesRecord>] = &[
     ("file", |r| r.file.as_str().into()),
@@ -159,6 +162,7 @@ const REGULARITY_COLUMNS: &[Column<MosaicRecord>] =
     &[("ri", |r| r.nearest.ri.into()), ("ri_interior", |r| r.nearest_interior.ri.into())];
 
 const ORDER_COLUMNS: &[Column<MosaicRecord>] = &[
+    ("sd_kind", |r| r.deviation.name().into()),
     ("n_interior", |r| r.nearest_interior.n.into()),
     ("n_bound", |r| r.voronoi.bound.into()),
     ("six_sided_percent", |r| r.voronoi.six_sided_percent.into()),
@@ -191,9 +195,9 @@ impl ImageRecord {
         names(IMAGE_COLUMNS)
             .chain(names(REGULARITY_COLUMNS))
             .chain(sampler_columns(samplers))
-            .chain(["closest_sampler".to_owned()])
+            .chain(["closest_sampler", "warnings"].map(str::to_owned))
+            .chain(names(IMAGE_DETAILS))
             .chain(names(ORDER_COLUMNS))
-            .chain(["warnings".to_owned()])
             .collect()
     }
 
@@ -202,9 +206,9 @@ impl ImageRecord {
         cells(IMAGE_COLUMNS, self)
             .chain(cells(REGULARITY_COLUMNS, &self.mosaic))
             .chain(sampler_cells(&self.mosaic, samplers))
-            .chain([self.mosaic.closest_sampler().into()])
+            .chain([self.mosaic.closest_sampler().into(), self.warnings.join("; ").as_str().into()])
+            .chain(cells(IMAGE_DETAILS, self))
             .chain(cells(ORDER_COLUMNS, &self.mosaic))
-            .chain([self.warnings.join("; ").as_str().into()])
             .collect()
     }
 }
@@ -228,7 +232,7 @@ impl CoordinatesRecord {
         ["file".to_owned()]
             .into_iter()
             .chain(samplers.iter().cloned())
-            .chain(["closest_sampler", "n", "ri", "warnings"].map(str::to_owned))
+            .chain(["closest_sampler", "n", "ri", "sd_kind", "warnings"].map(str::to_owned))
             .collect()
     }
 
@@ -241,6 +245,7 @@ impl CoordinatesRecord {
                 self.mosaic.closest_sampler().into(),
                 self.mosaic.n.into(),
                 self.mosaic.nearest.ri.into(),
+                self.mosaic.deviation.name().into(),
                 self.warnings.join("; ").as_str().into(),
             ])
             .collect()

@@ -1,4 +1,3 @@
-use super::Moments;
 use serde::{Deserialize, Serialize};
 
 /// Bounds on the number of bins: fewer hide the shape, more show only noise.
@@ -42,49 +41,12 @@ impl Histogram {
         }
         Self { edges, counts }
     }
-
-    /// Mean width of a bin; 0 without bins.
-    pub fn bin_width(&self) -> f64 {
-        match (self.edges.first(), self.edges.last()) {
-            (Some(low), Some(high)) => (high - low) / self.counts.len() as f64,
-            _ => 0.,
-        }
-    }
-
-    /// The Gaussian of those moments, scaled to the counts: `steps` + 1 pairs of value and expected count a bin, over the
-    /// bins and μ ± 3σ. Empty where σ is not defined or 0, and without bins.
-    pub fn gaussian(&self, moments: &Moments, steps: usize) -> Vec<(f64, f64)> {
-        let (Some(mean), Some(sd), Some(&low), Some(&high)) =
-            (moments.mean, moments.sd.filter(|&sd| sd > 0.), self.edges.first(), self.edges.last())
-        else {
-            return Vec::new();
-        };
-        let (low, high) = (low.min(mean - 3. * sd), high.max(mean + 3. * sd));
-        let height = moments.n as f64 * self.bin_width() / (sd * (2. * std::f64::consts::PI).sqrt());
-        (0..=steps)
-            .map(|i| {
-                let x = low + (high - low) * i as f64 / steps.max(1) as f64;
-                (x, height * (-0.5 * ((x - mean) / sd).powi(2)).exp())
-            })
-            .collect()
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stats::{Deviation, moments};
     use proptest::prelude::*;
-
-    #[test]
-    fn gaussian_has_the_area_of_the_bars() {
-        let values: Vec<f64> = (0..1000).map(|i| 5. + ((f64::from(i) + 0.5) / 1000. - 0.5) * 2.).collect();
-        let histogram = Histogram::new(&values);
-        let curve = histogram.gaussian(&moments(&values, Deviation::Sample), 400);
-        let area: f64 = curve.windows(2).map(|p| (p[1].0 - p[0].0) * (p[0].1 + p[1].1) / 2.).sum();
-        let bars = 1000. * histogram.bin_width();
-        assert!((area / bars - 1.).abs() < 0.005, "{area} {bars}");
-    }
 
     #[test]
     fn bins_follow_freedman_and_diaconis() {

@@ -17,6 +17,8 @@ pub struct MeasureOptions {
 /// The statistics of one mosaic. Lengths are in the mosaic's unit.
 #[derive(Clone, Debug)]
 pub struct Measures {
+    /// Divisor of all variances here.
+    pub deviation: Deviation,
     /// Nearest neighbour of every point.
     pub neighbours: NearestNeighbours,
     /// Their distances: all points.
@@ -43,6 +45,7 @@ pub fn measure(mosaic: &Mosaic, options: &MeasureOptions) -> Measures {
         .filter_map(|(keep, &d)| keep.then_some(d))
         .collect();
     Measures {
+        deviation: options.deviation,
         nearest: moments(&neighbours.distances, options.deviation),
         nearest_interior: moments(&inside, options.deviation),
         histogram: Histogram::new(&neighbours.distances),

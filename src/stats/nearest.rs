@@ -18,6 +18,16 @@ pub enum Deviation {
     Population,
 }
 
+impl Deviation {
+    /// As it is written in options and tables.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Sample => "sample",
+            Self::Population => "population",
+        }
+    }
+}
+
 /// Mean, standard deviation and their ratio.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Moments {

@@ -17,7 +17,7 @@ const FINE: f32 = 0.14;
 const COARSE: f32 = 0.25;
 const CONTRAST: f64 = 0.8;
 
-/// An inner segment is a dark–bright pair along x: the image behaves like a derivative along x. Half an integration
+/// An inner segment is a dark–bright pair along x: the image behaves like a derivative along x. Half a derivative more
 /// brings the centre of the pair to a maximum: the spectrum of I − G(1.5 s)∗I times
 /// i · sign(fx) · |fx s|^½ · exp(−2π²(.14 s f)²) · (1 − exp(−2π²(.25 s f)²)), divided by its local root mean square
 /// (σ = .8 s). Made for dark on the left.
