@@ -39,8 +39,8 @@ fn largest_distance(a: &[Point], b: &[Point]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0., f64::max)
 }
 
-/// Image, what it shows, and the Dice coefficient that detection with everything left open must reach (measured: .01
-/// to .02 higher).
+/// Image, what it shows, and the Dice coefficient that detection with everything left open must reach (measured: about
+/// .015 higher).
 const IMAGES: [(&str, Modality, Polarity, f64); 10] = [
     ("confocal_16bit.tif", Modality::Confocal, Polarity::Positive, 0.97),
     ("confocal_dense.png", Modality::Confocal, Polarity::Positive, 0.98),
@@ -49,18 +49,20 @@ const IMAGES: [(&str, Modality, Polarity, f64); 10] = [
     ("histology_bright.png", Modality::Histology, Polarity::Positive, 0.98),
     ("histology_dark.png", Modality::Histology, Polarity::Negative, 0.98),
     ("histology_gradient.png", Modality::Histology, Polarity::Positive, 0.975),
-    ("split_negative.png", Modality::Split, Polarity::Negative, 0.96),
-    ("split_positive.png", Modality::Split, Polarity::Positive, 0.965),
-    ("split_sparse.png", Modality::Split, Polarity::Positive, 0.935),
+    ("split_negative.png", Modality::Split, Polarity::Negative, 0.95),
+    ("split_positive.png", Modality::Split, Polarity::Positive, 0.95),
+    ("split_sparse.png", Modality::Split, Polarity::Positive, 0.93),
 ];
 
 #[test]
 fn every_image_is_listed_and_small() {
     let listed: Vec<PathBuf> = IMAGES.iter().map(|i| PathBuf::from(i.0)).collect();
     assert_eq!(files_in(&fixtures().join("images")), listed);
-    for file in files_in(&fixtures()) {
-        let size = fs::metadata(fixtures().join(&file)).unwrap().len();
-        assert!(size < 60_000, "{}: {size} bytes", file.display());
+    for folder in ["images", "truth", "dialects", "paper"].map(|f| fixtures().join(f)) {
+        for file in files_in(&folder) {
+            let size = fs::metadata(folder.join(&file)).unwrap().len();
+            assert!(size < 60_000, "{}: {size} bytes", file.display());
+        }
     }
 }
 
