@@ -82,10 +82,12 @@ fn the_same_window_has_three_spellings() {
         assert!((number(row, "density") - 5. / 22500.).abs() < 1e-15);
         assert!(row["warnings"].contains("1 points outside"), "{}", row["warnings"]);
     }
-    assert_eq!(place.files("1"), place.files("2"));
-    assert_eq!(place.files("1"), place.files("3"));
+    for file in ["a.pcf.csv", "summary.csv"] {
+        assert_eq!(place.read(&format!("1/{file}")), place.read(&format!("2/{file}")));
+        assert_eq!(place.read(&format!("1/{file}")), place.read(&format!("3/{file}")));
+    }
     let said = place.ok(&["measure", "a.csv", "--window", "150x150", "--out", "1"]).stdout;
-    assert!(said.contains("a.csv !") && said.contains("last column of summary.csv"), "{said}");
+    assert!(said.contains("a.csv !") && said.contains("column warnings of summary.csv"), "{said}");
 }
 
 #[test]
@@ -133,7 +135,7 @@ fn compare_keeps_the_samplers_asked_for_in_their_order() {
     let row = &place.table("out/l_infinity.csv")[0];
     assert_eq!((row["file"].as_str(), row["closest_sampler"].as_str()), ("a.csv", "jittered"));
     assert!(number(row, "jittered") < number(row, "square"));
-    assert_eq!(place.names("out"), ["l_infinity.csv"]);
+    assert_eq!(place.names("out"), ["l_infinity.csv", "options.json"]);
 }
 
 #[test]
@@ -376,4 +378,50 @@ fn shells_get_completions() {
         }
         assert!(text.contains("scale-table"));
     }
+}
+
+#[test]
+fn the_estimator_of_the_pair_correlation_function_can_be_chosen_and_is_recorded() {
+    let place = Place::new();
+    place.ok(&["sample", "uniform", "-n", "300", "--out", "a.csv", "-q"]);
+    let common = ["measure", "a.csv", "--window", "unit", "-q", "--out"];
+    place.ok(&[&common[..], &["1"]].concat());
+    place.ok(&[&common[..], &["2", "--edge", "translation"]].concat());
+    place.ok(&[
+        &common[..],
+        &["3", "--kernel", "box", "--bandwidth", "0.2", "--r-min", "0.3", "--bins", "50"],
+    ]
+    .concat());
+    assert_ne!(place.read("1/a.pcf.csv"), place.read("2/a.pcf.csv"));
+    assert_eq!(place.table("3/a.pcf.csv").len(), 50);
+    assert!(place.read("2/options.json").contains("\"edge\": \"translation\""));
+}
+
+#[test]
+fn detections_are_never_the_marks_themselves_and_must_be_in_px() {
+    let place = Place::new();
+    std::fs::create_dir(place.path("in")).unwrap();
+    place.ok(&["render", "--out", "in/a.png", "--truth", "in/a_coords.csv", "-q"]);
+    place.ok(&["detect", "in", "--out", "in", "-q"]);
+    place.ok(&["validate", "--reference", "in", "--detections", "in", "--out", "v", "-q"]);
+    let row = &place.table("v/validation.csv")[0];
+    assert_eq!(place.table("v/validation.csv").len(), 1);
+    assert!(number(row, "localisation_px") > 0., "marks were scored against themselves");
+    place.write("um/a.csv", "x_um,y_um\n1,1\n2,2\n");
+    place.write("px/a_coords.csv", "1,1\n2,2\n");
+    let outcome =
+        place.run(&["validate", "--reference", "px", "--detections", "um", "--size", "20x20", "--out", "w"]);
+    assert_eq!(outcome.code, 2);
+    assert!(place.read("w/failures.csv").contains("expected px"));
+}
+
+#[test]
+fn a_window_that_samplers_cannot_fill_costs_the_comparison_and_not_the_mosaic() {
+    let place = Place::new();
+    let points: String = (0..40).map(|k| format!("{},{}\n", 120 * k + 7, k % 4)).collect();
+    place.write("thin.csv", &format!("x,y\n{points}"));
+    place.ok(&["compare", "thin.csv", "--window", "5000x4", "--out", "out", "-q"]);
+    let row = &place.table("out/l_infinity.csv")[0];
+    assert_eq!(row["n"], "40");
+    assert!(row["warnings"].contains("not compared with"), "{}", row["warnings"]);
 }
