@@ -17,7 +17,7 @@ pub struct DetectArgs {
     #[arg(long, value_name = "P", default_value = "auto", value_parser = ["auto", "positive", "negative"])]
     polarity: String,
     /// Filters that find the cones
-    #[arg(long, value_name = "D", default_value = "auto", value_parser = ["auto", "classical"])]
+    #[arg(long, value_name = "D", default_value = "auto", value_parser = ["auto", "classical", "learned"])]
     detector: String,
     /// Cone spacing in px (4–40) to start from [default: from Yellott's ring]
     #[arg(long, value_name = "PX")]

@@ -62,7 +62,7 @@ impl MosaicRecord {
 /// What was found in one image.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DetectionRecord {
-    /// Filters used.
+    /// Filters that found the cones: classical or learned.
     pub detector: Detector,
     /// How the image was taken to be made.
     pub modality: Modality,
@@ -126,6 +126,7 @@ const IMAGE_COLUMNS: &[Column<ImageRecord>] = &[
     ("um_per_px", |r| r.mosaic.um_per_unit.into()),
     ("modality", |r| r.detection.modality.name().into()),
     ("polarity", |r| r.detection.polarity.name().into()),
+    ("detector", |r| r.detection.detector.name().into()),
     ("n", |r| r.mosaic.n.into()),
     ("density_per_px2", |r| r.mosaic.density.into()),
     ("density_per_mm2", |r| r.mosaic.density_per_mm2().into()),
