@@ -8,12 +8,12 @@ const PIECE: usize = 256;
 /// A convolutional network from an even plane, in which cones are 8 px apart, to the logit of a cone's centre at every pixel.
 #[derive(Debug)]
 pub(super) enum Network {
-    /// 7×7, then four residual 3×3 of dilation 2, 4, 2, 1, ten channels (METHODS: 4,151 weights).
+    /// 7×7, then four residual 3×3 of dilation 2, 4, 2, 1, ten channels (4,151 weights).
     Residual {
         /// 7×7, 1→10.
         first: Kernel,
         /// The residual layers.
-        layers: [Kernel; 4],
+        layers: Box<[Kernel; 4]>,
         /// 1×1, 10→1.
         last: Kernel,
     },
@@ -48,7 +48,7 @@ impl Network {
                 let layer = |name| weights.kernel(name, 10, 10, 3);
                 Ok(Self::Residual {
                     first: weights.kernel("first", 10, 1, 7)?,
-                    layers: [layer("a")?, layer("b")?, layer("c")?, layer("d")?],
+                    layers: Box::new([layer("a")?, layer("b")?, layer("c")?, layer("d")?]),
                     last: weights.kernel("last", 1, 10, 1)?,
                 })
             }
