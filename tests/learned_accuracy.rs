@@ -112,10 +112,10 @@ fn holds(modality: Modality, bar: f64, loss: f64) {
 
 #[test]
 fn confocal_cones_are_found_through_gamma_noise_and_scale() {
-    holds(Modality::Confocal, 0.985, 0.02);
+    holds(Modality::Confocal, 0.99, 0.006);
 }
 
 #[test]
 fn split_cones_are_found_through_gamma_noise_and_scale() {
-    holds(Modality::Split, 0.955, 0.03);
+    holds(Modality::Split, 0.97, 0.02);
 }
