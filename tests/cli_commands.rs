@@ -419,7 +419,7 @@ fn detections_are_never_the_marks_themselves_and_must_be_in_px() {
 fn a_window_that_samplers_cannot_fill_costs_the_comparison_and_not_the_mosaic() {
     let place = Place::new();
     let points: String = (0..40).map(|k| format!("{},{}\n", 120 * k + 7, k % 4)).collect();
-    place.write("thin.csv", &format!("x,y\n{points}"));
+    place.write("thin.csv", format!("x,y\n{points}"));
     place.ok(&["compare", "thin.csv", "--window", "5000x4", "--out", "out", "-q"]);
     let row = &place.table("out/l_infinity.csv")[0];
     assert_eq!(row["n"], "40");

@@ -1,7 +1,8 @@
 //! Detection, stage by stage, against the same stages written with OpenCV (`scripts/opencv_oracle.py`).
 
 use conemosaic::detect::{
-    Criterion, DetectOptions, Detection, Detections, detect, flatten, local_maxima, response, suppress,
+    Criterion, DetectOptions, Detection, Detections, Detector, detect, flatten, local_maxima, response,
+    suppress,
 };
 use conemosaic::geometry::Point;
 use conemosaic::image::{Plane, is_image_path, read};
@@ -49,7 +50,8 @@ fn cases() -> Vec<Case> {
     paths.sort();
     let case = |path: PathBuf| {
         let image = read(&path).unwrap();
-        let found = detect(&image, &DetectOptions::default()).unwrap();
+        let classical = DetectOptions { detector: Detector::Classical, ..DetectOptions::default() };
+        let found = detect(&image, &classical).unwrap();
         Case { name: path.file_stem().unwrap().to_string_lossy().into_owned(), path, image, found }
     };
     paths.into_iter().map(case).collect()

@@ -209,7 +209,7 @@ fn one_image(
         height_px: height,
         um_per_degree: scale.map(|s| s.micrometres_per_degree()),
         detection: DetectionRecord {
-            detector: options.detect.detector,
+            detector: found.detector,
             modality: found.modality,
             polarity: found.polarity,
             n: all,

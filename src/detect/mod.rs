@@ -3,6 +3,7 @@
 
 mod filter;
 mod flatten;
+mod learned;
 mod maxima;
 mod modality;
 mod options;
@@ -12,6 +13,7 @@ mod types;
 
 pub use filter::{Criterion, RelativeThreshold, response};
 pub use flatten::flatten;
+pub use learned::WeightsError;
 pub use maxima::local_maxima;
 pub use options::{DetectOptions, Detector};
 pub use spacing::{BORDER, RingEstimate, RingProfile, SPACING_RANGE, refined};
@@ -28,6 +30,8 @@ pub const MIN_SIDE: usize = 24;
 const PASSES: usize = 3;
 /// Spacings that differ by less than this part are the same.
 const SETTLED: f64 = 0.005;
+/// The same for a network, which is trained at spacings off by up to 15 %.
+const LEARNED_SETTLED: f64 = 0.03;
 
 /// Why an image has no cones to find.
 #[derive(Debug, Error, PartialEq)]
@@ -59,6 +63,17 @@ pub enum DetectError {
     /// A spacing outside the range.
     #[error("a spacing of {0} px is outside {low}–{high} px", low = SPACING_RANGE.0, high = SPACING_RANGE.1)]
     Spacing(f64),
+    /// No network has been trained for this modality.
+    #[error("there is no learned detector for {0} images: use classical or auto")]
+    NotLearned(Modality),
+    /// The weights in the program are damaged.
+    #[error("the learned detector of {modality} images cannot be read: {source}")]
+    Weights {
+        /// Which weights.
+        modality: Modality,
+        /// What is wrong with them.
+        source: WeightsError,
+    },
 }
 
 /// The cones of an image, by the method that `options` leaves open decided from the image.
@@ -73,28 +88,59 @@ pub fn detect(image: &Plane, options: &DetectOptions) -> Result<Detections, Dete
     let (modality, polarity) = modality::decide(&flat, &ring, options.modality, options.polarity);
     let estimate = ring.spacing(modality);
     let start = options.spacing.unwrap_or(estimate.spacing);
-    let mut spacing = start;
-    let mut cones = Vec::new();
-    for _ in 0..PASSES {
+    let (mut cones, mut spacing) = until_settled(image, start, SETTLED, |spacing| {
         let (response, criterion) = response(image, modality, polarity, spacing);
         let maxima = suppress(local_maxima(&response, criterion.threshold), criterion.suppression * spacing);
-        cones = criterion.select(maxima);
-        let centres: Vec<_> = cones.iter().map(|d| d.centre).collect();
-        let next = refined(&centres, image.ncols(), image.nrows(), start);
-        let settled = (next / spacing - 1.).abs() < SETTLED;
-        spacing = next;
-        if settled {
-            break;
-        }
+        criterion.select(maxima)
+    });
+    let model = model_for(options.detector, modality)?;
+    if let Some(model) = model {
+        (cones, spacing) =
+            until_settled(image, spacing, LEARNED_SETTLED, |spacing| model.cones(image, polarity, spacing));
     }
     Ok(Detections {
         cones,
         modality,
         polarity,
+        detector: if model.is_some() { Detector::Learned } else { Detector::Classical },
         ring_spacing: estimate.spacing,
         ring_strength: estimate.strength,
         spacing,
     })
+}
+
+/// Finds cones at the spacing `start`, and again at the spacing that their density shows, until that changes by less than
+/// `settled`. The cones and the spacing that follows from them.
+fn until_settled(
+    image: &Plane,
+    start: f64,
+    settled: f64,
+    find: impl Fn(f64) -> Vec<Detection>,
+) -> (Vec<Detection>, f64) {
+    let mut spacing = start;
+    let mut cones = Vec::new();
+    for _ in 0..PASSES {
+        cones = find(spacing);
+        let centres: Vec<_> = cones.iter().map(|d| d.centre).collect();
+        let next = refined(&centres, image.ncols(), image.nrows(), start);
+        let done = (next / spacing - 1.).abs() < settled;
+        spacing = next;
+        if done {
+            break;
+        }
+    }
+    (cones, spacing)
+}
+
+/// The network to use, or none for the classical filters.
+fn model_for(detector: Detector, modality: Modality) -> Result<Option<&'static learned::Model>, DetectError> {
+    let model = || learned::model(modality).map_err(|source| DetectError::Weights { modality, source });
+    match detector {
+        Detector::Classical => Ok(None),
+        Detector::Auto if !learned::is_better(modality) => Ok(None),
+        Detector::Auto => model(),
+        Detector::Learned => model()?.map(Some).ok_or(DetectError::NotLearned(modality)),
+    }
 }
 
 fn check(image: &Plane) -> Result<(), DetectError> {

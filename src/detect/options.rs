@@ -1,5 +1,6 @@
 use super::{DetectError, Modality, Polarity};
 use serde::{Deserialize, Serialize};
+use std::fmt;
 use std::str::FromStr;
 
 /// Which family of filters finds the cones.
@@ -11,18 +12,27 @@ pub enum Detector {
     Auto,
     /// Hand-designed band-pass filters (one a modality).
     Classical,
+    /// Small convolutional networks, for confocal and split-detector images.
+    Learned,
 }
 
 impl Detector {
     /// Every detector.
-    pub const ALL: [Self; 2] = [Self::Auto, Self::Classical];
+    pub const ALL: [Self; 3] = [Self::Auto, Self::Classical, Self::Learned];
 
     /// As it is written in options and tables.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Auto => "auto",
             Self::Classical => "classical",
+            Self::Learned => "learned",
         }
+    }
+}
+
+impl fmt::Display for Detector {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
     }
 }
 
@@ -33,7 +43,7 @@ impl FromStr for Detector {
         Self::ALL
             .into_iter()
             .find(|d| d.name() == text)
-            .ok_or_else(|| format!("“{text}” is none of auto, classical"))
+            .ok_or_else(|| format!("“{text}” is none of auto, classical, learned"))
     }
 }
 

@@ -1,3 +1,4 @@
+use super::Detector;
 use crate::geometry::Point;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -85,7 +86,8 @@ impl FromStr for Polarity {
 pub struct Detection {
     /// Its centre in px.
     pub centre: Point,
-    /// Height of the filter's response there, in the unit of that filter; comparable within one image only.
+    /// Learned: the network's probability of a cone (0–1). Classical: height of the filter's response there, in the unit of
+    /// that filter; comparable within one image only.
     pub score: f64,
 }
 
@@ -98,6 +100,8 @@ pub struct Detections {
     pub modality: Modality,
     /// Which way round its contrast was taken to run.
     pub polarity: Polarity,
+    /// Which filters found the cones: classical or learned.
+    pub detector: Detector,
     /// Cone spacing estimated from Yellott's ring alone, in px.
     pub ring_spacing: f64,
     /// How well the ring stands out (see [`crate::detect::RingEstimate`]).

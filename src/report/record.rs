@@ -64,7 +64,7 @@ impl MosaicRecord {
 /// What was found in one image.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DetectionRecord {
-    /// Filters used.
+    /// Filters that found the cones: classical or learned.
     pub detector: Detector,
     /// How the image was taken to be made.
     pub modality: Modality,
@@ -138,8 +138,11 @@ const IMAGE_COLUMNS: &[Column<ImageRecord>] = &[
     ("nn_sd_um", |r| r.mosaic.in_um(r.mosaic.nearest.sd).into()),
 ];
 
-const IMAGE_DETAILS: &[Column<ImageRecord>] =
-    &[("name", |r| r.name.as_str().into()), ("polarity", |r| r.detection.polarity.name().into())];
+const IMAGE_DETAILS: &[Column<ImageRecord>] = &[
+    ("name", |r| r.name.as_str().into()),
+    ("polarity", |r| r.detection.polarity.name().into()),
+    ("detector", |r| r.detection.detector.name().into()),
+];
 
 const COORDINATE_COLUMNS: &[Column<CoordinatesRecord>] = &[
     ("file", |r| r.file.as_str().into()),

@@ -146,7 +146,8 @@ mod tests {
             if matches!(s.name(), "uniform" | "jittered" | "dart-throwing") || n == 0 {
                 prop_assert_eq!(points.len(), n);
             } else if n >= 50 {
-                prop_assert!((points.len() as f64 / n as f64).ln().abs() < 0.3, "{} of {}", points.len(), n);
+                // few rows of a lattice close on a narrow torus: their number jumps
+                prop_assert!((points.len() as f64 / n as f64).ln().abs() < 0.6, "{} of {}", points.len(), n);
             } else {
                 prop_assert!(points.len() <= 2 * n + 10);
             }

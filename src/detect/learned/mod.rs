@@ -1,0 +1,184 @@
+//! The learned filter bank: a small convolutional network a modality, trained by `scripts/train-detector`, its weights compiled
+//! into the program. See MODEL_CARD.md beside this file for data, scores and limits.
+
+mod input;
+mod maps;
+mod network;
+mod weights;
+
+pub use weights::WeightsError;
+
+use super::{Detection, Modality, Polarity, local_maxima, suppress};
+use crate::geometry::Point;
+use crate::image::Plane;
+use network::Network;
+use std::sync::OnceLock;
+use weights::Weights;
+
+static CONFOCAL: &[u8] = include_bytes!("confocal.safetensors");
+static SPLIT: &[u8] = include_bytes!("split.safetensors");
+
+/// Logits below are never cones.
+const CANDIDATE: f32 = -4.5;
+/// The rank, among the stronger maxima, that an image-relative threshold is counted from.
+const QUANTILE: f64 = 0.75;
+
+/// A network with all that turns its answer into cones.
+#[derive(Debug)]
+pub(super) struct Model {
+    network: Network,
+    /// Distance of cones, in px, in the plane that the network sees.
+    spacing: f64,
+    threshold: Threshold,
+    /// Of two maxima nearer to each other than this, in units of the spacing, the lower one goes.
+    suppression: f64,
+}
+
+/// From which logit on a maximum is a cone.
+#[derive(Debug)]
+enum Threshold {
+    Absolute(f64),
+    /// So far below the upper quartile of the image's maxima above `floor`, after suppression at `radius` spacings.
+    Relative {
+        below: f64,
+        floor: f32,
+        radius: f64,
+    },
+}
+
+/// Whether the network of a modality finds cones better than the classical filters do, by the mean Dice coefficient on
+/// subjects left out of training (MODEL_CARD.md).
+pub(super) const fn is_better(modality: Modality) -> bool {
+    match modality {
+        Modality::Confocal | Modality::Split => true,
+        Modality::Histology => false,
+    }
+}
+
+/// The network for `modality`, if there is one.
+///
+/// # Errors
+/// If the weights in the program cannot be read.
+pub(super) fn model(modality: Modality) -> Result<Option<&'static Model>, WeightsError> {
+    static MODELS: [OnceLock<Result<Model, WeightsError>>; 2] = [OnceLock::new(), OnceLock::new()];
+    let (slot, file) = match modality {
+        Modality::Confocal => (&MODELS[0], CONFOCAL),
+        Modality::Split => (&MODELS[1], SPLIT),
+        Modality::Histology => return Ok(None),
+    };
+    slot.get_or_init(|| Model::read(file)).as_ref().map(Some).map_err(Clone::clone)
+}
+
+impl Model {
+    fn read(file: &[u8]) -> Result<Self, WeightsError> {
+        let weights = Weights::read(file)?;
+        let threshold = match weights.word("rule")? {
+            "absolute" => Threshold::Absolute(weights.number("threshold")?),
+            "relative" => Threshold::Relative {
+                below: weights.number("threshold")?,
+                floor: weights.number("relative_floor")? as f32,
+                radius: weights.number("relative_radius")?,
+            },
+            _ => return Err(WeightsError::Metadata("rule".to_owned())),
+        };
+        let spacing = weights.number("spacing")?;
+        if spacing < 1. {
+            return Err(WeightsError::Metadata("spacing".to_owned()));
+        }
+        Ok(Self {
+            network: Network::new(&weights)?,
+            spacing,
+            threshold,
+            suppression: weights.number("suppression")?,
+        })
+    }
+
+    /// The cones of an image whose cones are about `spacing` px apart, best first; their score is the network's probability.
+    pub(super) fn cones(&self, image: &Plane, polarity: Polarity, spacing: f64) -> Vec<Detection> {
+        let step = spacing / self.spacing;
+        let seen = input::normalised(&input::resampled(image, step));
+        let seen = if polarity == Polarity::Negative { -seen } else { seen };
+        let (right, lower) = (image.ncols() as f64 - 0.5, image.nrows() as f64 - 0.5);
+        let mut cones = self.select(local_maxima(&self.network.logits(&seen), CANDIDATE));
+        for cone in &mut cones {
+            let Point { x, y } = cone.centre;
+            cone.centre =
+                Point::new(((x + 0.5) * step - 0.5).min(right), ((y + 0.5) * step - 0.5).min(lower));
+            cone.score = 1. / (1. + (-cone.score).exp());
+        }
+        cones
+    }
+
+    /// Which maxima of the logit are cones.
+    fn select(&self, maxima: Vec<Detection>) -> Vec<Detection> {
+        let threshold = match self.threshold {
+            Threshold::Absolute(logit) => logit,
+            Threshold::Relative { below, floor, radius } => {
+                let strong = maxima.iter().copied().filter(|d| d.score > f64::from(floor)).collect();
+                let scores: Vec<f64> =
+                    suppress(strong, radius * self.spacing).iter().rev().map(|d| d.score).collect();
+                quantile(&scores, QUANTILE) - below
+            }
+        };
+        let high = maxima.into_iter().filter(|d| d.score > threshold).collect();
+        suppress(high, self.suppression * self.spacing)
+    }
+}
+
+/// The quantile of values in rising order, between two of them linearly; infinite if there are none.
+fn quantile(rising: &[f64], part: f64) -> f64 {
+    let place = part * rising.len().saturating_sub(1) as f64;
+    let (low, t) = (place.floor() as usize, place.fract());
+    match (rising.get(low), rising.get(low + 1)) {
+        (Some(a), Some(b)) => a + t * (b - a),
+        (Some(a), None) => *a,
+        _ => f64::INFINITY,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_networks_are_in_the_program_and_small() {
+        for modality in Modality::ALL {
+            let model = model(modality).unwrap();
+            assert_eq!(model.is_some(), modality != Modality::Histology);
+        }
+        assert!(CONFOCAL.len() + SPLIT.len() <= 400_000);
+    }
+
+    /// The script that trains writes an image, in which cones are 10 px apart, and its own network's answer beside the weights.
+    #[test]
+    fn the_program_and_the_script_that_trained_it_see_the_same() {
+        for file in [CONFOCAL, SPLIT] {
+            let weights = Weights::read(file).unwrap();
+            let plane =
+                |name, h, w| Plane::from_shape_vec((h, w), weights.tensor(name, &[h, w]).unwrap()).unwrap();
+            let image = plane("example.image", 44, 40);
+            let seen = input::normalised(&input::resampled(&image, 10. / 8.));
+            let logits = Model::read(file).unwrap().network.logits(&seen);
+            let expected = plane("example.logits", 35, 32);
+            let difference = logits.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0., f32::max);
+            assert!(difference < 1e-4, "{difference}");
+        }
+    }
+
+    #[test]
+    fn quartiles_lie_between_values() {
+        assert_eq!(quantile(&[1., 2., 3., 4., 5.], 0.75), 4.);
+        assert_eq!(quantile(&[1., 2.], 0.75), 1.75);
+        assert_eq!(quantile(&[3.], 0.75), 3.);
+        assert_eq!(quantile(&[], 0.75), f64::INFINITY);
+    }
+
+    #[test]
+    fn the_reverse_of_an_image_has_the_same_cones_in_the_reverse_polarity() {
+        let image = Plane::from_shape_fn((96, 96), |(y, x)| (0.7 * x as f32).sin() * (0.75 * y as f32).cos());
+        let model = model(Modality::Confocal).unwrap().unwrap();
+        let found = model.cones(&image, Polarity::Positive, 9.);
+        assert!(found.len() > 20);
+        assert_eq!(model.cones(&-&image, Polarity::Negative, 9.), found);
+    }
+}

@@ -1,0 +1,128 @@
+use super::maps::Kernel;
+use serde_json::{Map, Value};
+use thiserror::Error;
+
+/// Why a file of weights cannot be used.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum WeightsError {
+    /// Not in the safetensors format, or cut off.
+    #[error("not a safetensors file: {0}")]
+    Format(&'static str),
+    /// A word about the network is missing from the header, or is not what it should be.
+    #[error("the header's “{0}” is missing or cannot be read")]
+    Metadata(String),
+    /// A network this program cannot run.
+    #[error("unknown architecture “{0}”: expected residual or unet")]
+    Architecture(String),
+    /// A tensor is missing, or of another shape or type.
+    #[error("tensor “{name}” is missing or is not F32 of shape {shape:?}")]
+    Tensor {
+        /// Its name.
+        name: String,
+        /// The expected shape.
+        shape: Vec<usize>,
+    },
+}
+
+/// A safetensors file: eight bytes of length, a JSON header of that length, then the tensors' bytes.
+pub(super) struct Weights<'a> {
+    header: Map<String, Value>,
+    tensors: &'a [u8],
+}
+
+impl<'a> Weights<'a> {
+    /// # Errors
+    /// If `bytes` does not begin with a safetensors header.
+    pub(super) fn read(bytes: &'a [u8]) -> Result<Self, WeightsError> {
+        let (length, rest) =
+            bytes.split_first_chunk::<8>().ok_or(WeightsError::Format("shorter than 8 bytes"))?;
+        let length = usize::try_from(u64::from_le_bytes(*length)).unwrap_or(usize::MAX);
+        let (header, tensors) =
+            rest.split_at_checked(length).ok_or(WeightsError::Format("the header is cut off"))?;
+        let header = serde_json::from_slice(header)
+            .map_err(|_| WeightsError::Format("the header is not a JSON object"))?;
+        Ok(Self { header, tensors })
+    }
+
+    /// A word of the header's metadata.
+    pub(super) fn word(&self, key: &str) -> Result<&str, WeightsError> {
+        let word = self.header.get("__metadata__").and_then(|m| m.get(key)).and_then(Value::as_str);
+        word.ok_or_else(|| WeightsError::Metadata(key.to_owned()))
+    }
+
+    /// A finite number of the header's metadata.
+    pub(super) fn number(&self, key: &str) -> Result<f64, WeightsError> {
+        let number = self.word(key)?.parse().ok().filter(|v: &f64| v.is_finite());
+        number.ok_or_else(|| WeightsError::Metadata(key.to_owned()))
+    }
+
+    /// The convolution `name`, from the tensors `name.weight` and `name.bias`.
+    pub(super) fn kernel(
+        &self,
+        name: &str,
+        outputs: usize,
+        inputs: usize,
+        side: usize,
+    ) -> Result<Kernel, WeightsError> {
+        let weights = self.tensor(&format!("{name}.weight"), &[outputs, inputs, side, side])?;
+        let bias = self.tensor(&format!("{name}.bias"), &[outputs])?;
+        Ok(Kernel { outputs, inputs, side, weights, bias })
+    }
+
+    /// The values of a tensor, row by row.
+    pub(super) fn tensor(&self, name: &str, shape: &[usize]) -> Result<Vec<f32>, WeightsError> {
+        let find = || {
+            let entry = self.header.get(name)?;
+            let numbers = |key: &str| -> Option<Vec<usize>> {
+                entry.get(key)?.as_array()?.iter().map(|v| v.as_u64().map(|v| v as usize)).collect()
+            };
+            let (found, offsets) = (numbers("shape")?, numbers("data_offsets")?);
+            let &[from, to] = &offsets[..] else { return None };
+            let bytes = self.tensors.get(from..to)?;
+            let fits = entry.get("dtype")?.as_str()? == "F32"
+                && found == shape
+                && bytes.len() == 4 * shape.iter().product::<usize>();
+            let values: Vec<f32> = bytes.as_chunks().0.iter().map(|b| f32::from_le_bytes(*b)).collect();
+            (fits && values.iter().all(|v| v.is_finite())).then_some(values)
+        };
+        find().ok_or_else(|| WeightsError::Tensor { name: name.to_owned(), shape: shape.to_vec() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(header: &str, tensors: &[u8]) -> Vec<u8> {
+        let mut bytes = (header.len() as u64).to_le_bytes().to_vec();
+        bytes.extend(header.as_bytes());
+        bytes.extend(tensors);
+        bytes
+    }
+
+    #[test]
+    fn tensors_and_words_are_read() {
+        let header = r#"{"__metadata__":{"rule":"absolute","threshold":"-0.5"},
+            "a.weight":{"dtype":"F32","shape":[1,1,1,1],"data_offsets":[0,4]},
+            "a.bias":{"dtype":"F32","shape":[1],"data_offsets":[4,8]}}"#;
+        let tensors: Vec<u8> = [2.5f32, -1.].iter().flat_map(|v| v.to_le_bytes()).collect();
+        let bytes = file(header, &tensors);
+        let weights = Weights::read(&bytes).unwrap();
+        assert_eq!((weights.word("rule"), weights.number("threshold")), (Ok("absolute"), Ok(-0.5)));
+        let kernel = weights.kernel("a", 1, 1, 1).unwrap();
+        assert_eq!((kernel.weights, kernel.bias), (vec![2.5], vec![-1.]));
+        assert!(weights.kernel("a", 2, 1, 1).is_err());
+        assert!(weights.kernel("b", 1, 1, 1).is_err());
+        assert!(weights.number("rule").is_err());
+    }
+
+    #[test]
+    fn files_that_are_cut_off_are_refused() {
+        let header = r#"{"a.bias":{"dtype":"F32","shape":[2],"data_offsets":[0,8]}}"#;
+        let bytes = file(header, &[0; 4]);
+        assert!(Weights::read(&bytes[..5]).is_err());
+        assert!(Weights::read(&bytes[..20]).is_err());
+        assert!(Weights::read(&[255; 40]).is_err());
+        assert!(Weights::read(&bytes).unwrap().tensor("a.bias", &[2]).is_err());
+    }
+}

@@ -1,0 +1,121 @@
+//! The shipped networks on hand-marked images. They were trained on these: what generalises is in MODEL_CARD.md; what is
+//! tested here is that the program does what the training script judged, and that gamma, noise and scale do it little harm.
+
+use conemosaic::compare::{MatchOptions, validate};
+use conemosaic::detect::{DetectOptions, Detector, Modality, detect};
+use conemosaic::geometry::Point;
+use conemosaic::image::{Plane, gaussian, read};
+use conemosaic::mosaic::io::{Origin, ReadOptions, read_coordinates};
+use rand::RngExt;
+use rand::SeedableRng;
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+
+struct Marked {
+    image: Plane,
+    marks: Vec<Point>,
+}
+
+/// Images spread over all subjects; none where there are no data.
+fn marked(modality: Modality, count: usize) -> Vec<Marked> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/aoslo").join(modality.name());
+    let Ok(entries) = std::fs::read_dir(&folder) else {
+        println!("SKIPPED accuracy of the learned detector: ../shared is not here");
+        return Vec::new();
+    };
+    let mut paths: Vec<PathBuf> =
+        entries.map(|e| e.unwrap().path()).filter(|p| p.extension().is_some_and(|e| e == "png")).collect();
+    paths.sort();
+    let load = |k: usize| {
+        let path = &paths[(2 * k + 1) * paths.len() / (2 * count)];
+        let coordinates = format!("{}_coords.csv", path.to_string_lossy().trim_end_matches(".png"));
+        let options = ReadOptions { origin: Some(Origin::One), ..ReadOptions::default() };
+        let marks = read_coordinates(Path::new(&coordinates), &options).unwrap().points;
+        Marked { image: read(path).unwrap(), marks }
+    };
+    (0..count).map(load).collect()
+}
+
+/// Mean Dice coefficient of images that `change` has been applied to.
+fn dice(images: &[Marked], modality: Modality, change: impl Fn(&Marked) -> Marked + Sync) -> f64 {
+    let options =
+        DetectOptions { modality: Some(modality), detector: Detector::Learned, ..DetectOptions::default() };
+    let one = |marked: &Marked| {
+        let Marked { image, marks } = change(marked);
+        let found = detect(&image, &options).unwrap();
+        assert!(found.cones.iter().all(|c| c.score > 0. && c.score < 1.));
+        validate(&marks, &found.centres(), image.ncols(), image.nrows(), &MatchOptions::default())
+            .unwrap()
+            .0
+            .dice
+    };
+    images.par_iter().map(one).collect::<Vec<_>>().iter().sum::<f64>() / images.len() as f64
+}
+
+fn as_it_is(m: &Marked) -> Marked {
+    Marked { image: m.image.clone(), marks: m.marks.clone() }
+}
+
+fn with_gamma(gamma: f32) -> impl Fn(&Marked) -> Marked {
+    move |m| Marked { image: m.image.mapv(|v| v.max(0.).powf(gamma)), marks: m.marks.clone() }
+}
+
+/// Uniform noise whose standard deviation is .3 of the image's.
+fn with_noise(m: &Marked) -> Marked {
+    let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+    let amplitude = 0.3 * m.image.std(0.) * 12f32.sqrt();
+    let image = m.image.mapv(|v| v + amplitude * (rng.random::<f32>() - 0.5));
+    Marked { image, marks: m.marks.clone() }
+}
+
+/// Linear interpolation, after a little blur where the image shrinks.
+fn scaled(factor: f64) -> impl Fn(&Marked) -> Marked {
+    move |m| {
+        let source = if factor < 1. { gaussian(&m.image, 0.5 * (1. / factor - 1.)) } else { m.image.clone() };
+        let (h, w) = source.dim();
+        let side = |n: usize| (n as f64 * factor).round() as usize;
+        let back = |k: usize, n: usize| ((k as f64 + 0.5) / factor - 0.5).clamp(0., (n - 1) as f64);
+        let image = Plane::from_shape_fn((side(h), side(w)), |(y, x)| {
+            let (y, x) = (back(y, h), back(x, w));
+            let (j, i) = ((y as usize).min(h - 2), (x as usize).min(w - 2));
+            let (v, u) = ((y - j as f64) as f32, (x - i as f64) as f32);
+            (1. - v) * ((1. - u) * source[[j, i]] + u * source[[j, i + 1]])
+                + v * ((1. - u) * source[[j + 1, i]] + u * source[[j + 1, i + 1]])
+        });
+        let place = |p: &Point| Point::new((p.x + 0.5) * factor - 0.5, (p.y + 0.5) * factor - 0.5);
+        Marked { image, marks: m.marks.iter().map(place).collect() }
+    }
+}
+
+/// Bar for the images as they are, and how much each change may cost.
+fn holds(modality: Modality, bar: f64, loss: f64) {
+    let images = marked(modality, 5);
+    if images.is_empty() {
+        return;
+    }
+    let plain = dice(&images, modality, as_it_is);
+    println!("{modality}: {plain:.4}");
+    assert!(plain >= bar, "{modality}: Dice {plain:.4}, expected {bar}");
+    let check = |name: &str, changed: f64| {
+        println!("{modality}, {name}: {changed:.4}");
+        assert!(
+            changed >= plain - loss,
+            "{modality}, {name}: Dice {changed:.4}, expected {plain:.4} − {loss}"
+        );
+    };
+    check("gamma 0.5", dice(&images, modality, with_gamma(0.5)));
+    check("gamma 2", dice(&images, modality, with_gamma(2.)));
+    check("noise", dice(&images, modality, with_noise));
+    check("× 0.7", dice(&images, modality, scaled(0.7)));
+    check("× 1.5", dice(&images, modality, scaled(1.5)));
+}
+
+#[test]
+fn confocal_cones_are_found_through_gamma_noise_and_scale() {
+    holds(Modality::Confocal, 0.99, 0.006);
+}
+
+#[test]
+fn split_cones_are_found_through_gamma_noise_and_scale() {
+    holds(Modality::Split, 0.97, 0.02);
+}
