@@ -5,7 +5,7 @@ use super::outputs::OutputFolder;
 use super::work::for_each;
 use super::{BatchError, Crop, Failure, Input, Progress, ScaleSource};
 use crate::compare::{ReferenceCurve, References};
-use crate::detect::{DetectOptions, Detections};
+use crate::detect::{DetectOptions, Detections, weights};
 use crate::geometry::Window;
 use crate::image::{Plane, empty_fraction};
 use crate::mosaic::{LengthUnit, Mosaic, Scale};
@@ -313,7 +313,7 @@ fn figure(
     })?)
 }
 
-/// What identifies the options that one image's results depend on.
+/// What identifies the options that one image's results depend on, the networks' weights among them.
 fn fingerprint(options: &RunOptions, scale: Option<Scale>, window: &Window) -> Result<String, BatchError> {
     let samplers: Vec<&str> = options.samplers.iter().map(|s| s.name()).collect();
     let relevant = serde_json::to_vec(&(
@@ -325,7 +325,9 @@ fn fingerprint(options: &RunOptions, scale: Option<Scale>, window: &Window) -> R
         scale,
         window,
     ))?;
-    Ok(hex(&Sha256::digest(relevant)))
+    let mut digest = Sha256::new_with_prefix(relevant);
+    weights().iter().for_each(|file| digest.update(file));
+    Ok(hex(&digest.finalize()))
 }
 
 /// The record of an earlier run, if it is complete and belongs to the same image and options.

@@ -13,7 +13,7 @@ mod types;
 
 pub use filter::{Criterion, RelativeThreshold, response};
 pub use flatten::flatten;
-pub use learned::WeightsError;
+pub use learned::{WeightsError, weights};
 pub use maxima::local_maxima;
 pub use options::{DetectOptions, Detector};
 pub use spacing::{BORDER, RingEstimate, RingProfile, SPACING_RANGE, refined};

@@ -18,6 +18,11 @@ use weights::Weights;
 static CONFOCAL: &[u8] = include_bytes!("confocal.safetensors");
 static SPLIT: &[u8] = include_bytes!("split.safetensors");
 
+/// The weights compiled into the program: results depend on them.
+pub const fn weights() -> [&'static [u8]; 2] {
+    [CONFOCAL, SPLIT]
+}
+
 /// Logits below are never cones.
 const CANDIDATE: f32 = -4.5;
 /// The rank, among the stronger maxima, that an image-relative threshold is counted from.
