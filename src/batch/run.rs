@@ -7,7 +7,7 @@ use super::{BatchError, Crop, Failure, Input, Progress, ScaleSource};
 use crate::compare::{ReferenceCurve, References};
 use crate::detect::{DetectOptions, Detections, weights};
 use crate::geometry::Window;
-use crate::image::{Plane, empty_fraction};
+use crate::image::{ImagedPart, Plane, crop, empty_fraction, imaged_part};
 use crate::mosaic::{LengthUnit, Mosaic, Scale};
 use crate::report::{
     Curve, DetectionRecord, ImageRecord, MosaicFigure, MosaicRecord, ReferenceLine, mosaic_figure, page,
@@ -158,9 +158,10 @@ fn one_image(
     let (bytes, image) = read_image(input)?;
     let (height, width) = image.dim();
     let scale = options.scales.scale_of(&input.path, width)?;
+    let imaged = imaged_part(&image);
     let window = match &options.crop {
         Some(crop) => crop.window(&input.path, width, height, scale)?,
-        None => Window::of_image(width, height)?,
+        None => window_of(imaged)?,
     };
     let sha256 = hex(&Sha256::digest(&bytes));
     let options_sha256 = fingerprint(options, scale, &window)?;
@@ -193,11 +194,12 @@ fn one_image(
 
     let mut warnings = warnings_of(Some(&found), &mosaic_record, &measures);
     warnings.extend(not_compared(&measures, &options.samplers, &curves));
-    let empty = if options.crop.is_none() { empty_fraction(&image) } else { 0. };
+    let part = crop(&image, imaged.top, imaged.left, imaged.height, imaged.width);
+    let empty = if options.crop.is_none() { empty_fraction(&part) } else { 0. };
     if empty > EMPTY && empty < ALL {
         let percent = 100. * empty;
         warnings.push(format!(
-            "{percent:.0} % of the image was not imaged (black margin) but counts as area: restrict it with --crop"
+            "{percent:.0} % of the window was not imaged (black) but counts as area: restrict it with --crop"
         ));
     }
     let record = ImageRecord {
@@ -236,6 +238,12 @@ fn one_image(
     );
     tracing::trace!(file = record.file, ?seconds);
     Ok((Done { record, seconds: Some(seconds) }, line))
+}
+
+/// The window of the part of an image that was imaged.
+fn window_of(part: ImagedPart) -> Result<Window, BatchError> {
+    let (left, top) = (part.left as f64 - 0.5, part.top as f64 - 0.5);
+    Ok(Window::rectangle(left, top, left + part.width as f64, top + part.height as f64)?)
 }
 
 fn write_image_folder(

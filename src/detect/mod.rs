@@ -20,7 +20,7 @@ pub use spacing::{BORDER, RingEstimate, RingProfile, SPACING_RANGE, refined};
 pub use suppress::suppress;
 pub use types::{Detection, Detections, Modality, Polarity};
 
-use crate::image::Plane;
+use crate::image::{Plane, crop, imaged_part};
 use thiserror::Error;
 
 /// Shortest side of an image in px: below, there is no room for even a handful of cones at the closest spacing.
@@ -83,6 +83,23 @@ pub enum DetectError {
 pub fn detect(image: &Plane, options: &DetectOptions) -> Result<Detections, DetectError> {
     options.validate()?;
     check(image)?;
+    let part = imaged_part(image);
+    if (part.height, part.width) == image.dim() {
+        return detect_imaged(image, options);
+    }
+    // a black margin has edges that look like cones, and a spectrum of its own
+    let imaged = crop(image, part.top, part.left, part.height, part.width);
+    check(&imaged)?;
+    let mut found = detect_imaged(&imaged, options)?;
+    for cone in &mut found.cones {
+        cone.centre.x += part.left as f64;
+        cone.centre.y += part.top as f64;
+    }
+    Ok(found)
+}
+
+/// The cones of an image without a margin.
+fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, DetectError> {
     let flat = flatten(image);
     let ring = RingProfile::of(&flat);
     let (modality, polarity) = modality::decide(&flat, &ring, options.modality, options.polarity);
@@ -153,4 +170,30 @@ fn check(image: &Plane) -> Result<(), DetectError> {
     }
     let value = image[[0, 0]];
     if image.iter().all(|&v| v == value) { Err(DetectError::Constant { value }) } else { Ok(()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::{MosaicOptions, RenderOptions, simulate};
+    use rand::SeedableRng;
+
+    #[test]
+    fn a_black_margin_moves_the_cones_and_changes_nothing_else() {
+        let options = RenderOptions { width: 90, height: 80, ..RenderOptions::new(Modality::Confocal) };
+        let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+        let image = simulate(&MosaicOptions::default(), &options, &mut rng).unwrap().image;
+        let image = image.mapv(|v| v.max(0.01));
+        let mut framed = Plane::zeros((120, 150));
+        image.indexed_iter().for_each(|((y, x), v)| framed[[y + 15, x + 40]] = *v);
+        let found = detect(&image, &DetectOptions::default()).unwrap();
+        let within = detect(&framed, &DetectOptions::default()).unwrap();
+        assert_eq!(found.spacing, within.spacing);
+        assert_eq!(found.cones.len(), within.cones.len());
+        for (a, b) in found.cones.iter().zip(&within.cones) {
+            assert!(
+                (a.centre.x + 40. - b.centre.x).abs() < 1e-9 && (a.centre.y + 15. - b.centre.y).abs() < 1e-9
+            );
+        }
+    }
 }
