@@ -99,14 +99,8 @@ pub fn measure_files(
         let (mosaic, outside) = load(input, options)?;
         let measures = measure(&mosaic, &options.measure);
         let record = record(input, &mosaic, outside, &measures, Vec::new());
-        let name = format!("{}.pcf.csv", input.name);
-        match &measures.pcf {
-            Ok(pcf) => {
-                let (header, rows) = pcf_table(pcf, &[]);
-                out.write_table(&name, &header, &rows)?;
-            }
-            Err(_) => out.write_table(&name, &["r".into(), "g".into()], &[])?,
-        }
+        let (header, rows) = pcf_table(measures.pcf.as_ref().ok(), &[]);
+        out.write_table(&format!("{}.pcf.csv", input.name), &header, &rows)?;
         let line = line_about(&record);
         Ok((record, line))
     });

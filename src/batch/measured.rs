@@ -47,14 +47,16 @@ pub(super) fn distances(
         .collect()
 }
 
-/// Columns r, g, and one g a sampler.
-pub(super) fn pcf_table(pcf: &Pcf, curves: &[ReferenceCurve]) -> (Vec<String>, Vec<Vec<Cell>>) {
+/// Columns r, g, and one g a sampler; no rows where the function is not defined.
+pub(super) fn pcf_table(pcf: Option<&Pcf>, curves: &[ReferenceCurve]) -> (Vec<String>, Vec<Vec<Cell>>) {
     let header = ["r".to_owned(), "g".to_owned()]
         .into_iter()
         .chain(curves.iter().map(|c| format!("g_{}", c.sampler.replace('-', "_"))))
         .collect();
-    let rows = (0..pcf.r.len())
-        .map(|k| {
+    let rows = pcf
+        .into_iter()
+        .flat_map(|pcf| (0..pcf.r.len()).map(move |k| (pcf, k)))
+        .map(|(pcf, k)| {
             [pcf.r[k].into(), pcf.g[k].into()]
                 .into_iter()
                 .chain(curves.iter().map(|c| c.pcf.g.get(k).copied().into()))

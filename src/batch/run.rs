@@ -194,8 +194,11 @@ fn one_image(
 
     let mut warnings = warnings_of(Some(&found), &mosaic_record, &measures);
     warnings.extend(not_compared(&measures, &options.samplers, &curves));
-    let part = crop(&image, imaged.top, imaged.left, imaged.height, imaged.width);
-    let empty = if options.crop.is_none() { empty_fraction(&part) } else { 0. };
+    let empty = if options.crop.is_none() {
+        empty_fraction(&crop(&image, imaged.top, imaged.left, imaged.height, imaged.width))
+    } else {
+        0.
+    };
     if empty > EMPTY && empty < ALL {
         let percent = 100. * empty;
         warnings.push(format!(
@@ -257,18 +260,9 @@ fn write_image_folder(
 ) -> Result<(), BatchError> {
     write_detections(&folder.join("points.csv"), found, mosaic.scale())?;
     folder.write("overlay.png", &overlay_of(image, found)?)?;
-    if let Ok(pcf) = &measures.pcf {
-        let (header, rows) = pcf_table(pcf, curves);
-        folder.write_table("pcf.csv", &header, &rows)?;
-        let notes = curves
-            .iter()
-            .map(|c| SamplerNote { sampler: &c.sampler, n: c.n, realisations: c.realisations, ri: c.ri })
-            .collect();
-        folder.write(METRICS, &metrics_json(record, measures, pcf.options, notes)?)?;
-    } else {
-        folder.write_table("pcf.csv", &["r".into(), "g".into()], &[])?;
-        folder.write(METRICS, &metrics_json(record, measures, PcfOptions::default(), Vec::new())?)?;
-    }
+    let (header, rows) = pcf_table(measures.pcf.as_ref().ok(), curves);
+    folder.write_table("pcf.csv", &header, &rows)?;
+    folder.write(METRICS, &metrics_json(record, measures, curves)?)?;
     let figure = figure(&record.name, Some(image), mosaic, measures, &record.mosaic, curves)?;
     folder.write("figure.svg", figure.as_bytes())
 }
@@ -276,9 +270,13 @@ fn write_image_folder(
 fn metrics_json(
     record: &ImageRecord,
     measures: &Measures,
-    pcf_options: PcfOptions,
-    samplers: Vec<SamplerNote>,
+    curves: &[ReferenceCurve],
 ) -> Result<Vec<u8>, BatchError> {
+    let samplers = curves
+        .iter()
+        .map(|c| SamplerNote { sampler: &c.sampler, n: c.n, realisations: c.realisations, ri: c.ri })
+        .collect();
+    let pcf_options = measures.pcf.as_ref().map_or_else(|_| PcfOptions::default(), |pcf| pcf.options);
     let metrics = Metrics { record, histogram: &measures.histogram, pcf_options, samplers };
     let mut json = serde_json::to_vec_pretty(&metrics)?;
     json.push(b'\n');

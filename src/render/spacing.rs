@@ -9,7 +9,7 @@ const SPACING_PER_NEIGHBOUR_DISTANCE: f64 = 1.09;
 const MIN_SPACING: f64 = 1.;
 const MAX_SPACING: f64 = 1000.;
 /// Neighbours, itself included, over which a cone's spacing is averaged: its own ring.
-const RING: NonZero<usize> = NonZero::new(7).unwrap();
+const RING: NonZero<usize> = NonZero::<usize>::MIN.saturating_add(6);
 
 /// How large each cone may be.
 pub(super) struct CellSizes {
