@@ -15,12 +15,13 @@ pub fn local_maxima(response: &Plane, threshold: f32) -> Vec<Detection> {
         let (above, here, below) = ((y > 0).then(|| row(y - 1)), row(y), (y + 1 < h).then(|| row(y + 1)));
         let mut found = Vec::new();
         for (x, &value) in here.iter().enumerate() {
+            // above all earlier neighbours, not below any later one; along the row first, where most pixels fail
+            if !(value > threshold && (x == 0 || here[x - 1] < value) && (x + 1 == w || here[x + 1] <= value))
+            {
+                continue;
+            }
             let columns = x.saturating_sub(1)..(x + 2).min(w);
-            // above all earlier neighbours, not below any later one
-            let is_maximum = value > threshold
-                && above.is_none_or(|r| r[columns.clone()].iter().all(|v| *v < value))
-                && (x == 0 || here[x - 1] < value)
-                && (x + 1 == w || here[x + 1] <= value)
+            let is_maximum = above.is_none_or(|r| r[columns.clone()].iter().all(|v| *v < value))
                 && below.is_none_or(|r| r[columns].iter().all(|v| *v <= value));
             if is_maximum {
                 let along_x = (x > 0 && x + 1 < w).then(|| parabola_top(here[x - 1], value, here[x + 1]));

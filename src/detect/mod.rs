@@ -1,14 +1,17 @@
 //! From an image to cone centres: flatten → spacing → filter → maxima → suppress → select → refine. Every stage can be called
 //! alone; [`detect`] is their composition. Knows nothing of files or statistics.
 
+mod calibration;
 mod filter;
 mod flatten;
 mod learned;
 mod maxima;
 mod modality;
 mod options;
+mod search;
 mod spacing;
 mod suppress;
+mod tiles;
 mod types;
 
 pub use filter::{Criterion, RelativeThreshold, response};
@@ -16,18 +19,18 @@ pub use flatten::flatten;
 pub use learned::{WeightsError, weights};
 pub use maxima::local_maxima;
 pub use options::{DetectOptions, Detector};
-pub use spacing::{BORDER, RingEstimate, RingProfile, SPACING_RANGE, refined};
+pub use spacing::{BORDER, RingEstimate, RingProfile, SPACING_RANGE, SpacingMap, refined};
 pub use suppress::suppress;
 pub use types::{Detection, Detections, Modality, Polarity};
 
-use crate::image::{Plane, crop, imaged_part};
+use crate::image::{EmptyPixels, Plane, crop, imaged_part};
+use search::Field;
+use spacing::Rings;
 use thiserror::Error;
 
 /// Shortest side of an image in px: below, there is no room for even a handful of cones at the closest spacing.
 pub const MIN_SIDE: usize = 24;
 
-/// At most this often the filter is run again at the spacing that its own detections show.
-const PASSES: usize = 3;
 /// Spacings that differ by less than this part are the same.
 const SETTLED: f64 = 0.005;
 /// The same for a network, which is trained at spacings off by up to 15 %.
@@ -91,62 +94,38 @@ pub fn detect(image: &Plane, options: &DetectOptions) -> Result<Detections, Dete
     let imaged = crop(image, part.top, part.left, part.height, part.width);
     check(&imaged)?;
     let mut found = detect_imaged(&imaged, options)?;
-    for cone in &mut found.cones {
-        cone.centre.x += part.left as f64;
-        cone.centre.y += part.top as f64;
-    }
+    found.move_by(part.left, part.top);
     Ok(found)
 }
 
-/// The cones of an image without a margin.
+/// The cones of an image without a straight margin.
 fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, DetectError> {
-    let flat = flatten(image);
-    let ring = RingProfile::of(&flat);
-    let (modality, polarity) = modality::decide(&flat, &ring, options.modality, options.polarity);
-    let estimate = ring.spacing(modality);
-    let start = options.spacing.unwrap_or(estimate.spacing);
-    let (mut cones, mut spacing) = until_settled(image, start, SETTLED, |spacing| {
-        let (response, criterion) = response(image, modality, polarity, spacing);
-        let maxima = suppress(local_maxima(&response, criterion.threshold), criterion.suppression * spacing);
-        criterion.select(maxima)
-    });
+    let empty = EmptyPixels::of(image);
+    let filled = empty.as_ref().map(|e| e.filled(image));
+    let field = Field { image: filled.as_ref().unwrap_or(image), empty: empty.as_ref() };
+    let rings = Rings::of(field.image, field.empty);
+    let (modality, polarity) =
+        modality::decide(rings.sample(), rings.whole(), options.modality, options.polarity);
+    let ring = rings.whole().spacing(modality);
+    let start = options.spacing.map_or_else(|| rings.map(modality), SpacingMap::constant);
+    let (mut found, mut map) = field
+        .until_settled(&start, SETTLED, |part, spacing| filter::cones(part, modality, polarity, spacing));
     let model = model_for(options.detector, modality)?;
     if let Some(model) = model {
-        (cones, spacing) =
-            until_settled(image, spacing, LEARNED_SETTLED, |spacing| model.cones(image, polarity, spacing));
+        (found, map) =
+            field.until_settled(&map, LEARNED_SETTLED, |part, spacing| model.cones(part, polarity, spacing));
     }
     Ok(Detections {
-        cones,
+        cones: found.cones,
+        rejected: found.rejected,
         modality,
         polarity,
         detector: if model.is_some() { Detector::Learned } else { Detector::Classical },
-        ring_spacing: estimate.spacing,
-        ring_strength: estimate.strength,
-        spacing,
+        ring_spacing: ring.spacing,
+        ring_strength: ring.strength,
+        spacing: map.typical(),
+        spacing_map: map,
     })
-}
-
-/// Finds cones at the spacing `start`, and again at the spacing that their density shows, until that changes by less than
-/// `settled`. The cones and the spacing that follows from them.
-fn until_settled(
-    image: &Plane,
-    start: f64,
-    settled: f64,
-    find: impl Fn(f64) -> Vec<Detection>,
-) -> (Vec<Detection>, f64) {
-    let mut spacing = start;
-    let mut cones = Vec::new();
-    for _ in 0..PASSES {
-        cones = find(spacing);
-        let centres: Vec<_> = cones.iter().map(|d| d.centre).collect();
-        let next = refined(&centres, image.ncols(), image.nrows(), start);
-        let done = (next / spacing - 1.).abs() < settled;
-        spacing = next;
-        if done {
-            break;
-        }
-    }
-    (cones, spacing)
 }
 
 /// The network to use, or none for the classical filters.

@@ -4,35 +4,50 @@ use crate::geometry::Point;
 /// Greedy non-maximum suppression: from the highest score down, a detection stays unless one that stayed lies within
 /// `radius` (px). Equal scores go by reading order. The result runs from the highest score to the lowest.
 pub fn suppress(mut detections: Vec<Detection>, radius: f64) -> Vec<Detection> {
-    detections.sort_by(|a, b| {
-        b.score
-            .total_cmp(&a.score)
-            .then(a.centre.y.total_cmp(&b.centre.y))
-            .then(a.centre.x.total_cmp(&b.centre.x))
-    });
-    if radius <= 0. {
-        return detections;
+    detections.sort_by(by_score);
+    suppress_sorted(detections, |d| d.centre, radius, |_| radius)
+}
+
+/// From the highest score down; equal scores by reading order.
+pub(super) fn by_score(a: &Detection, b: &Detection) -> std::cmp::Ordering {
+    let reading = || a.centre.y.total_cmp(&b.centre.y).then(a.centre.x.total_cmp(&b.centre.x));
+    b.score.total_cmp(&a.score).then_with(reading)
+}
+
+/// Of items in order of precedence, those that have none before them that stayed within the `radius` (px, at most `widest`) at
+/// their own place.
+pub(super) fn suppress_sorted<T>(
+    items: Vec<T>,
+    place: impl Fn(&T) -> Point,
+    widest: f64,
+    radius: impl Fn(Point) -> f64,
+) -> Vec<T> {
+    if widest <= 0. {
+        return items;
     }
-    let Some(grid) = Grid::around(&detections, radius) else { return detections };
+    let Some(grid) = Grid::around(items.iter().map(&place), widest) else { return items };
     let mut taken: Vec<u32> = vec![NONE; grid.cells()];
     // cells are a radius wide: several that stayed may share one, chained from the last to the first
     let mut before: Vec<u32> = Vec::new();
-    let mut kept: Vec<Detection> = Vec::new();
-    for d in detections {
+    let mut kept: Vec<T> = Vec::new();
+    for item in items {
+        let here = place(&item);
+        let radius = radius(here);
         let near = |mut k: u32| {
             while k != NONE {
-                if kept[k as usize].centre.distance(d.centre) <= radius {
+                let other = place(&kept[k as usize]);
+                if (other.x - here.x).powi(2) + (other.y - here.y).powi(2) <= radius * radius {
                     return true;
                 }
                 k = before[k as usize];
             }
             false
         };
-        if !grid.around_cell(d.centre).any(|cell| near(taken[cell])) {
-            let cell = grid.cell(d.centre);
+        if !grid.around_cell(here).any(|cell| near(taken[cell])) {
+            let cell = grid.cell(here);
             before.push(taken[cell]);
             taken[cell] = kept.len() as u32;
-            kept.push(d);
+            kept.push(item);
         }
     }
     kept
@@ -40,7 +55,7 @@ pub fn suppress(mut detections: Vec<Detection>, radius: f64) -> Vec<Detection> {
 
 const NONE: u32 = u32::MAX;
 
-/// Cells of one radius over all detections.
+/// Cells of one radius over all places.
 struct Grid {
     left: f64,
     top: f64,
@@ -51,17 +66,17 @@ struct Grid {
 
 impl Grid {
     /// `None` if there is nothing to lay it over.
-    fn around(detections: &[Detection], radius: f64) -> Option<Self> {
-        let range = |value: fn(&Detection) -> f64| {
-            let values = detections.iter().map(value);
+    fn around(places: impl ExactSizeIterator<Item = Point> + Clone, radius: f64) -> Option<Self> {
+        let range = |value: fn(Point) -> f64| {
+            let values = places.clone().map(value);
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
         };
-        let ((left, right), (top, bottom)) = (range(|d| d.centre.x), range(|d| d.centre.y));
+        let ((left, right), (top, bottom)) = (range(|p| p.x), range(|p| p.y));
         if !(right >= left && bottom >= top) {
             return None;
         }
-        // never many more cells than detections, however small the radius
-        let least = ((right - left) * (bottom - top) / (4 * detections.len()) as f64).sqrt();
+        // never many more cells than places, however small the radius
+        let least = ((right - left) * (bottom - top) / (4 * places.len()) as f64).sqrt();
         let side = radius.max(least).max((right - left).max(bottom - top) / 1e6);
         let count = |length: f64| (length / side) as usize + 1;
         Some(Self { left, top, side, columns: count(right - left), rows: count(bottom - top) })

@@ -1,4 +1,4 @@
-use super::Detector;
+use super::{Detector, SpacingMap};
 use crate::geometry::Point;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -86,8 +86,8 @@ impl FromStr for Polarity {
 pub struct Detection {
     /// Its centre in px.
     pub centre: Point,
-    /// Learned: the network's probability of a cone (0–1). Classical: height of the filter's response there, in the unit of
-    /// that filter; comparable within one image only.
+    /// Probability that it is a cone that a person would mark (0–1). Detection's inner stages put the height of a filter's
+    /// response here, in the unit of that filter.
     pub score: f64,
 }
 
@@ -96,6 +96,8 @@ pub struct Detection {
 pub struct Detections {
     /// The cones, from the highest score to the lowest.
     pub cones: Vec<Detection>,
+    /// Candidates that were not taken for cones, from the highest score to the lowest.
+    pub rejected: Vec<Detection>,
     /// How the image was taken to be made.
     pub modality: Modality,
     /// Which way round its contrast was taken to run.
@@ -106,11 +108,31 @@ pub struct Detections {
     pub ring_spacing: f64,
     /// How well the ring stands out (see [`crate::detect::RingEstimate`]).
     pub ring_strength: f64,
-    /// Cone spacing after refinement by the density of the detections, in px.
+    /// Cone spacing after refinement by the density of the detections, in px: the geometric mean of `spacing_map`.
     pub spacing: f64,
+    /// The same from place to place; constant where density is even.
+    pub spacing_map: SpacingMap,
 }
 
 impl Detections {
+    /// How many of `cones` are expected to be none: the sum of what their scores lack of 1.
+    pub fn expected_false_alarms(&self) -> f64 {
+        self.cones.iter().map(|d| 1. - d.score).sum()
+    }
+
+    /// How many cones are expected among the `rejected`: the sum of their scores. Cones that left no trace do not count.
+    pub fn expected_misses(&self) -> f64 {
+        self.rejected.iter().map(|d| d.score).sum()
+    }
+
+    /// Moves everything `left` px to the right and `top` px down.
+    pub(super) fn move_by(&mut self, left: usize, top: usize) {
+        for d in self.cones.iter_mut().chain(&mut self.rejected) {
+            d.centre = Point::new(d.centre.x + left as f64, d.centre.y + top as f64);
+        }
+        self.spacing_map.move_by(left as f64, top as f64);
+    }
+
     /// The centres in px, in the order of `cones`.
     pub fn centres(&self) -> Vec<Point> {
         self.cones.iter().map(|d| d.centre).collect()

@@ -15,12 +15,11 @@ pub fn gaussian(plane: &Plane, sigma: f64) -> Plane {
         return plane.clone();
     }
     let step = ((sigma / COARSE_SIGMA) as usize).max(1);
-    let pass = |p: &Plane| if step == 1 { fine_columns(p, sigma) } else { coarse_columns(p, sigma, step) };
-    transpose(&pass(&transpose(&pass(plane))))
-}
-
-fn transpose(plane: &Plane) -> Plane {
-    plane.t().as_standard_layout().into_owned()
+    if step == 1 {
+        fine_columns(&fine_rows(plane, sigma), sigma)
+    } else {
+        coarse_columns(&coarse_rows(plane, sigma, step), sigma, step)
+    }
 }
 
 /// The kernel from its middle outwards; both halves sum to 1.
@@ -47,6 +46,19 @@ fn weigh_rows<'a>(out: &mut [f32], kernel: &[f32], row: impl Fn(isize) -> &'a [f
     }
 }
 
+fn fine_rows(plane: &Plane, sigma: f64) -> Plane {
+    let (h, w) = plane.dim();
+    let kernel = half_kernel(sigma);
+    let reach = kernel.len() - 1;
+    let plane = plane.as_standard_layout();
+    let data = plane.as_slice().unwrap_or_default();
+    fill_rows(h, w, |y, out| {
+        let row = &data[y * w..(y + 1) * w];
+        let framed = framed(row, reach);
+        weigh_rows(out, &kernel, |k| &framed[(reach as isize + k) as usize..]);
+    })
+}
+
 fn fine_columns(plane: &Plane, sigma: f64) -> Plane {
     let (h, w) = plane.dim();
     let kernel = half_kernel(sigma);
@@ -60,17 +72,90 @@ fn fine_columns(plane: &Plane, sigma: f64) -> Plane {
     })
 }
 
+/// A row with `reach` px of its mirror image before and behind it.
+fn framed(row: &[f32], reach: usize) -> Vec<f32> {
+    let mirrored = |from: isize| (from..from + reach as isize).map(|x| row[mirror(x, row.len())]);
+    let mut framed = Vec::with_capacity(row.len() + 2 * reach);
+    framed.extend(mirrored(-(reach as isize)));
+    framed.extend_from_slice(row);
+    framed.extend(mirrored(row.len() as isize));
+    framed
+}
+
+/// How a side is filtered on a grid of `step` pixels.
+struct Coarse {
+    /// The kernel on that grid, from its middle outwards.
+    kernel: Vec<f32>,
+    /// Boxes before the first one inside.
+    reach: usize,
+    /// Boxes that cover the side.
+    inside: usize,
+}
+
+impl Coarse {
+    fn new(length: usize, sigma: f64, step: usize) -> Self {
+        // a box mean of `step` pixels already blurs by (step² − 1)/12
+        let box_variance = ((step * step) as f64 - 1.) / 12.;
+        let kernel = half_kernel((sigma * sigma - box_variance).sqrt() / step as f64);
+        let reach = kernel.len() + 1;
+        Self { kernel, reach, inside: length.div_ceil(step) }
+    }
+
+    /// Number of boxes, those beyond either end included.
+    const fn boxes(&self) -> usize {
+        self.inside + 2 * self.reach
+    }
+
+    /// Filtered samples: two beyond either end serve the cubics at the border.
+    const fn samples(&self) -> usize {
+        self.inside + 4
+    }
+
+    /// The box below sample `i`.
+    const fn middle(&self, i: usize) -> usize {
+        i + self.reach - 2
+    }
+
+    /// First of the four samples around every pixel, and their weights.
+    fn cubics(length: usize, step: usize) -> Vec<(usize, [f32; 4])> {
+        (0..length)
+            .map(|x| {
+                let position = (x as f64 + 0.5) / step as f64 - 0.5 + 2.;
+                let cell = position.floor();
+                (cell as usize - 1, catmull_rom((position - cell) as f32))
+            })
+            .collect()
+    }
+}
+
+fn coarse_rows(plane: &Plane, sigma: f64, step: usize) -> Plane {
+    let (h, w) = plane.dim();
+    let grid = Coarse::new(w, sigma, step);
+    let cubics = Coarse::cubics(w, step);
+    let plane = plane.as_standard_layout();
+    let data = plane.as_slice().unwrap_or_default();
+    fill_rows(h, w, |y, out| {
+        let framed = framed(&data[y * w..(y + 1) * w], (grid.reach + 1) * step);
+        let boxes: Vec<f32> = framed[step..]
+            .chunks_exact(step)
+            .take(grid.boxes())
+            .map(|cells| cells.iter().sum::<f32>() / step as f32)
+            .collect();
+        let mut samples = vec![0f32; grid.samples()];
+        weigh_rows(&mut samples, &grid.kernel, |k| &boxes[(grid.middle(0) as isize + k) as usize..]);
+        for (o, (at, weights)) in out.iter_mut().zip(&cubics) {
+            *o = samples[*at..].iter().zip(weights).map(|(s, weight)| weight * s).sum();
+        }
+    })
+}
+
 fn coarse_columns(plane: &Plane, sigma: f64, step: usize) -> Plane {
     let (h, w) = plane.dim();
     let plane = plane.as_standard_layout();
     let data = plane.as_slice().unwrap_or_default();
-    // a box mean of `step` pixels already blurs by (step² − 1)/12
-    let box_variance = ((step * step) as f64 - 1.) / 12.;
-    let kernel = half_kernel((sigma * sigma - box_variance).sqrt() / step as f64);
-    let reach = kernel.len() + 1;
-    let inside = h.div_ceil(step);
-    let boxes = fill_rows(inside + 2 * reach, w, |i, out| {
-        let first = (i as isize - reach as isize) * step as isize;
+    let grid = Coarse::new(h, sigma, step);
+    let boxes = fill_rows(grid.boxes(), w, |i, out| {
+        let first = (i as isize - grid.reach as isize) * step as isize;
         for k in 0..step as isize {
             let y = mirror(first + k, h);
             for (o, a) in out.iter_mut().zip(&data[y * w..(y + 1) * w]) {
@@ -79,20 +164,17 @@ fn coarse_columns(plane: &Plane, sigma: f64, step: usize) -> Plane {
         }
     });
     let boxes = boxes.as_slice().unwrap_or_default();
-    // two coarse rows before and behind serve the cubics at the border
-    let coarse = fill_rows(inside + 4, w, |i, out| {
-        weigh_rows(out, &kernel, |k| {
-            let j = ((i + reach - 2) as isize + k) as usize;
+    let coarse = fill_rows(grid.samples(), w, |i, out| {
+        weigh_rows(out, &grid.kernel, |k| {
+            let j = (grid.middle(i) as isize + k) as usize;
             &boxes[j * w..(j + 1) * w]
         });
     });
     let coarse = coarse.as_slice().unwrap_or_default();
+    let cubics = Coarse::cubics(h, step);
     fill_rows(h, w, |y, out| {
-        let position = (y as f64 + 0.5) / step as f64 - 0.5 + 2.;
-        let cell = position.floor();
-        let weights = catmull_rom((position - cell) as f32);
-        for (k, weight) in weights.into_iter().enumerate() {
-            let j = cell as usize + k - 1;
+        let (at, weights) = cubics[y];
+        for (j, weight) in (at..).zip(weights) {
             for (o, a) in out.iter_mut().zip(&coarse[j * w..(j + 1) * w]) {
                 *o += weight * a;
             }

@@ -45,7 +45,7 @@ pub fn empty_fraction(plane: &Plane) -> f64 {
 }
 
 /// For every pixel, row by row, whether it was not imaged; `None` if all were.
-fn empty_pixels(plane: &Plane) -> Option<Vec<bool>> {
+pub(super) fn empty_pixels(plane: &Plane) -> Option<Vec<bool>> {
     let (height, width) = plane.dim();
     let least = SMALLEST * plane.len() as f64;
     let (w, h) = (u32::try_from(width).ok()?, u32::try_from(height).ok()?);

@@ -1,5 +1,6 @@
 //! Reading PNG and TIFF as one grey plane, padding, Gaussian and Fourier filters. Knows nothing of cones.
 
+mod empty;
 mod error;
 mod fourier;
 mod gaussian;
@@ -9,6 +10,7 @@ mod read;
 mod rows;
 mod write;
 
+pub use empty::EmptyPixels;
 pub use error::ImageError;
 pub(crate) use fourier::signed_frequency;
 pub use fourier::{Spectrum, fast_length};

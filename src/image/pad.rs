@@ -1,4 +1,5 @@
 use super::Plane;
+use ndarray::Axis;
 
 /// The index inside `0..length` that a mirror at the edges shows at `index`, the edge pixel repeated
 /// (… 1 0 | 0 1 2 … n−1 | n−1 …): OpenCV's BORDER_REFLECT. `length` must not be 0.
@@ -18,7 +19,8 @@ pub fn reflect_pad(plane: &Plane, top: usize, left: usize, height: usize, width:
 
 /// The part of `plane` of `height` × `width` px whose first pixel is at (`left`, `top`).
 pub fn crop(plane: &Plane, top: usize, left: usize, height: usize, width: usize) -> Plane {
-    Plane::from_shape_fn((height, width), |(y, x)| plane[[top + y, left + x]])
+    let rows = plane.slice_axis(Axis(0), (top..top + height).into());
+    rows.slice_axis(Axis(1), (left..left + width).into()).to_owned()
 }
 
 #[cfg(test)]

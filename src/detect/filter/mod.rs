@@ -6,7 +6,9 @@ mod split;
 
 pub(super) use histology::{blobs, evened};
 
-use crate::detect::{Detection, Modality, Polarity};
+use crate::detect::calibration;
+use crate::detect::search::Found;
+use crate::detect::{Detection, Modality, Polarity, local_maxima, suppress};
 use crate::image::{Plane, fill_rows};
 
 /// What counts as a cone in a filter's response.
@@ -32,13 +34,30 @@ pub struct RelativeThreshold {
 impl Criterion {
     /// The cones among maxima that suppression has left, highest first.
     pub fn select(&self, mut maxima: Vec<Detection>) -> Vec<Detection> {
-        // highest first: the upper quartile stands a quarter of the way down
-        if let (Some(relative), Some(quartile)) = (self.relative, maxima.get(maxima.len() / 4)) {
-            let least = relative.slope * quartile.score + relative.offset;
-            maxima.retain(|d| d.score > least);
-        }
+        let least = self.least(&maxima);
+        maxima.retain(|d| d.score > least);
         maxima
     }
+
+    /// How high a cone must be among `maxima`, the highest first.
+    fn least(&self, maxima: &[Detection]) -> f64 {
+        // highest first: the upper quartile stands a quarter of the way down
+        match (self.relative, maxima.get(maxima.len() / 4)) {
+            (Some(relative), Some(quartile)) => relative.slope * quartile.score + relative.offset,
+            _ => f64::from(self.threshold),
+        }
+    }
+}
+
+/// The cones that the modality's filter finds in an image whose cones are about `spacing` px apart.
+pub(super) fn cones(image: &Plane, modality: Modality, polarity: Polarity, spacing: f64) -> Found {
+    let (response, criterion) = response(image, modality, polarity, spacing);
+    let maxima = suppress(local_maxima(&response, criterion.threshold), criterion.suppression * spacing);
+    let least = criterion.least(&maxima);
+    let (mut cones, mut rejected): (Vec<_>, Vec<_>) = maxima.into_iter().partition(|d| d.score > least);
+    let probability = calibration::classical(modality, &cones, least);
+    cones.iter_mut().chain(&mut rejected).for_each(|d| d.score = probability(d.score));
+    Found { cones, rejected }
 }
 
 /// The response of the modality's classical filter at the given cone spacing (px), and what counts as a cone in it. The

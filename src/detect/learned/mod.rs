@@ -8,6 +8,8 @@ mod weights;
 
 pub use weights::WeightsError;
 
+use super::calibration::Logistic;
+use super::search::Found;
 use super::{Detection, Modality, Polarity, local_maxima, suppress};
 use crate::geometry::Point;
 use crate::image::Plane;
@@ -98,25 +100,28 @@ impl Model {
         })
     }
 
-    /// The cones of an image whose cones are about `spacing` px apart, best first; their score is the network's probability.
-    pub(super) fn cones(&self, image: &Plane, polarity: Polarity, spacing: f64) -> Vec<Detection> {
+    /// The cones of an image whose cones are about `spacing` px apart, best first.
+    pub(super) fn cones(&self, image: &Plane, polarity: Polarity, spacing: f64) -> Found {
         let step = spacing / self.spacing;
         let seen = input::normalised(&input::resampled(image, step));
         let seen = if polarity == Polarity::Negative { -seen } else { seen };
         let (right, lower) = (image.ncols() as f64 - 0.5, image.nrows() as f64 - 0.5);
-        let mut cones = self.select(local_maxima(&self.network.logits(&seen), CANDIDATE));
-        for cone in &mut cones {
+        let maxima = local_maxima(&self.network.logits(&seen), CANDIDATE);
+        let threshold = self.threshold_for(&maxima);
+        let (mut cones, mut rejected): (Vec<_>, Vec<_>) =
+            suppress(maxima, self.suppression * self.spacing).into_iter().partition(|d| d.score > threshold);
+        for cone in cones.iter_mut().chain(&mut rejected) {
             let Point { x, y } = cone.centre;
             cone.centre =
                 Point::new(((x + 0.5) * step - 0.5).min(right), ((y + 0.5) * step - 0.5).min(lower));
-            cone.score = 1. / (1. + (-cone.score).exp());
+            cone.score = Logistic { offset: 0., slope: 1. }.at(cone.score);
         }
-        cones
+        Found { cones, rejected }
     }
 
-    /// Which maxima of the logit are cones.
-    fn select(&self, maxima: Vec<Detection>) -> Vec<Detection> {
-        let threshold = match self.threshold {
+    /// From which logit on a maximum is a cone.
+    fn threshold_for(&self, maxima: &[Detection]) -> f64 {
+        match self.threshold {
             Threshold::Absolute(logit) => logit,
             Threshold::Relative { below, floor, radius } => {
                 let strong = maxima.iter().copied().filter(|d| d.score > f64::from(floor)).collect();
@@ -124,9 +129,7 @@ impl Model {
                     suppress(strong, radius * self.spacing).iter().rev().map(|d| d.score).collect();
                 quantile(&scores, QUANTILE) - below
             }
-        };
-        let high = maxima.into_iter().filter(|d| d.score > threshold).collect();
-        suppress(high, self.suppression * self.spacing)
+        }
     }
 }
 
@@ -183,7 +186,7 @@ mod tests {
         let image = Plane::from_shape_fn((96, 96), |(y, x)| (0.7 * x as f32).sin() * (0.75 * y as f32).cos());
         let model = model(Modality::Confocal).unwrap().unwrap();
         let found = model.cones(&image, Polarity::Positive, 9.);
-        assert!(found.len() > 20);
+        assert!(found.cones.len() > 20);
         assert_eq!(model.cones(&-&image, Polarity::Negative, 9.), found);
     }
 }

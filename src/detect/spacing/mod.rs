@@ -1,11 +1,17 @@
-//! How far apart the cones are: first from Yellott's ring, then from the density of what was found.
+//! How far apart the cones are: first from Yellott's ring, then from the density of what was found; from place to place where
+//! it varies.
 
 mod kernels;
+mod map;
 mod refine;
 mod ring;
+mod rings;
 
+pub use map::SpacingMap;
+pub(super) use refine::refined_map;
 pub use refine::{BORDER, refined};
 pub use ring::{RingEstimate, RingProfile};
+pub(super) use rings::Rings;
 
 /// Smallest and largest spacing looked for, in px: closer cones are not resolved, wider ones are too few in a field.
 pub const SPACING_RANGE: (f64, f64) = (4., 40.);

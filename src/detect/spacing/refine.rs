@@ -1,4 +1,6 @@
+use super::SpacingMap;
 use crate::geometry::Point;
+use crate::image::EmptyPixels;
 use crate::mosaic::hexagonal_spacing;
 
 /// Cones nearer to the border than this, in px, are left out of the count: filters see half of them.
@@ -7,16 +9,148 @@ pub const BORDER: f64 = 7.;
 /// Detections may move the spacing this far from the ring's, as a factor e^±0.35: beyond, they are not to be trusted.
 const TRUST: f64 = 0.35;
 
+/// A local density is counted over about this many cones.
+const COUNTED: f64 = 80.;
+/// With fewer cones than this, one spacing serves the whole image: local counts would be noise.
+const ENOUGH_CONES: usize = 320;
+/// Nodes of a map are this many spacings apart.
+const NODE_STEP: f64 = 4.;
+/// Of a square that is counted, at least this part must have been imaged.
+const IMAGED: f64 = 0.4;
+/// Spacings whose largest is within this factor of the smallest are the same: local counts scatter as much, and filters work
+/// that far off their spacing.
+pub(in crate::detect) const EVEN: f64 = 1.2;
+
 /// Spacing by the density of `centres` in an image of `width` × `height` px: s = √(2A/(√3 n)), n and A inside the
 /// 7 px border, held within e^±0.35 of the ring's spacing.
 pub fn refined(centres: &[Point], width: usize, height: usize, ring_spacing: f64) -> f64 {
+    by_density(centres, width, height, None, ring_spacing)
+}
+
+fn by_density(
+    centres: &[Point],
+    width: usize,
+    height: usize,
+    empty: Option<&EmptyPixels>,
+    ring_spacing: f64,
+) -> f64 {
     let border = BORDER.min(width.min(height) as f64 / 4.);
     let (right, lower) = (width as f64 - 0.5 - border, height as f64 - 0.5 - border);
     let near = border - 0.5;
     let inside = centres.iter().filter(|p| p.x > near && p.x < right && p.y > near && p.y < lower).count();
     let area = (width as f64 - 2. * border) * (height as f64 - 2. * border);
-    let by_density = hexagonal_spacing(inside.max(1), area).unwrap_or(ring_spacing);
+    let imaged = empty.map_or(1., |e| 1. - e.part(0, 0, width, height));
+    trusted(hexagonal_spacing(inside.max(1), area * imaged), ring_spacing)
+}
+
+fn trusted(by_density: Option<f64>, ring_spacing: f64) -> f64 {
+    let by_density = by_density.unwrap_or(ring_spacing);
     ring_spacing * (by_density / ring_spacing).ln().clamp(-TRUST, TRUST).exp()
+}
+
+/// Spacing by the local density of `centres`, counted in squares of about 80 cones that stay inside the border, held within
+/// e^±0.35 of `ring`; one spacing where it is even (within 20 %) or the cones are few.
+pub(in crate::detect) fn refined_map(
+    centres: &[Point],
+    width: usize,
+    height: usize,
+    empty: Option<&EmptyPixels>,
+    ring: &SpacingMap,
+) -> SpacingMap {
+    let typical = by_density(centres, width, height, empty, ring.typical());
+    let constant = || SpacingMap::constant(typical);
+    if centres.len() < ENOUGH_CONES {
+        return constant();
+    }
+    let cells = Cells::new(centres, width, height, typical);
+    let nodes = |length: usize| -> Vec<f64> {
+        let count = ((length as f64 / (NODE_STEP * typical)).round() as usize).max(2);
+        (0..count).map(|k| (k as f64 + 0.5) * length as f64 / count as f64 - 0.5).collect()
+    };
+    let (x, y) = (nodes(width), nodes(height));
+    let mut spacing = Vec::with_capacity(x.len() * y.len());
+    for &cy in &y {
+        for &cx in &x {
+            let place = Point::new(cx, cy);
+            let start = ring.at(place);
+            let half = 0.5 * start * (COUNTED * 0.75f64.sqrt()).sqrt();
+            let square = cells.square(place, half);
+            let imaged = empty.map_or(1., |e| square.imaged(e));
+            let known = imaged >= IMAGED;
+            let by_density = hexagonal_spacing(cells.count(&square).max(1), square.area() * imaged);
+            spacing.push(known.then(|| trusted(by_density, start)));
+        }
+    }
+    let map = SpacingMap::on_grid(x, y, &spacing, typical).smoothed();
+    let (low, high) = map.range();
+    if high / low < EVEN { constant() } else { map }
+}
+
+/// A square moved inside the image's border.
+struct Square {
+    left: f64,
+    top: f64,
+    right: f64,
+    bottom: f64,
+}
+
+impl Square {
+    fn area(&self) -> f64 {
+        (self.right - self.left) * (self.bottom - self.top)
+    }
+
+    fn imaged(&self, empty: &EmptyPixels) -> f64 {
+        let pixel = |v: f64| (v + 0.5).max(0.) as usize;
+        1. - empty.part(pixel(self.left), pixel(self.top), pixel(self.right), pixel(self.bottom))
+    }
+}
+
+/// Points dealt out to square cells, so that a square of the plane is counted without looking at all of them.
+struct Cells {
+    side: f64,
+    columns: usize,
+    points: Vec<Vec<Point>>,
+    width: f64,
+    height: f64,
+}
+
+impl Cells {
+    fn new(centres: &[Point], width: usize, height: usize, side: f64) -> Self {
+        let (width, height) = (width as f64, height as f64);
+        let columns = (width / side) as usize + 1;
+        let rows = (height / side) as usize + 1;
+        let mut cells = Self { side, columns, points: vec![Vec::new(); columns * rows], width, height };
+        for p in centres {
+            let (i, j) = (cells.index(p.x).min(columns - 1), cells.index(p.y).min(rows - 1));
+            cells.points[j * columns + i].push(*p);
+        }
+        cells
+    }
+
+    fn index(&self, place: f64) -> usize {
+        ((place + 0.5) / self.side).max(0.) as usize
+    }
+
+    fn square(&self, middle: Point, half: f64) -> Square {
+        let ends = |middle: f64, length: f64| {
+            let border = BORDER.min(length / 4.) - 0.5;
+            let half = half.min(0.5 * (length - 1.) - border);
+            let middle = middle.clamp(border + half, length - 1. - border - half);
+            (middle - half, middle + half)
+        };
+        let ((left, right), (top, bottom)) = (ends(middle.x, self.width), ends(middle.y, self.height));
+        Square { left, top, right, bottom }
+    }
+
+    fn count(&self, s: &Square) -> usize {
+        let rows = self.points.len() / self.columns;
+        let columns = self.index(s.left)..=self.index(s.right).min(self.columns - 1);
+        (self.index(s.top)..=self.index(s.bottom).min(rows - 1))
+            .flat_map(|j| columns.clone().map(move |i| j * self.columns + i))
+            .flat_map(|cell| &self.points[cell])
+            .filter(|p| p.x >= s.left && p.x < s.right && p.y >= s.top && p.y < s.bottom)
+            .count()
+    }
 }
 
 #[cfg(test)]
@@ -41,5 +175,28 @@ mod tests {
     fn detections_cannot_carry_the_spacing_far_from_the_ring() {
         assert!((refined(&[], 100, 100, 10.) - 10. * 0.35f64.exp()).abs() < 1e-9);
         assert!((refined(&lattice(2., 100), 100, 100, 10.) - 10. * (-0.35f64).exp()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn an_even_mosaic_has_one_spacing() {
+        let map = refined_map(&lattice(10., 400), 400, 400, None, &SpacingMap::constant(11.));
+        assert!(map.is_constant());
+    }
+
+    #[test]
+    fn a_gradient_of_density_is_followed_to_its_ends() {
+        // columns of cones ever farther apart: density falls 4:1 from left to right
+        let (mut points, mut x) = (Vec::new(), 0.);
+        while x < 600. {
+            let step = 6. + 6. * x / 600.;
+            points.extend((0..(600. / step) as usize).map(|k| Point::new(x, (k as f64 + 0.5) * step)));
+            x += step;
+        }
+        let map = refined_map(&points, 600, 600, None, &SpacingMap::constant(9.));
+        for x in [30., 150., 300., 450., 570.] {
+            let expected = (6. + 6. * x / 600.) * (2. / 3f64.sqrt()).sqrt();
+            let found = map.at(Point::new(x, 300.));
+            assert!((found / expected - 1.).abs() < 0.12, "{x}: {found} for {expected}");
+        }
     }
 }

@@ -1,0 +1,27 @@
+//! What a filter's response says about the probability that a person would mark a cone there.
+
+use super::{Detection, Modality};
+
+/// 1 / (1 + exp(−(offset + slope · x))).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Logistic {
+    pub offset: f64,
+    pub slope: f64,
+}
+
+impl Logistic {
+    pub(super) fn at(self, x: f64) -> f64 {
+        1. / (1. + (-(self.offset + self.slope * x)).exp())
+    }
+}
+
+/// The probability by the height of the classical filter's response, given the `cones` of the image, highest first, and how high
+/// a cone had to be.
+pub(super) fn classical(modality: Modality, cones: &[Detection], least: f64) -> impl Fn(f64) -> f64 + use<> {
+    let median = cones.get(cones.len() / 2).map_or(1., |d| d.score).max(f64::MIN_POSITIVE);
+    move |score| match modality {
+        Modality::Confocal => Logistic { offset: 0., slope: 1. }.at((score / median).max(1e-9).ln()),
+        Modality::Split => Logistic { offset: 0., slope: 1. }.at(score - least),
+        Modality::Histology => Logistic { offset: 0., slope: 1. }.at((score / median).max(1e-9).ln()),
+    }
+}

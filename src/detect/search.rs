@@ -1,0 +1,118 @@
+//! Searches an image at a spacing that may vary from place to place, and again at the spacing that its own detections show.
+
+use super::spacing::{SpacingMap, refined_map};
+use super::suppress::{by_score, suppress_sorted};
+use super::tiles::{Tile, tiles};
+use super::{Detection, LEARNED_SETTLED};
+use crate::geometry::Point;
+use crate::image::{EmptyPixels, Plane, crop};
+use rayon::prelude::*;
+
+/// At most this often an image is searched again at the spacing that its own detections show.
+const PASSES: usize = 3;
+/// A tile also answers for what lies so far beyond it, in spacings: a cone on the cut must not fall between two tiles.
+const OVERLAP: f64 = 0.5;
+/// Of two detections of neighbouring tiles nearer to each other than this, in spacings, the lower one goes.
+const SAME: f64 = 0.5;
+
+/// What a search finds: cones, and candidates that were too faint; scores are probabilities.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Found {
+    pub cones: Vec<Detection>,
+    pub rejected: Vec<Detection>,
+}
+
+impl Found {
+    fn each(&mut self, change: impl Fn(&mut Detection)) {
+        self.cones.iter_mut().chain(&mut self.rejected).for_each(change);
+    }
+
+    fn retain(&mut self, keep: impl Fn(&Detection) -> bool) {
+        self.cones.retain(&keep);
+        self.rejected.retain(&keep);
+    }
+
+    /// The same `left` and `top` px further on.
+    fn moved(mut self, left: usize, top: usize) -> Self {
+        self.each(|d| d.centre = Point::new(d.centre.x + left as f64, d.centre.y + top as f64));
+        self
+    }
+}
+
+/// An image whose empty pixels are filled, and which those are.
+#[derive(Clone, Copy)]
+pub(super) struct Field<'a> {
+    pub image: &'a Plane,
+    pub empty: Option<&'a EmptyPixels>,
+}
+
+impl Field<'_> {
+    /// What `find(part, spacing)` finds in all tiles over which one spacing serves. Nothing lies where nothing was imaged.
+    fn search(&self, map: &SpacingMap, find: &(impl Fn(&Plane, f64) -> Found + Sync)) -> Found {
+        let (height, width) = self.image.dim();
+        let tiles = tiles(width, height, map);
+        let mut found = match &tiles[..] {
+            [tile] => find(self.image, tile.spacing),
+            _ => merged(tiles.par_iter().map(|tile| self.search_tile(tile, find)).collect(), map),
+        };
+        if let Some(empty) = self.empty {
+            found.retain(|d| !empty.contains((d.centre.x + 0.5) as usize, (d.centre.y + 0.5) as usize));
+        }
+        found
+    }
+
+    fn search_tile(&self, tile: &Tile, find: &impl Fn(&Plane, f64) -> Found) -> Found {
+        let seen = tile.seen;
+        let core = tile.core;
+        if self.empty.is_some_and(|e| e.part(core.left, core.top, core.right, core.bottom) == 1.) {
+            return Found::default();
+        }
+        let part = crop(self.image, seen.top, seen.left, seen.height(), seen.width());
+        let mut found = find(&part, tile.spacing).moved(seen.left, seen.top);
+        found.retain(|d| core.contains(d.centre, OVERLAP * tile.spacing));
+        found
+    }
+
+    /// What is found at the spacing `start`, and again at the spacing that the density of what was found shows, until that changes
+    /// by less than the part `settled`. The last spacing with it.
+    pub(super) fn until_settled(
+        &self,
+        start: &SpacingMap,
+        settled: f64,
+        find: impl Fn(&Plane, f64) -> Found + Sync,
+    ) -> (Found, SpacingMap) {
+        let (height, width) = self.image.dim();
+        let mut map = start.clone();
+        let mut found = Found::default();
+        for _ in 0..PASSES {
+            found = self.search(&map, &find);
+            let centres: Vec<Point> = found.cones.iter().map(|d| d.centre).collect();
+            let next = refined_map(&centres, width, height, self.empty, start);
+            // local counts scatter more than the count of the whole image
+            let settled = if next.is_constant() { settled } else { settled.max(LEARNED_SETTLED) };
+            let done = next.change_from(&map) < settled;
+            map = next;
+            if done {
+                break;
+            }
+        }
+        (found, map)
+    }
+}
+
+/// What tiles found, each cone once: a cone on a cut is seen from both sides.
+fn merged(parts: Vec<Found>, map: &SpacingMap) -> Found {
+    let (mut cones, mut rejected) = (Vec::new(), Vec::new());
+    for part in parts {
+        cones.extend(part.cones);
+        rejected.extend(part.rejected);
+    }
+    cones.sort_by(by_score);
+    rejected.sort_by(by_score);
+    let all = cones.into_iter().map(|d| (d, true)).chain(rejected.into_iter().map(|d| (d, false))).collect();
+    let widest = SAME * map.range().1;
+    let once = suppress_sorted(all, |(d, _)| d.centre, widest, |p| SAME * map.at(p));
+    let (cones, rejected): (Vec<_>, Vec<_>) = once.into_iter().partition(|(_, is_cone)| *is_cone);
+    let only = |found: Vec<(Detection, bool)>| found.into_iter().map(|(d, _)| d).collect();
+    Found { cones: only(cones), rejected: only(rejected) }
+}

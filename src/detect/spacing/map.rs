@@ -1,0 +1,159 @@
+use crate::geometry::Point;
+use serde::{Deserialize, Serialize};
+
+/// Cone spacing in px as a smooth function of place: values on a grid of nodes, their logarithm interpolated bilinearly, the
+/// outermost values continued outwards.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SpacingMap {
+    /// Columns of nodes, px, rising.
+    x: Vec<f64>,
+    /// Rows of nodes, px, rising.
+    y: Vec<f64>,
+    /// Natural logarithm of the spacing in px, row by row.
+    log: Vec<f64>,
+}
+
+impl SpacingMap {
+    /// The same spacing, px, everywhere.
+    pub fn constant(spacing: f64) -> Self {
+        Self { x: vec![0.], y: vec![0.], log: vec![spacing.ln()] }
+    }
+
+    /// Spacings, px, at the nodes `x` × `y` (both rising, not empty), row by row. A node without one takes the mean logarithm of
+    /// the nearest nodes that have one; without any, all are `otherwise`.
+    pub(super) fn on_grid(x: Vec<f64>, y: Vec<f64>, spacing: &[Option<f64>], otherwise: f64) -> Self {
+        let mut log: Vec<Option<f64>> = spacing.iter().map(|s| s.map(f64::ln)).collect();
+        log.resize(x.len() * y.len(), None);
+        if log.iter().all(Option::is_none) {
+            return Self::constant(otherwise);
+        }
+        while log.contains(&None) {
+            let known = log.clone();
+            for (k, value) in log.iter_mut().enumerate().filter(|(_, v)| v.is_none()) {
+                let (mut sum, mut count) = (0., 0);
+                around(k, x.len(), y.len(), |other, _| {
+                    if let Some(l) = known[other] {
+                        sum += l;
+                        count += 1;
+                    }
+                });
+                *value = (count > 0).then(|| sum / f64::from(count));
+            }
+        }
+        Self { x, y, log: log.into_iter().flatten().collect() }
+    }
+
+    /// From `from` px at x = 0 to `to` px at x = `width`.
+    #[cfg(test)]
+    pub(in crate::detect) fn ramp(width: f64, from: f64, to: f64) -> Self {
+        Self::on_grid(vec![0., width], vec![0.], &[Some(from), Some(to)], from)
+    }
+
+    /// Every node's logarithm averaged with its neighbours' (weights 4, 2, 1 for itself, along a side, along a diagonal).
+    pub(super) fn smoothed(&self) -> Self {
+        let (columns, rows) = (self.x.len(), self.y.len());
+        let log = (0..self.log.len())
+            .map(|k| {
+                let (mut sum, mut total) = (4. * self.log[k], 4.);
+                around(k, columns, rows, |other, is_diagonal| {
+                    let weight = if is_diagonal { 1. } else { 2. };
+                    sum += weight * self.log[other];
+                    total += weight;
+                });
+                sum / total
+            })
+            .collect();
+        Self { x: self.x.clone(), y: self.y.clone(), log }
+    }
+
+    /// Spacing in px at a place.
+    pub fn at(&self, p: Point) -> f64 {
+        let ((i, s), (j, t)) = (between(&self.x, p.x), between(&self.y, p.y));
+        let columns = self.x.len();
+        let (right, lower) = ((i + 1).min(columns - 1), (j + 1).min(self.y.len() - 1));
+        let along = |row: usize| {
+            let (a, b) = (self.log[row * columns + i], self.log[row * columns + right]);
+            a + s * (b - a)
+        };
+        let (upper, below) = (along(j), along(lower));
+        (upper + t * (below - upper)).exp()
+    }
+
+    /// Geometric mean over the nodes, px.
+    pub fn typical(&self) -> f64 {
+        (self.log.iter().sum::<f64>() / self.log.len() as f64).exp()
+    }
+
+    /// Smallest and largest spacing, px.
+    pub fn range(&self) -> (f64, f64) {
+        let (low, high) =
+            self.log.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), l| (a.min(*l), b.max(*l)));
+        (low.exp(), high.exp())
+    }
+
+    /// Whether the spacing is the same everywhere.
+    pub fn is_constant(&self) -> bool {
+        self.log.iter().all(|l| *l == self.log[0])
+    }
+
+    /// Moves all nodes.
+    pub(in crate::detect) fn move_by(&mut self, right: f64, down: f64) {
+        self.x.iter_mut().for_each(|x| *x += right);
+        self.y.iter_mut().for_each(|y| *y += down);
+    }
+
+    /// Largest change of the logarithm from `earlier`, over the nodes of this map.
+    pub(in crate::detect) fn change_from(&self, earlier: &Self) -> f64 {
+        let mut largest = 0f64;
+        for (j, &y) in self.y.iter().enumerate() {
+            for (i, &x) in self.x.iter().enumerate() {
+                let before = earlier.at(Point::new(x, y)).ln();
+                largest = largest.max((self.log[j * self.x.len() + i] - before).abs());
+            }
+        }
+        largest
+    }
+}
+
+/// Calls `visit(index, is_diagonal)` for the up to eight neighbours of node `k`.
+fn around(k: usize, columns: usize, rows: usize, mut visit: impl FnMut(usize, bool)) {
+    let (i, j) = (k % columns, k / columns);
+    for v in j.saturating_sub(1)..(j + 2).min(rows) {
+        for u in i.saturating_sub(1)..(i + 2).min(columns) {
+            if (u, v) != (i, j) {
+                visit(v * columns + u, u != i && v != j);
+            }
+        }
+    }
+}
+
+/// The node before a place and the part of the way to the next.
+fn between(nodes: &[f64], place: f64) -> (usize, f64) {
+    let after = nodes.partition_point(|n| *n <= place);
+    match after {
+        0 => (0, 0.),
+        k if k == nodes.len() => (k - 1, 0.),
+        k => (k - 1, (place - nodes[k - 1]) / (nodes[k] - nodes[k - 1])),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn between_nodes_the_logarithm_is_linear() {
+        let map = SpacingMap::on_grid(vec![0., 10.], vec![0.], &[Some(4.), Some(16.)], 1.);
+        for (x, spacing) in [(-5., 4.), (0., 4.), (5., 8.), (10., 16.), (99., 16.)] {
+            assert!((map.at(Point::new(x, 3.)) - spacing).abs() < 1e-12);
+        }
+        assert!((map.typical() - 8.).abs() < 1e-12);
+    }
+
+    #[test]
+    fn nodes_without_a_value_take_their_neighbours() {
+        let map = SpacingMap::on_grid(vec![0., 1., 2.], vec![0.], &[Some(9.), None, None], 1.);
+        assert!(map.is_constant() && (map.typical() - 9.).abs() < 1e-12);
+        assert_eq!(SpacingMap::on_grid(vec![0., 1.], vec![0.], &[None, None], 7.), SpacingMap::constant(7.));
+    }
+}

@@ -1,0 +1,121 @@
+use super::ring::{Power, RingProfile, SIZE, power_of};
+use super::{RingEstimate, SpacingMap};
+use crate::detect::{Modality, flatten};
+use crate::image::{EmptyPixels, Plane, crop};
+use rayon::prelude::*;
+
+/// A local ring may differ from that of the whole image by this factor.
+const LOCAL: f64 = 2.;
+/// Of a tile, at least this part must have been imaged.
+const IMAGED: f64 = 0.5;
+
+/// Yellott's ring all over an image: of overlapping tiles of 512 px, their power averaged (Welch) for the whole.
+pub(in crate::detect) struct Rings {
+    whole: RingProfile,
+    /// Columns and rows of tiles by their first pixels.
+    columns: Vec<usize>,
+    rows: Vec<usize>,
+    /// One a tile, row by row; none where too little was imaged.
+    tiles: Vec<Option<RingProfile>>,
+    /// The flattened tile that stands for the image, the one with the most that was imaged, then nearest to its middle.
+    sample: Plane,
+    height: usize,
+    width: usize,
+}
+
+impl Rings {
+    /// Of an image, its empty pixels already filled.
+    pub(in crate::detect) fn of(image: &Plane, empty: Option<&EmptyPixels>) -> Self {
+        let (height, width) = image.dim();
+        let (columns, rows) = (tile_starts(width), tile_starts(height));
+        let (tile_height, tile_width) = (height.min(SIZE), width.min(SIZE));
+        let corners: Vec<(usize, usize)> =
+            rows.iter().flat_map(|&y| columns.iter().map(move |&x| (y, x))).collect();
+        let imaged =
+            |(y, x): (usize, usize)| empty.map_or(1., |e| 1. - e.part(x, y, x + tile_width, y + tile_height));
+        let flat_tile = |(y, x): (usize, usize)| flatten(&crop(image, y, x, tile_height, tile_width));
+        let middle = |(y, x): (usize, usize)| {
+            let off = |start: usize, side: usize, length: usize| {
+                (start as f64 + 0.5 * side as f64 - 0.5 * length as f64).powi(2)
+            };
+            off(y, tile_height, height) + off(x, tile_width, width)
+        };
+        let best = corners
+            .iter()
+            .copied()
+            .min_by(|a, b| imaged(*b).total_cmp(&imaged(*a)).then(middle(*a).total_cmp(&middle(*b))))
+            .unwrap_or((0, 0));
+        let sample = flat_tile(best);
+        let power_at = |corner: &(usize, usize)| -> Option<Power> {
+            if *corner == best {
+                return Some(power_of(&sample));
+            }
+            (imaged(*corner) >= IMAGED).then(|| power_of(&flat_tile(*corner)))
+        };
+        let powers: Vec<Option<Power>> = if corners.len() == 1 {
+            corners.iter().map(power_at).collect()
+        } else {
+            corners.par_iter().map(power_at).collect()
+        };
+        let whole = RingProfile::from_powers(powers.iter().flatten());
+        let tiles = powers.iter().map(|p| p.as_ref().map(|p| RingProfile::from_powers([p]))).collect();
+        Self { whole, columns, rows, tiles, sample, height, width }
+    }
+
+    /// The ring of the whole image.
+    pub(in crate::detect) const fn whole(&self) -> &RingProfile {
+        &self.whole
+    }
+
+    /// A flattened part of the image, at most 512 × 512 px, that stands for all of it.
+    pub(in crate::detect) const fn sample(&self) -> &Plane {
+        &self.sample
+    }
+
+    /// Spacing of the whole image.
+    pub(in crate::detect) fn spacing(&self, modality: Modality) -> RingEstimate {
+        self.whole.spacing(modality)
+    }
+
+    /// Spacing from place to place, each tile's response averaged with its neighbours'.
+    pub(in crate::detect) fn map(&self, modality: Modality) -> SpacingMap {
+        let whole = self.spacing(modality).spacing;
+        if self.tiles.len() == 1 {
+            return SpacingMap::constant(whole);
+        }
+        let middles = |starts: &[usize], length: usize| -> Vec<f64> {
+            starts.iter().map(|s| *s as f64 + 0.5 * length.min(SIZE) as f64 - 0.5).collect()
+        };
+        let (x, y) = (middles(&self.columns, self.width), middles(&self.rows, self.height));
+        let spacing: Vec<Option<f64>> = self
+            .tiles
+            .iter()
+            .map(|tile| tile.as_ref().map(|t| t.spacing_near(modality, whole, LOCAL).spacing))
+            .collect();
+        SpacingMap::on_grid(x, y, &spacing, whole).smoothed()
+    }
+}
+
+/// First pixel of every tile along a side: one for a short side, half-overlapping ones for a long side.
+fn tile_starts(length: usize) -> Vec<usize> {
+    if length <= SIZE {
+        return vec![0];
+    }
+    let count = (length - SIZE).div_ceil(SIZE / 2) + 1;
+    (0..count).map(|k| k * (length - SIZE) / (count - 1)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_cover_a_side_from_end_to_end() {
+        for length in [1, 512, 513, 700, 2048] {
+            let starts = tile_starts(length);
+            assert_eq!(starts[0], 0);
+            assert_eq!(starts[starts.len() - 1] + SIZE.min(length), length);
+            assert!(starts.windows(2).all(|s| s[1] > s[0] && s[1] - s[0] <= SIZE / 2));
+        }
+    }
+}

@@ -1,0 +1,130 @@
+use super::imaged::empty_pixels;
+use super::{Plane, fill_rows};
+
+/// The pixels of an image that were not imaged, see [`crate::image::imaged_part`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct EmptyPixels {
+    width: usize,
+    height: usize,
+    /// Row by row.
+    empty: Vec<bool>,
+    /// How many there are above and left of a corner, (height + 1) × (width + 1).
+    sums: Vec<u32>,
+}
+
+impl EmptyPixels {
+    /// `None` if all of the image was imaged.
+    pub fn of(plane: &Plane) -> Option<Self> {
+        let (height, width) = plane.dim();
+        let empty = empty_pixels(plane)?;
+        let mut sums = vec![0u32; (height + 1) * (width + 1)];
+        for y in 0..height {
+            let mut in_row = 0;
+            for x in 0..width {
+                in_row += u32::from(empty[y * width + x]);
+                sums[(y + 1) * (width + 1) + x + 1] = sums[y * (width + 1) + x + 1] + in_row;
+            }
+        }
+        Some(Self { width, height, empty, sums })
+    }
+
+    /// Which part of the columns `left..right` and rows `top..bottom` was not imaged; what lies beyond the image does not count.
+    pub fn part(&self, left: usize, top: usize, right: usize, bottom: usize) -> f64 {
+        let (right, bottom) = (right.min(self.width), bottom.min(self.height));
+        let (left, top) = (left.min(right), top.min(bottom));
+        let sum = |x: usize, y: usize| i64::from(self.sums[y * (self.width + 1) + x]);
+        let count = sum(right, bottom) - sum(left, bottom) - sum(right, top) + sum(left, top);
+        count as f64 / ((right - left) * (bottom - top)).max(1) as f64
+    }
+
+    /// Whether the pixel in column `x` and row `y` was not imaged; what lies beyond the image was not.
+    pub fn contains(&self, x: usize, y: usize) -> bool {
+        x >= self.width || y >= self.height || self.empty[y * self.width + x]
+    }
+
+    /// `plane` with these pixels filled in smoothly from what was imaged around them (pull–push, Gortler et al. 1996), so that
+    /// filters meet no edge there.
+    pub fn filled(&self, plane: &Plane) -> Plane {
+        let weight = Plane::from_shape_fn(plane.dim(), |(y, x)| if self.contains(x, y) { 0. } else { 1. });
+        let mut value = plane.clone();
+        pull_push(&mut value, &weight);
+        value
+    }
+}
+
+/// Gives pixels of weight 0 what a coarser, complete version of the plane shows there.
+fn pull_push(value: &mut Plane, weight: &Plane) {
+    let (h, w) = value.dim();
+    if weight.iter().all(|v| *v > 0.) || h.max(w) == 1 {
+        return;
+    }
+    let (height, width) = (h.div_ceil(2), w.div_ceil(2));
+    let cells = |y: usize, x: usize| {
+        (2 * y..(2 * y + 2).min(h)).flat_map(move |j| (2 * x..(2 * x + 2).min(w)).map(move |i| [j, i]))
+    };
+    let coarse_weight = fill_rows(height, width, |y, out| {
+        for (x, o) in out.iter_mut().enumerate() {
+            *o = cells(y, x).map(|at| weight[at]).fold(0., f32::max);
+        }
+    });
+    let mut coarse = fill_rows(height, width, |y, out| {
+        for (x, o) in out.iter_mut().enumerate() {
+            let (sum, total) =
+                cells(y, x).fold((0., 0.), |(s, t), at| (s + weight[at] * value[at], t + weight[at]));
+            *o = if total > 0. { sum / total } else { 0. };
+        }
+    });
+    pull_push(&mut coarse, &coarse_weight);
+    // linear between the coarse pixels' centres
+    let ends = |k: usize, length: usize| {
+        let place = (k as f32 + 0.5) / 2. - 0.5;
+        let first = place.floor().max(0.) as usize;
+        (first, (first + 1).min(length - 1), (place - first as f32).max(0.))
+    };
+    for ((y, x), v) in value.indexed_iter_mut().filter(|(at, _)| weight[*at] == 0.) {
+        let ((j, k, t), (i, l, s)) = (ends(y, height), ends(x, width));
+        let along = |row: usize| coarse[[row, i]] + s * (coarse[[row, l]] - coarse[[row, i]]);
+        *v = along(j) + t * (along(k) - along(j));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn half_empty() -> Plane {
+        Plane::from_shape_fn((60, 80), |(y, x)| if x + y < 50 { 0. } else { 1. + 0.01 * x as f32 })
+    }
+
+    #[test]
+    fn the_empty_part_of_any_rectangle_is_its_count() {
+        let empty = EmptyPixels::of(&half_empty()).unwrap();
+        for (left, top, right, bottom) in [(0, 0, 80, 60), (3, 7, 31, 22), (70, 50, 200, 200), (5, 5, 5, 9)] {
+            let (right_end, bottom_end) = (right.min(80), bottom.min(60));
+            let all = (right_end - left) * (bottom_end - top);
+            let count = (top..bottom_end)
+                .flat_map(|y| (left..right_end).map(move |x| x + y < 50))
+                .filter(|e| *e)
+                .count();
+            assert_eq!(empty.part(left, top, right, bottom), count as f64 / all.max(1) as f64);
+        }
+    }
+
+    #[test]
+    fn filling_continues_the_image_and_changes_nothing_that_was_imaged() {
+        let plane = half_empty();
+        let filled = EmptyPixels::of(&plane).unwrap().filled(&plane);
+        for ((at, v), f) in plane.indexed_iter().zip(&filled) {
+            if *v > 0. {
+                assert_eq!(v, f);
+            } else {
+                assert!((1.0..1.9).contains(f), "{at:?}: {f}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_whole_image_has_no_empty_pixels() {
+        assert!(EmptyPixels::of(&Plane::ones((30, 30))).is_none());
+    }
+}
