@@ -2,7 +2,8 @@ use super::failures::write_failures;
 use super::outputs::OutputFolder;
 use super::work::for_each;
 use super::{BatchError, Failure, Input, Progress, ScaleSource};
-use crate::detect::{DetectOptions, Detections, detect};
+use crate::detect::{DetectOptions, Detection, Detections, detect};
+use crate::geometry::Point;
 use crate::image::{Plane, decode, read_bytes};
 use crate::mosaic::Scale;
 use crate::mosaic::io::write_points;
@@ -28,7 +29,16 @@ pub struct DetectionOutcome {
     pub failures: Vec<Failure>,
 }
 
-/// Writes `NAME.csv` (x_px, y_px, score) for every image, and `NAME.overlay.png` if `overlays` is set.
+/// What is written beside the cones of an image.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct DetectionExtras {
+    /// `NAME.overlay.png`: the image with its cones marked.
+    pub overlay: bool,
+    /// `NAME.rejected.csv`: candidates that were not taken for cones.
+    pub rejected: bool,
+}
+
+/// Writes `NAME.csv` (x_px, y_px, score) for every image, and what `extras` says.
 ///
 /// # Errors
 /// If `out` cannot be written to. Images that fail are in the outcome and in `failures.csv`.
@@ -36,7 +46,7 @@ pub fn detect_files(
     inputs: &[Input],
     options: &DetectOptions,
     scales: &ScaleSource,
-    overlays: bool,
+    extras: DetectionExtras,
     out: &Path,
     progress: &dyn Progress,
 ) -> Result<DetectionOutcome, BatchError> {
@@ -50,8 +60,13 @@ pub fn detect_files(
         let scale = scales.scale_of(&input.path, image.ncols())?;
         let path = out.join(format!("{}.csv", input.name));
         refuse_foreign(&path)?;
-        write_detections(&path, &found, scale)?;
-        if overlays {
+        write_detections(&path, &found.cones, scale)?;
+        if extras.rejected {
+            let path = out.join(format!("{}.rejected.csv", input.name));
+            refuse_foreign(&path)?;
+            write_detections(&path, &found.rejected, scale)?;
+        }
+        if extras.overlay {
             out.write(&format!("{}.overlay.png", input.name), &overlay_of(&image, &found)?)?;
         }
         Ok((found.cones.len(), describe(&found)))
@@ -88,11 +103,12 @@ pub(super) fn detect_in(
 
 pub(super) fn write_detections(
     path: &Path,
-    found: &Detections,
+    found: &[Detection],
     scale: Option<Scale>,
 ) -> Result<(), BatchError> {
-    let scores: Vec<f64> = found.cones.iter().map(|d| d.score).collect();
-    Ok(write_points(path, &found.centres(), Some(&scores), scale)?)
+    let centres: Vec<Point> = found.iter().map(|d| d.centre).collect();
+    let scores: Vec<f64> = found.iter().map(|d| d.score).collect();
+    Ok(write_points(path, &centres, Some(&scores), scale)?)
 }
 
 pub(super) fn overlay_of(image: &Plane, found: &Detections) -> Result<Vec<u8>, BatchError> {
@@ -102,7 +118,7 @@ pub(super) fn overlay_of(image: &Plane, found: &Detections) -> Result<Vec<u8>, B
         .map(|d| OverlayMark {
             x: d.centre.x,
             y: d.centre.y,
-            radius: RING * found.spacing,
+            radius: RING * found.spacing_map.at(d.centre),
             kind: MarkKind::Detection,
         })
         .collect();

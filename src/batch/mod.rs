@@ -18,7 +18,7 @@ mod work;
 
 pub use coordinates::{CoordinatesOptions, CoordinatesOutcome, Region, compare_files, measure_files};
 pub use crop::Crop;
-pub use detection::{DetectionOutcome, detect_files};
+pub use detection::{DetectionExtras, DetectionOutcome, detect_files};
 pub use error::BatchError;
 pub use failures::Failure;
 pub use inputs::{Input, coordinate_files, image_files};

@@ -258,7 +258,7 @@ fn write_image_folder(
     curves: &[ReferenceCurve],
     record: &ImageRecord,
 ) -> Result<(), BatchError> {
-    write_detections(&folder.join("points.csv"), found, mosaic.scale())?;
+    write_detections(&folder.join("points.csv"), &found.cones, mosaic.scale())?;
     folder.write("overlay.png", &overlay_of(image, found)?)?;
     let (header, rows) = pcf_table(measures.pcf.as_ref().ok(), curves);
     folder.write_table("pcf.csv", &header, &rows)?;

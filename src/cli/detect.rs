@@ -4,7 +4,7 @@ use super::scale::ScaleArgs;
 use anyhow::Result;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use conemosaic::batch::{detect_files, image_files};
+use conemosaic::batch::{DetectionExtras, detect_files, image_files};
 use conemosaic::detect::{DetectOptions, Detector, Modality, Polarity};
 use conemosaic::report::counted;
 use std::path::PathBuf;
@@ -59,8 +59,10 @@ Example:
 
 Writes to cones/:
   NAME.csv           x_px,y_px,score, best first (and x_um,y_um where a scale is known);
-                     px from 0 at the centre of the top-left pixel
+                     px from 0 at the centre of the top-left pixel; score is the
+                     probability, 0–1, that a person would mark a cone there
   NAME.overlay.png   with --overlay: the image with its cones marked
+  NAME.rejected.csv  with --rejected: the same for candidates that were too faint
   failures.csv       images that failed, if any; then the exit code is 2")]
 pub struct Detect {
     /// Images (PNG, TIFF; 8 or 16 bit, grey or colour) and folders of them
@@ -74,6 +76,9 @@ pub struct Detect {
     /// Also draw the cones on the image
     #[arg(long)]
     overlay: bool,
+    /// Also write the candidates that were not taken for cones, with their scores
+    #[arg(long)]
+    rejected: bool,
     #[command(flatten)]
     scale: ScaleArgs,
 }
@@ -83,7 +88,8 @@ impl Detect {
         let options = self.detect.options()?;
         let scales = self.scale.source()?;
         let inputs = image_files(&self.paths, Some(&self.out))?;
-        let outcome = detect_files(&inputs, &options, &scales, self.overlay, &self.out, &*common.progress())?;
+        let extras = DetectionExtras { overlay: self.overlay, rejected: self.rejected };
+        let outcome = detect_files(&inputs, &options, &scales, extras, &self.out, &*common.progress())?;
         let out = self.out.display();
         common.say(&format!(
             "{} in {}: {out}/NAME.csv",

@@ -9,7 +9,7 @@ use crate::image::{EmptyPixels, Plane, crop};
 use rayon::prelude::*;
 
 /// At most this often an image is searched again at the spacing that its own detections show.
-const PASSES: usize = 3;
+const PASSES: usize = 5;
 /// A tile also answers for what lies so far beyond it, in spacings: a cone on the cut must not fall between two tiles.
 const OVERLAP: f64 = 0.5;
 /// Of two detections of neighbouring tiles nearer to each other than this, in spacings, the lower one goes.
