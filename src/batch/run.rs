@@ -180,7 +180,7 @@ fn one_image(
     found.cones.retain(|d| window.contains(d.centre));
     lap(&mut seconds.detect);
 
-    let (mosaic, _) = Mosaic::new(found.centres(), window, LengthUnit::Pixel, scale)
+    let (mosaic, _) = Mosaic::new(found.centres(), window.clone(), LengthUnit::Pixel, scale)
         .map_err(|source| BatchError::Mosaic { file: input.path.clone(), source })?;
     let measures = measure(&mosaic, &options.measure);
     lap(&mut seconds.measure);
