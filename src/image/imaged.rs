@@ -76,12 +76,6 @@ pub fn imaged_mask(plane: &Plane) -> Option<Vec<bool>> {
     (!all).then_some(mask)
 }
 
-/// How much of an image was not imaged, as a part of its area; see [`imaged_mask`].
-pub fn empty_fraction(plane: &Plane) -> f64 {
-    let empty = imaged_mask(plane).map_or(0, |mask| mask.iter().filter(|v| !**v).count());
-    empty as f64 / plane.len().max(1) as f64
-}
-
 /// A horizontal run of pixels: columns `first..end` of `row`.
 #[derive(Clone, Copy)]
 struct Run {

@@ -14,7 +14,7 @@ pub use error::ImageError;
 pub(crate) use fourier::signed_frequency;
 pub use fourier::{Spectrum, fast_length};
 pub use gaussian::gaussian;
-pub use imaged::{ImagedPart, empty_fraction, imaged_mask, imaged_part};
+pub use imaged::{ImagedPart, imaged_mask, imaged_part};
 pub use outline::imaged_area;
 pub use pad::{crop, mirror, reflect_pad};
 pub use read::{MAX_PIXELS, decode, is_image_path, read, read_bytes};
