@@ -61,12 +61,13 @@ impl Crop {
         self.micrometres
     }
 
-    /// The window, in px, that the crop leaves of an image of `width` × `height` px.
+    /// The window, in px, that the crop leaves of an image of `width` × `height` px. `option` is what it was given as.
     ///
     /// # Errors
     /// If it leaves nothing, or is in µm and there is no scale.
     pub fn window(
         &self,
+        option: &'static str,
         file: &Path,
         width: usize,
         height: usize,
@@ -75,7 +76,7 @@ impl Crop {
         let px = match (self.micrometres, scale) {
             (false, _) => 1.,
             (true, Some(scale)) => 1. / scale.micrometres_per_pixel(),
-            (true, None) => return Err(BatchError::NoScale { what: "--crop", file: file.to_owned() }),
+            (true, None) => return Err(BatchError::NoScale { what: option, file: file.to_owned() }),
         };
         let (w, h) = (width as f64, height as f64);
         let [x0, y0, x1, y1] = match self.shape {
@@ -87,7 +88,7 @@ impl Crop {
         };
         Window::rectangle(x0.max(-0.5), y0.max(-0.5), x1.min(w - 0.5), y1.min(h - 0.5)).map_err(|_| {
             let file = file.to_owned();
-            BatchError::Crop { file, crop: self.to_string(), width, height }
+            BatchError::Nowhere { file, window: self.to_string(), width, height }
         })
     }
 }
@@ -99,7 +100,7 @@ mod tests {
     fn window(crop: &str, scale: Option<f64>) -> Result<[f64; 4], BatchError> {
         let scale = scale.map(|um| Scale::new(um, 288.).unwrap());
         let crop: Crop = crop.parse().unwrap();
-        let b = crop.window(Path::new("a.png"), 100, 60, scale)?.bounds();
+        let b = crop.window("--crop", Path::new("a.png"), 100, 60, scale)?.bounds();
         Ok([b.x0(), b.y0(), b.x1(), b.y1()])
     }
 
@@ -117,7 +118,7 @@ mod tests {
     #[test]
     fn micrometres_need_a_scale_and_something_must_be_left() {
         assert!(matches!(window("20x10um", None), Err(BatchError::NoScale { .. })));
-        assert!(matches!(window("200,10,500,30", None), Err(BatchError::Crop { .. })));
+        assert!(matches!(window("200,10,500,30", None), Err(BatchError::Nowhere { .. })));
         assert!(
             "40".parse::<Crop>().is_err() && "0x4".parse::<Crop>().is_err() && "axb".parse::<Crop>().is_err()
         );

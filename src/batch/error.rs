@@ -1,6 +1,6 @@
 use crate::compare::{CompareError, MatchError};
 use crate::detect::DetectError;
-use crate::geometry::WindowError;
+use crate::geometry::{PolygonError, WindowError};
 use crate::image::ImageError;
 use crate::mosaic::io::{ReadError, ScaleTableError, WriteError};
 use crate::mosaic::{LengthUnit, MosaicError};
@@ -40,25 +40,33 @@ pub enum BatchError {
     },
     /// The window of coordinates is not known.
     #[error(
-        "{file}: no image of that name beside it to take the window from: give --window WxH, X0,Y0,X1,Y1 or unit"
+        "{file}: no image of that name beside it to take the window from: give --window WxH, X0,Y0,X1,Y1, unit or a file of corners"
     )]
     NoImage {
         /// The coordinate file.
         file: PathBuf,
     },
-    /// The crop does not fit.
+    /// The window or crop does not fit.
     #[error(
-        "{file}: the crop {crop} leaves nothing of the image of {width} × {height} px: choose a part of it"
+        "{file}: the window {window} leaves nothing of the image of {width} × {height} px: choose a part of it"
     )]
-    Crop {
+    Nowhere {
         /// The image.
         file: PathBuf,
         /// As given.
-        crop: String,
+        window: String,
         /// Width of the image in px.
         width: usize,
         /// Height of the image in px.
         height: usize,
+    },
+    /// Opposite edges of a window that has none.
+    #[error(
+        "{file}: --torus needs a rectangle, its window is a polygon: leave out --torus or give --window WxH"
+    )]
+    NoTorus {
+        /// The coordinate file.
+        file: PathBuf,
     },
     /// A length in micrometres where no scale is known.
     #[error("{file}: {what} is in µm, but the scale is not known: give --um-per-px or --scale-table")]
@@ -146,6 +154,9 @@ pub enum BatchError {
     /// See [`WindowError`].
     #[error(transparent)]
     Window(#[from] WindowError),
+    /// See [`PolygonError`].
+    #[error(transparent)]
+    Polygon(#[from] PolygonError),
     /// See [`CompareError`].
     #[error(transparent)]
     Compare(#[from] CompareError),

@@ -1,6 +1,7 @@
 use super::BatchError;
 use crate::compare::{ReferenceCurve, l_infinity};
 use crate::detect::Detections;
+use crate::geometry::Window;
 use crate::mosaic::Mosaic;
 use crate::report::{Cell, MosaicRecord, SamplerDistance, counted};
 use crate::sample::Sampler;
@@ -24,6 +25,11 @@ pub(super) fn record_of(
         unit: mosaic.unit(),
         um_per_unit: mosaic.micrometres_per_unit(),
         window: [bounds.x0(), bounds.y0(), bounds.x1(), bounds.y1()],
+        window_area: mosaic.window().area(),
+        outline: match mosaic.window() {
+            Window::Polygon(polygon) => Some(polygon.clone()),
+            Window::Rectangle(_) | Window::Torus(_) => None,
+        },
         density: mosaic.density(),
         spacing: mosaic.hexagonal_spacing(),
         deviation: measures.deviation,

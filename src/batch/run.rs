@@ -1,13 +1,14 @@
 use super::detection::{describe, detect_in, overlay_of, read_image, write_detections};
 use super::failures::write_failures;
+use super::image_window::ImageWindows;
 use super::measured::{distances, not_compared, pcf_table, record_of, warnings_of};
 use super::outputs::OutputFolder;
 use super::work::for_each;
-use super::{BatchError, Crop, Failure, Input, Progress, ScaleSource};
+use super::{BatchError, Crop, Failure, ImageWindow, Input, Progress, ScaleSource};
 use crate::compare::{ReferenceCurve, References};
 use crate::detect::{DetectOptions, Detections, weights};
 use crate::geometry::Window;
-use crate::image::{ImagedPart, Plane, crop, empty_fraction, imaged_part};
+use crate::image::Plane;
 use crate::mosaic::{LengthUnit, Mosaic, Scale};
 use crate::report::{
     Curve, DetectionRecord, ImageRecord, MosaicFigure, MosaicRecord, ReferenceLine, mosaic_figure, page,
@@ -22,10 +23,6 @@ use std::sync::Arc;
 use std::time::Instant;
 
 const IMAGES: &str = "images";
-/// A smaller part of an image that was not imaged changes no density that matters.
-const EMPTY: f64 = 0.01;
-/// A larger part is no margin.
-const ALL: f64 = 0.9;
 const METRICS: &str = "metrics.json";
 /// What an image's folder holds.
 const FILES: [&str; 5] = ["points.csv", "overlay.png", "pcf.csv", METRICS, "figure.svg"];
@@ -43,7 +40,9 @@ pub struct RunOptions {
     pub seed: u64,
     /// Where scales come from.
     pub scales: ScaleSource,
-    /// The part of each image that counts; `None`: all of it.
+    /// The area of each image that counts.
+    pub window: ImageWindow,
+    /// The rectangle of that area that counts; `None`: all of it.
     pub crop: Option<Crop>,
     /// Keep the results of an earlier run for images and options that did not change.
     pub resume: bool,
@@ -102,7 +101,8 @@ struct Done {
 /// `index.html`, `run.json` and, if an image failed, `failures.csv`. An image's folder appears when it is complete.
 ///
 /// # Errors
-/// If `out` cannot be written to. Images that fail are in the outcome and in `failures.csv`.
+/// If the file of a window cannot be read or `out` cannot be written to. Images that fail are in the outcome and in
+/// `failures.csv`.
 pub fn run_files(
     inputs: &[Input],
     options: &RunOptions,
@@ -111,11 +111,12 @@ pub fn run_files(
 ) -> Result<RunOutcome, BatchError> {
     let started = Instant::now();
     refuse_overlap(inputs, &out.join(IMAGES))?;
+    let windows = ImageWindows::new(&options.window, options.crop.as_ref())?;
     let out = OutputFolder::create(out)?;
     let images = OutputFolder::create(&out.join(IMAGES))?;
     let references = References::new(options.samplers.clone(), options.measure.pcf, options.seed);
     let (done, failures) = for_each(inputs, progress, |input| {
-        one_image(input, options, &references, &images).inspect_err(|_| {
+        one_image(input, options, &windows, &references, &images).inspect_err(|_| {
             // results of an earlier run would look like this one's; what cannot be removed is not ours
             let _ = images.remove_results(&input.name, &FILES);
         })
@@ -146,6 +147,7 @@ fn refuse_overlap(inputs: &[Input], images: &Path) -> Result<(), BatchError> {
 fn one_image(
     input: &Input,
     options: &RunOptions,
+    windows: &ImageWindows,
     references: &References,
     images: &OutputFolder,
 ) -> Result<(Done, String), BatchError> {
@@ -158,11 +160,7 @@ fn one_image(
     let (bytes, image) = read_image(input)?;
     let (height, width) = image.dim();
     let scale = options.scales.scale_of(&input.path, width)?;
-    let imaged = imaged_part(&image);
-    let window = match &options.crop {
-        Some(crop) => crop.window(&input.path, width, height, scale)?,
-        None => window_of(imaged)?,
-    };
+    let window = windows.of(&input.path, &image, scale)?;
     let sha256 = hex(&Sha256::digest(&bytes));
     let options_sha256 = fingerprint(options, scale, &window)?;
     drop(bytes);
@@ -180,7 +178,7 @@ fn one_image(
     found.cones.retain(|d| window.contains(d.centre));
     lap(&mut seconds.detect);
 
-    let (mosaic, _) = Mosaic::new(found.centres(), window, LengthUnit::Pixel, scale)
+    let (mosaic, _) = Mosaic::new(found.centres(), window.clone(), LengthUnit::Pixel, scale)
         .map_err(|source| BatchError::Mosaic { file: input.path.clone(), source })?;
     let measures = measure(&mosaic, &options.measure);
     lap(&mut seconds.measure);
@@ -194,17 +192,6 @@ fn one_image(
 
     let mut warnings = warnings_of(Some(&found), &mosaic_record, &measures);
     warnings.extend(not_compared(&measures, &options.samplers, &curves));
-    let empty = if options.crop.is_none() {
-        empty_fraction(&crop(&image, imaged.top, imaged.left, imaged.height, imaged.width))
-    } else {
-        0.
-    };
-    if empty > EMPTY && empty < ALL {
-        let percent = 100. * empty;
-        warnings.push(format!(
-            "{percent:.0} % of the window was not imaged (black) but counts as area: restrict it with --crop"
-        ));
-    }
     let record = ImageRecord {
         file: input.path.display().to_string(),
         name: input.name.clone(),
@@ -241,12 +228,6 @@ fn one_image(
     );
     tracing::trace!(file = record.file, ?seconds);
     Ok((Done { record, seconds: Some(seconds) }, line))
-}
-
-/// The window of the part of an image that was imaged.
-fn window_of(part: ImagedPart) -> Result<Window, BatchError> {
-    let (left, top) = (part.left as f64 - 0.5, part.top as f64 - 0.5);
-    Ok(Window::rectangle(left, top, left + part.width as f64, top + part.height as f64)?)
 }
 
 fn write_image_folder(
@@ -370,6 +351,7 @@ fn run_json(
             "detect": options.detect,
             "measure": options.measure,
             "samplers": options.samplers.iter().map(|s| s.name()).collect::<Vec<_>>(),
+            "window": options.window.to_string(),
             "crop": options.crop.map(|c| c.to_string()),
             "scale": options.scales.describe(),
             "resume": options.resume,

@@ -40,9 +40,11 @@ impl CoordinateArgs {
 /// Where points could have been seen, and how they are measured.
 #[derive(Args)]
 pub struct MosaicArgs {
-    /// Where points could have been seen: unit, image (the image of that name beside the file), WxH (an image of that
-    /// size) or X0,Y0,X1,Y1 in the unit of the coordinates
-    #[arg(long, value_name = "WINDOW", default_value = "image", allow_hyphen_values = true)]
+    /// Where points could have been seen: auto (what was imaged of the image of that name beside the file: without black
+    /// margins), image (all of it), unit (square), WxH (an image of that size) or X0,Y0,X1,Y1 in the unit of the
+    /// coordinates, or a FILE of corners, read as the coordinates are (--origin, --flip-y): CSV of x,y (a blank line or a
+    /// column “ring” parts rings, rings within rings are holes), WebPlotDigitizer project or ImageJ ROI
+    #[arg(long, value_name = "WINDOW", default_value = "auto", allow_hyphen_values = true)]
     window: Region,
     /// Opposite edges of the window are the same place
     #[arg(long)]
@@ -112,7 +114,7 @@ impl MosaicArgs {
         let deviation = if self.sd == "population" { Deviation::Population } else { Deviation::Sample };
         Ok(CoordinatesOptions {
             read: self.coordinates.options()?,
-            region: self.window,
+            region: self.window.clone(),
             torus: self.torus,
             scales: self.scale.source()?,
             measure: MeasureOptions { deviation, pcf: self.pcf.options()? },

@@ -5,7 +5,7 @@ use super::short_table;
 use super::{Done, compare::samplers_named};
 use anyhow::{Result, bail};
 use clap::Args;
-use conemosaic::batch::{Crop, RunOptions, RunOutcome, ScaleSource, image_files, run_files};
+use conemosaic::batch::{Crop, ImageWindow, RunOptions, RunOutcome, ScaleSource, image_files, run_files};
 use conemosaic::report::{Cell, counted, significant};
 use conemosaic::stats::MeasureOptions;
 use std::path::PathBuf;
@@ -38,8 +38,14 @@ pub struct Run {
     /// Samplers to compare with, separated by commas [default: all; see `conemosaic sample --list`]
     #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
     samplers: Vec<String>,
-    /// Count only cones in this part of each image: WxH (centred) or X0,Y0,X1,Y1, in px, or in µm with um behind it
-    #[arg(long, value_name = "RECT")]
+    /// The area that counts, for cones as for density: auto (all that was imaged: black margins and the corners between
+    /// tiles of a montage are left out), image (all of it), WxH (centred) or X0,Y0,X1,Y1, in px, or in µm with um behind
+    /// it, or a FILE of corners: CSV of x,y in px (x_um,y_um: in µm; a blank line or a column “ring” parts rings, rings
+    /// within rings are holes), WebPlotDigitizer project or ImageJ ROI
+    #[arg(long, value_name = "WINDOW", default_value = "auto", allow_hyphen_values = true)]
+    window: ImageWindow,
+    /// Of that area only this rectangle: WxH (centred in the image) or X0,Y0,X1,Y1, in px, or in µm with um behind it
+    #[arg(long, value_name = "RECT", allow_hyphen_values = true)]
     crop: Option<Crop>,
     /// Keep what an earlier run with the same options has finished
     #[arg(long)]
@@ -56,14 +62,20 @@ impl Run {
             samplers: samplers_named(&self.samplers)?,
             seed: common.seed,
             scales: self.scale.source()?,
+            window: self.window.clone(),
             crop: self.crop,
             resume: self.resume,
             command: std::env::args().collect(),
         };
-        if let (Some(crop), ScaleSource::Unknown) = (&options.crop, &options.scales)
-            && crop.in_micrometres()
+        let window = match &options.window {
+            ImageWindow::Rectangle(rectangle) => Some(("--window", rectangle)),
+            ImageWindow::Auto | ImageWindow::Image | ImageWindow::File(_) => None,
+        };
+        for (option, rectangle) in window.into_iter().chain(options.crop.iter().map(|crop| ("--crop", crop)))
         {
-            bail!("--crop {crop} needs a scale: give --um-per-px or another of the scale options");
+            if matches!(options.scales, ScaleSource::Unknown) && rectangle.in_micrometres() {
+                bail!("{option} {rectangle} needs a scale: give --um-per-px or another of the scale options");
+            }
         }
         let inputs = image_files(&self.paths, Some(&self.out))?;
         let outcome = run_files(&inputs, &options, &self.out, &*common.progress())?;

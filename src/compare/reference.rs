@@ -1,5 +1,5 @@
 use super::CompareError;
-use crate::geometry::{Rectangle, Window};
+use crate::geometry::{Polygon, Rectangle, Window};
 use crate::mosaic::hexagonal_spacing;
 use crate::sample::{SampleError, Sampler};
 use crate::stats::{Deviation, Pcf, PcfOptions, moments, nearest_neighbours, pcf_on_one_thread};
@@ -41,7 +41,7 @@ type Curves = Result<Arc<Vec<ReferenceCurve>>, CompareError>;
 /// Curves of samplers, made when first asked for and kept.
 ///
 /// They depend on the mosaic only through its n, in classes 5 % apart, the proportions of its window, likewise, and whether
-/// that is a torus: distances in spacings have no scale.
+/// that is a torus: distances in spacings have no scale. Each polygon has curves of its own.
 ///
 /// The number of realisations is 16 000/n, but at least 4 and at most 60 (2 from 20 000 points on, 1 from 100 000). Measured
 /// noise of a mean curve that leaves, as l-infinity: uniform .02–.03, jittered .01–.03, Poisson disks .01–.017 at
@@ -83,7 +83,7 @@ impl References {
         let class = Class::of(n, window);
         let mut created = false;
         let job = lock(&self.jobs)
-            .entry(class)
+            .entry(class.clone())
             .or_insert_with(|| {
                 created = true;
                 Arc::new(Job::new(class, Arc::clone(&self.setup)))
@@ -117,36 +117,61 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 /// What curves depend on. Classes are powers of [`CLASS`].
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, PartialEq, Eq, Hash)]
 struct Class {
     n: i32,
-    aspect: i32,
-    torus: bool,
+    shape: Shape,
+}
+
+/// Rectangles by their proportions; polygons each for itself.
+#[derive(Clone, PartialEq, Eq, Hash)]
+enum Shape {
+    Rectangle { aspect: i32, torus: bool },
+    Polygon(Polygon),
 }
 
 impl Class {
     fn of(n: usize, window: &Window) -> Self {
-        let bounds = window.bounds();
         let nearest = |v: f64| (v.ln() / CLASS.ln()).round() as i32;
-        Self {
-            n: nearest(n as f64),
-            aspect: nearest(bounds.width() / bounds.height()),
-            torus: window.is_torus(),
-        }
+        let shape = match window {
+            Window::Rectangle(bounds) | Window::Torus(bounds) => Shape::Rectangle {
+                aspect: nearest(bounds.width() / bounds.height()),
+                torus: window.is_torus(),
+            },
+            Window::Polygon(polygon) => Shape::Polygon(polygon.clone()),
+        };
+        Self { n: nearest(n as f64), shape }
     }
 
-    fn points(self) -> usize {
+    fn points(&self) -> usize {
         (CLASS.powi(self.n).round() as usize).max(2)
     }
 
-    /// A window of area 1; `None` if the proportions are beyond numbers.
-    fn window(self) -> Option<Window> {
-        let width = CLASS.powi(self.aspect).sqrt();
-        let bounds = Rectangle::new(0., 0., width, 1. / width).ok()?;
-        Some(if self.torus { Window::Torus(bounds) } else { Window::Rectangle(bounds) })
+    /// A rectangle of area 1, or the polygon; `None` if the proportions are beyond numbers.
+    fn window(&self) -> Option<Window> {
+        match &self.shape {
+            Shape::Rectangle { aspect, torus } => {
+                let width = CLASS.powi(*aspect).sqrt();
+                let bounds = Rectangle::new(0., 0., width, 1. / width).ok()?;
+                Some(if *torus { Window::Torus(bounds) } else { Window::Rectangle(bounds) })
+            }
+            Shape::Polygon(polygon) => Some(Window::Polygon(polygon.clone())),
+        }
     }
 
-    fn realisations(self) -> usize {
+    /// What tells the generators of its realisations from those of other shapes.
+    fn seed(&self) -> Vec<u8> {
+        match &self.shape {
+            Shape::Rectangle { aspect, torus } => {
+                let mut bytes = aspect.to_le_bytes().to_vec();
+                bytes.push(u8::from(*torus));
+                bytes
+            }
+            Shape::Polygon(polygon) => polygon.bytes(),
+        }
+    }
+
+    fn realisations(&self) -> usize {
         let n = self.points();
         match n {
             _ if n >= 5 * LARGE => 1,
@@ -245,7 +270,7 @@ impl Job {
     }
 
     fn attempt(&self, task: usize) -> Result<Realisation, CompareError> {
-        let (class, sampler) = (self.class, self.sampler_of(task));
+        let (class, sampler) = (&self.class, self.sampler_of(task));
         let name = || sampler.name().to_owned();
         let too_thin = || CompareError::Sample {
             sampler: name(),
@@ -257,8 +282,7 @@ impl Job {
         hash.update((sampler.name().len() as u64).to_le_bytes());
         hash.update(sampler.name());
         hash.update(class.n.to_le_bytes());
-        hash.update(class.aspect.to_le_bytes());
-        hash.update([u8::from(class.torus)]);
+        hash.update(class.seed());
         hash.update(((task % class.realisations()) as u64).to_le_bytes());
         let mut rng = ChaCha8Rng::from_seed(hash.finalize().into());
         let points = sampler
@@ -315,7 +339,7 @@ mod tests {
     use super::*;
     use crate::compare::l_infinity;
     use crate::geometry::Point;
-    use crate::sample::sampler;
+    use crate::sample::{Frame, sampler};
     use rand::Rng;
     use rayon::prelude::*;
 
@@ -341,6 +365,21 @@ mod tests {
         assert!(Arc::ptr_eq(&first, &references.curves(302, &wide).unwrap()));
         assert!(!Arc::ptr_eq(&first, &references.curves(330, &wide).unwrap()));
         assert!(!Arc::ptr_eq(&first, &references.curves(300, &Window::unit_square()).unwrap()));
+    }
+
+    #[test]
+    fn a_polygon_has_curves_of_its_own_that_hardly_differ_from_a_rectangle_s() {
+        let corners = [(0., 0.), (3., 0.), (3., 1.), (1., 1.), (1., 2.), (0., 2.)];
+        let ring = || vec![corners.iter().map(|&(x, y)| Point::new(x, y)).collect::<Vec<_>>()];
+        let (l, again) = (Window::polygon(ring()).unwrap(), Window::polygon(ring()).unwrap());
+        let references = references(&["dart-throwing", "uniform"], 1);
+        let curves = references.curves(300, &l).unwrap();
+        assert!(Arc::ptr_eq(&curves, &references.curves(300, &again).unwrap()));
+        let square = references.curves(300, &Window::unit_square()).unwrap();
+        for (a, b) in curves.iter().zip(square.iter()) {
+            let distance = l_infinity(&a.pcf, &b.pcf).unwrap();
+            assert!(distance < 0.07, "{}: {distance}", a.sampler);
+        }
     }
 
     #[test]
@@ -381,7 +420,7 @@ mod tests {
         fn about(&self) -> &'static str {
             "a test"
         }
-        fn sample(&self, n: usize, _: &Window, _: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
+        fn fill(&self, n: usize, _: &Frame, _: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
             let place = |i: usize| Point::new((i as f64 * 0.618).fract(), (i as f64 + 0.5) / n as f64);
             Ok((0..n).into_par_iter().with_max_len(2).map(place).collect())
         }
@@ -412,7 +451,7 @@ mod tests {
         fn about(&self) -> &'static str {
             "a test"
         }
-        fn sample(&self, _: usize, _: &Window, _: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
+        fn fill(&self, _: usize, _: &Frame, _: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
             panic!("on purpose")
         }
     }

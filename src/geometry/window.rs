@@ -1,4 +1,4 @@
-use super::Point;
+use super::{Point, Polygon, PolygonError, Ring};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -81,13 +81,16 @@ impl Rectangle {
 }
 
 /// Where points could have been seen. Statistics take their edge correction from it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Window {
     /// Nothing is known of what lies outside: an imaged field, a cropped picture.
     Rectangle(Rectangle),
     /// Opposite edges are the same place: what periodic samplers make. It has no border.
     Torus(Rectangle),
+    /// Nothing is known of what lies outside the rings, nor within their holes: the imaged area of a montage, a region
+    /// drawn by hand.
+    Polygon(Polygon),
 }
 
 impl Window {
@@ -97,6 +100,14 @@ impl Window {
     /// If a side is not finite or not positive.
     pub fn rectangle(x0: f64, y0: f64, x1: f64, y1: f64) -> Result<Self, WindowError> {
         Rectangle::new(x0, y0, x1, y1).map(Self::Rectangle)
+    }
+
+    /// The area that `rings` enclose; see [`Polygon::new`]. Four corners of an upright rectangle make a rectangle.
+    ///
+    /// # Errors
+    /// If they enclose no area, a corner is not finite, or edges cross.
+    pub fn polygon(rings: Vec<Ring>) -> Result<Self, PolygonError> {
+        Ok(Polygon::new(rings)?.into())
     }
 
     /// The bounded unit square.
@@ -119,15 +130,19 @@ impl Window {
     }
 
     /// The smallest upright rectangle around it.
-    pub const fn bounds(&self) -> Rectangle {
+    pub fn bounds(&self) -> Rectangle {
         match self {
             Self::Rectangle(r) | Self::Torus(r) => *r,
+            Self::Polygon(polygon) => polygon.bounds(),
         }
     }
 
     /// Area, in squared units of the coordinates.
-    pub const fn area(&self) -> f64 {
-        self.bounds().area()
+    pub fn area(&self) -> f64 {
+        match self {
+            Self::Rectangle(r) | Self::Torus(r) => r.area(),
+            Self::Polygon(polygon) => polygon.area(),
+        }
     }
 
     /// Whether opposite edges are glued.
@@ -135,27 +150,76 @@ impl Window {
         matches!(self, Self::Torus(_))
     }
 
-    /// Inside or on the border.
-    pub fn contains(&self, p: Point) -> bool {
-        self.bounds().contains(p)
+    /// The rings that bound it, if it is a polygon.
+    pub fn rings(&self) -> &[Ring] {
+        match self {
+            Self::Polygon(polygon) => polygon.rings(),
+            Self::Rectangle(_) | Self::Torus(_) => &[],
+        }
     }
 
-    /// Distance to the border: infinite on a torus.
+    /// Inside or on the border.
+    pub fn contains(&self, p: Point) -> bool {
+        match self {
+            Self::Rectangle(r) | Self::Torus(r) => r.contains(p),
+            Self::Polygon(polygon) => polygon.contains(p),
+        }
+    }
+
+    /// Distance to the border: negative outside, infinite on a torus.
     pub fn border_distance(&self, p: Point) -> f64 {
         match self {
             Self::Rectangle(r) => r.border_distance(p),
             Self::Torus(_) => f64::INFINITY,
+            Self::Polygon(polygon) => polygon.border_distance(p),
         }
+    }
+
+    /// The part of it inside `frame`, with a border; `None` if nothing is left.
+    pub fn within(&self, frame: &Rectangle) -> Option<Self> {
+        match self {
+            Self::Rectangle(r) | Self::Torus(r) => {
+                let (x0, y0) = (r.x0().max(frame.x0()), r.y0().max(frame.y0()));
+                Self::rectangle(x0, y0, r.x1().min(frame.x1()), r.y1().min(frame.y1())).ok()
+            }
+            Self::Polygon(polygon) => polygon.within(frame).map(Self::from),
+        }
+    }
+
+    /// All coordinates multiplied by `factor`: from px to µm.
+    ///
+    /// # Errors
+    /// If the result is beyond the range of numbers.
+    pub fn scaled(&self, factor: f64) -> Result<Self, PolygonError> {
+        let rectangle = |r: &Rectangle| {
+            let [x0, y0, x1, y1] = [r.x0(), r.y0(), r.x1(), r.y1()].map(|v| v * factor);
+            Rectangle::new(x0, y0, x1, y1).map_err(|_| PolygonError::NoArea)
+        };
+        Ok(match self {
+            Self::Rectangle(r) => Self::Rectangle(rectangle(r)?),
+            Self::Torus(r) => Self::Torus(rectangle(r)?),
+            Self::Polygon(polygon) => Self::Polygon(polygon.scaled(factor)?),
+        })
     }
 
     /// Distance of two points of the window: the shortest way round on a torus.
     pub fn distance(&self, a: Point, b: Point) -> f64 {
         match self {
-            Self::Rectangle(_) => a.distance(b),
+            Self::Rectangle(_) | Self::Polygon(_) => a.distance(b),
             Self::Torus(r) => {
                 let wrap = |d: f64, side: f64| d - side * (d / side).round();
                 wrap(a.x - b.x, r.width()).hypot(wrap(a.y - b.y, r.height()))
             }
+        }
+    }
+}
+
+impl From<Polygon> for Window {
+    /// A rectangle, where the polygon is one.
+    fn from(polygon: Polygon) -> Self {
+        match polygon.as_rectangle() {
+            Some(rectangle) => Self::Rectangle(rectangle),
+            None => Self::Polygon(polygon),
         }
     }
 }

@@ -1,13 +1,12 @@
-use super::imaged::empty_pixels;
-use super::{Plane, fill_rows};
+use super::{Plane, fill_rows, imaged_mask};
 
-/// The pixels of an image that were not imaged, see [`crate::image::imaged_part`].
+/// The pixels of an image that were not imaged, see [`imaged_mask`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct EmptyPixels {
     width: usize,
     height: usize,
-    /// Row by row.
-    empty: Vec<bool>,
+    /// Row by row, whether a pixel was imaged.
+    imaged: Vec<bool>,
     /// How many there are above and left of a corner, (height + 1) × (width + 1).
     sums: Vec<u32>,
 }
@@ -16,16 +15,16 @@ impl EmptyPixels {
     /// `None` if all of the image was imaged.
     pub fn of(plane: &Plane) -> Option<Self> {
         let (height, width) = plane.dim();
-        let empty = empty_pixels(plane)?;
+        let imaged = imaged_mask(plane)?;
         let mut sums = vec![0u32; (height + 1) * (width + 1)];
         for y in 0..height {
             let mut in_row = 0;
             for x in 0..width {
-                in_row += u32::from(empty[y * width + x]);
+                in_row += u32::from(!imaged[y * width + x]);
                 sums[(y + 1) * (width + 1) + x + 1] = sums[y * (width + 1) + x + 1] + in_row;
             }
         }
-        Some(Self { width, height, empty, sums })
+        Some(Self { width, height, imaged, sums })
     }
 
     /// Which part of the columns `left..right` and rows `top..bottom` was not imaged; what lies beyond the image does not count.
@@ -39,7 +38,7 @@ impl EmptyPixels {
 
     /// Whether the pixel in column `x` and row `y` was not imaged; what lies beyond the image was not.
     pub fn contains(&self, x: usize, y: usize) -> bool {
-        x >= self.width || y >= self.height || self.empty[y * self.width + x]
+        x >= self.width || y >= self.height || !self.imaged[y * self.width + x]
     }
 
     /// `plane` with these pixels filled in smoothly from what was imaged around them (pull–push, Gortler et al. 1996), so that

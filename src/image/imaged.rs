@@ -1,6 +1,4 @@
 use super::Plane;
-use image::{GrayImage, Luma};
-use imageproc::region_labelling::{Connectivity, connected_components};
 
 /// Smaller regions, as a part of the image, are dark places rather than places that were not imaged.
 const SMALLEST: f64 = 0.005;
@@ -18,53 +16,122 @@ pub struct ImagedPart {
     pub width: usize,
 }
 
-/// Finds the imaged part. What was not imaged are black regions that touch the border and cover at least 0.5 % of the
-/// image each, as montages and registered averages leave them. All of the image if nothing of it was.
+/// Finds the imaged part: the bounds of the [`imaged_mask`]. All of the image if nothing of it was imaged.
 pub fn imaged_part(plane: &Plane) -> ImagedPart {
     let (height, width) = plane.dim();
     let whole = ImagedPart { top: 0, left: 0, height, width };
-    let Some(empty) = empty_pixels(plane) else { return whole };
-    let mut rows = (usize::MAX, 0);
-    let mut columns = (usize::MAX, 0);
-    for (i, _) in empty.iter().enumerate().filter(|(_, empty)| !**empty) {
-        let (y, x) = (i / width, i % width);
-        rows = (rows.0.min(y), rows.1.max(y));
-        columns = (columns.0.min(x), columns.1.max(x));
-    }
-    if rows.0 > rows.1 {
-        return whole;
-    }
-    let (height, width) = (rows.1 - rows.0 + 1, columns.1 - columns.0 + 1);
-    ImagedPart { top: rows.0, left: columns.0, height, width }
+    imaged_mask(plane).and_then(|mask| part_of(&mask, width)).unwrap_or(whole)
 }
 
-/// How much of an image was not imaged, as a part of its area; see [`imaged_part`].
-pub fn empty_fraction(plane: &Plane) -> f64 {
-    let empty = empty_pixels(plane).map_or(0, |empty| empty.iter().filter(|e| **e).count());
-    empty as f64 / plane.len().max(1) as f64
+/// The bounds of a mask, row by row, of rows of `width`; `None` if it is empty.
+pub(super) fn part_of(mask: &[bool], width: usize) -> Option<ImagedPart> {
+    let imaged = |row: &&[bool]| row.contains(&true);
+    let rows = || mask.chunks_exact(width.max(1));
+    let top = rows().position(|row| imaged(&row))?;
+    let bottom = rows().rposition(|row| imaged(&row))?;
+    let (mut left, mut right) = (width, 0);
+    for row in rows().skip(top).take(bottom - top + 1) {
+        left = row[..left].iter().position(|&v| v).unwrap_or(left);
+        right = row[right..].iter().rposition(|&v| v).map_or(right, |k| right + k);
+    }
+    Some(ImagedPart { top, left, height: bottom - top + 1, width: right - left + 1 })
 }
 
-/// For every pixel, row by row, whether it was not imaged; `None` if all were.
-pub(super) fn empty_pixels(plane: &Plane) -> Option<Vec<bool>> {
+/// For every pixel, row by row, whether it was imaged; `None` if all were.
+///
+/// What was not imaged are exactly black regions (4-connected) that touch the border and cover at least 0.5 % of the
+/// image each, as montages and registered averages leave them. One pass over the pixels, and one byte a pixel.
+pub fn imaged_mask(plane: &Plane) -> Option<Vec<bool>> {
     let (height, width) = plane.dim();
     let least = SMALLEST * plane.len() as f64;
-    let (w, h) = (u32::try_from(width).ok()?, u32::try_from(height).ok()?);
     // the commonest case, an image without margin, needs no labelling
-    let black = plane.iter().filter(|&&v| v == 0.).count();
+    let black = match plane.as_slice() {
+        Some(values) => values.iter().map(|&v| usize::from(v == 0.)).sum::<usize>(),
+        None => plane.iter().filter(|&&v| v == 0.).count(),
+    };
     if black == 0 || (black as f64) < least {
         return None;
     }
-    let mask = GrayImage::from_fn(w, h, |x, y| Luma([u8::from(plane[[y as usize, x as usize]] == 0.)]));
-    let labels = connected_components(&mask, Connectivity::Four, Luma([0]));
-    let count = labels.iter().copied().max().unwrap_or(0) as usize + 1;
-    let (mut sizes, mut touches) = (vec![0usize; count], vec![false; count]);
-    for (x, y, label) in labels.enumerate_pixels() {
-        let label = label.0[0] as usize;
-        sizes[label] += 1;
-        touches[label] |= x == 0 || y == 0 || x + 1 == w || y + 1 == h;
+    let mut regions = Regions::default();
+    for row in plane.rows() {
+        regions.add_row(row.iter().map(|&v| v == 0.));
     }
-    let margin: Vec<bool> = (0..count).map(|k| k > 0 && touches[k] && sizes[k] as f64 >= least).collect();
-    margin.contains(&true).then(|| labels.iter().map(|label| margin[*label as usize]).collect())
+    let mut sizes = vec![0usize; regions.runs.len()];
+    let mut touches = vec![false; regions.runs.len()];
+    for k in 0..regions.runs.len() {
+        let (run, root) = (regions.runs[k], regions.root(k));
+        sizes[root] += run.end - run.first;
+        let at_border = run.row == 0 || run.row + 1 == height || run.first == 0 || run.end == width;
+        touches[root] |= at_border;
+    }
+    let mut mask = vec![true; plane.len()];
+    let mut all = true;
+    for k in 0..regions.runs.len() {
+        let (run, root) = (regions.runs[k], regions.root(k));
+        if touches[root] && sizes[root] as f64 >= least {
+            mask[run.row * width + run.first..run.row * width + run.end].fill(false);
+            all = false;
+        }
+    }
+    (!all).then_some(mask)
+}
+
+/// A horizontal run of pixels: columns `first..end` of `row`.
+#[derive(Clone, Copy)]
+struct Run {
+    row: usize,
+    first: usize,
+    end: usize,
+}
+
+/// Connected regions as runs, row by row, each of which points to an earlier run of its region.
+#[derive(Default)]
+struct Regions {
+    runs: Vec<Run>,
+    parents: Vec<usize>,
+    rows: usize,
+    /// Where the runs of the row before begin.
+    before: usize,
+}
+
+impl Regions {
+    fn root(&mut self, mut k: usize) -> usize {
+        while self.parents[k] != k {
+            self.parents[k] = self.parents[self.parents[k]];
+            k = self.parents[k];
+        }
+        k
+    }
+
+    fn add_row(&mut self, black: impl Iterator<Item = bool>) {
+        let (begin, row) = (self.runs.len(), self.rows);
+        let mut inside = false;
+        for (x, black) in black.enumerate() {
+            if black && !inside {
+                self.runs.push(Run { row, first: x, end: x });
+                self.parents.push(self.parents.len());
+            }
+            if black && let Some(run) = self.runs.last_mut() {
+                run.end = x + 1;
+            }
+            inside = black;
+        }
+        let mut above = self.before;
+        for k in begin..self.runs.len() {
+            let run = self.runs[k];
+            while above < begin && self.runs[above].end <= run.first {
+                above += 1;
+            }
+            let mut other = above;
+            while other < begin && self.runs[other].first < run.end {
+                let (a, b) = (self.root(k), self.root(other));
+                self.parents[a.max(b)] = a.min(b);
+                other += 1;
+            }
+        }
+        self.before = begin;
+        self.rows += 1;
+    }
 }
 
 #[cfg(test)]
@@ -77,19 +144,42 @@ mod tests {
             let spot = (40..60).contains(&x) && (40..60).contains(&y);
             if x < 20 || spot { 0. } else { 0.5 + 0.001 * (x + y) as f32 }
         });
-        assert_eq!(empty_fraction(&plane), 0.2);
+        let mask = imaged_mask(&plane).unwrap();
+        assert_eq!(mask.iter().filter(|v| !**v).count(), 2000);
         assert_eq!(imaged_part(&plane), ImagedPart { top: 0, left: 20, height: 100, width: 80 });
     }
 
     #[test]
     fn an_image_without_margin_has_no_empty_part() {
         let plane = Plane::from_shape_fn((50, 50), |(y, x)| ((7 * x + 11 * y) % 251) as f32);
-        assert_eq!(empty_fraction(&plane), 0.);
+        assert_eq!(imaged_mask(&plane), None);
     }
 
     #[test]
     fn a_black_image_has_no_part_that_stands_out() {
         let part = imaged_part(&Plane::zeros((30, 40)));
         assert_eq!(part, ImagedPart { top: 0, left: 0, height: 30, width: 40 });
+    }
+
+    #[test]
+    fn arms_that_meet_below_are_one_region() {
+        // a comb: black teeth of 1 % each that join in a black bar, which alone touches the border
+        let plane = Plane::from_shape_fn((100, 100), |(y, x)| {
+            let tooth = x % 20 == 10 && (20..97).contains(&y);
+            if y >= 97 || tooth { 0. } else { 1. }
+        });
+        let empty = imaged_mask(&plane).unwrap().iter().filter(|v| !**v).count();
+        assert_eq!(empty, 300 + 5 * 77);
+        // the same region cut off from the border is a dark place
+        let inside = Plane::from_shape_fn((102, 100), |(y, x)| {
+            if y == 101 || x == 0 || x == 99 { 1. } else { plane[[y.min(99), x]] }
+        });
+        assert_eq!(imaged_mask(&inside), None);
+    }
+
+    #[test]
+    fn many_small_black_regions_are_dark_places() {
+        let plane = Plane::from_shape_fn((100, 100), |(y, x)| f32::from(u8::from((x / 3 + y / 3) % 2 == 0)));
+        assert_eq!(imaged_mask(&plane), None);
     }
 }

@@ -108,6 +108,7 @@ fn one(k: usize, record: &ImageRecord) -> Markup {
         section id=(format!("i{k}")) {
             h2 { (record.name) }
             @for warning in &record.warnings { p.warning { "⚠ " (warning) } }
+            @if record.mosaic.outline.is_some() { p.lead { (outlined(record)) } }
             figure { img loading="lazy" src=(format!("{folder}/figure.svg")) alt=(format!("Figure of {}", record.name)); }
             nav {
                 @for (file, words) in
@@ -116,6 +117,18 @@ fn one(k: usize, record: &ImageRecord) -> Markup {
             }
         }
     }
+}
+
+/// What a window that is not a rectangle means for the numbers.
+fn outlined(record: &ImageRecord) -> String {
+    let area = record.mosaic.window_area;
+    let percent = 100. * area / (record.width_px * record.height_px) as f64;
+    let mm2 = record.mosaic.window_area_mm2().map(|mm2| format!(" ({} mm²)", significant(mm2, 3)));
+    format!(
+        "Counted within the outline: {} px²{}, {percent:.0} % of the image.",
+        significant(area, 4),
+        mm2.unwrap_or_default()
+    )
 }
 
 /// A file name as part of a URL.

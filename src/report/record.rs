@@ -2,6 +2,7 @@
 
 use super::Cell;
 use crate::detect::{Detector, Modality, Polarity};
+use crate::geometry::Polygon;
 use crate::mosaic::LengthUnit;
 use crate::stats::{Deviation, Moments, Trend, VoronoiSummary};
 use serde::{Deserialize, Serialize};
@@ -17,6 +18,11 @@ pub struct MosaicRecord {
     pub um_per_unit: Option<f64>,
     /// Left, upper, right and lower edge of the window.
     pub window: [f64; 4],
+    /// Area of the window, in squared units.
+    pub window_area: f64,
+    /// Its outline, where it is not the rectangle of these edges.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outline: Option<Polygon>,
     /// Points per squared unit.
     pub density: f64,
     /// Hexagonal spacing of that density.
@@ -48,6 +54,11 @@ impl MosaicRecord {
     /// Points per mm², if the scale is known.
     pub fn density_per_mm2(&self) -> Option<f64> {
         self.um_per_unit.map(|um| self.density * 1e6 / (um * um))
+    }
+
+    /// Area of the window in mm², if the scale is known.
+    pub fn window_area_mm2(&self) -> Option<f64> {
+        self.um_per_unit.map(|um| self.window_area * um * um / 1e6)
     }
 
     /// The sampler of least l-infinity distance.
@@ -142,6 +153,8 @@ const IMAGE_DETAILS: &[Column<ImageRecord>] = &[
     ("name", |r| r.name.as_str().into()),
     ("polarity", |r| r.detection.polarity.name().into()),
     ("detector", |r| r.detection.detector.name().into()),
+    ("window_area_px2", |r| r.mosaic.window_area.into()),
+    ("window_area_mm2", |r| r.mosaic.window_area_mm2().into()),
 ];
 
 const COORDINATE_COLUMNS: &[Column<CoordinatesRecord>] = &[
@@ -159,6 +172,8 @@ const COORDINATE_COLUMNS: &[Column<CoordinatesRecord>] = &[
     ("nn_mean_um", |r| r.mosaic.in_um(r.mosaic.nearest.mean).into()),
     ("nn_sd_um", |r| r.mosaic.in_um(r.mosaic.nearest.sd).into()),
     ("outside_window", |r| r.outside.into()),
+    ("window_area", |r| r.mosaic.window_area.into()),
+    ("window_area_mm2", |r| r.mosaic.window_area_mm2().into()),
 ];
 
 const REGULARITY_COLUMNS: &[Column<MosaicRecord>] =

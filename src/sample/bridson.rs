@@ -1,7 +1,6 @@
-use super::frame::Frame;
 use super::torus_grid::{Nearby, TorusGrid};
-use super::{SampleError, Sampler};
-use crate::geometry::{Point, Window};
+use super::{Frame, SampleError, Sampler};
+use crate::geometry::Point;
 use rand::{Rng, RngExt};
 
 /// Disk radius in hexagonal spacings: the one at which the method places about n points.
@@ -32,8 +31,7 @@ impl Sampler for Bridson {
         "Poisson disks, k = 30, r = 0.7306 spacings, torus distance, about n points (Bridson 2007)"
     }
 
-    fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
-        let frame = Frame::new(n, window)?;
+    fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         if n == 0 {
             return Ok(Vec::new());
         }
@@ -115,6 +113,7 @@ impl Offsets {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Window;
     use crate::stats::nearest_neighbours;
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;

@@ -1,7 +1,6 @@
-use super::frame::Frame;
 use super::torus_grid::{Nearby, TorusGrid};
-use super::{SampleError, Sampler};
-use crate::geometry::{Point, Window};
+use super::{Frame, SampleError, Sampler};
+use crate::geometry::Point;
 use rand::{Rng, RngExt};
 
 /// Disk radius in hexagonal spacings.
@@ -32,8 +31,7 @@ impl Sampler for DartThrowing {
         "uniform darts kept when none is nearer than r = 0.75 spacings, torus distance, no relaxation (Cook 1986); exactly n"
     }
 
-    fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
-        let frame = Frame::new(n, window)?;
+    fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         if n == 0 {
             return Ok(Vec::new());
         }
@@ -146,7 +144,7 @@ impl Squares {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Rectangle;
+    use crate::geometry::{Rectangle, Window};
     use crate::mosaic::hexagonal_spacing;
     use crate::stats::{Deviation, moments, nearest_neighbours};
     use rand::SeedableRng;

@@ -1,6 +1,5 @@
-use super::frame::Frame;
-use super::{SampleError, Sampler};
-use crate::geometry::{Point, Window};
+use super::{Frame, SampleError, Sampler};
+use crate::geometry::Point;
 use rand::{Rng, RngExt};
 
 /// One uniform point in each of n cells of equal area (Cook 1986, jittered sampling).
@@ -19,8 +18,7 @@ impl Sampler for Jittered {
         "one uniform point in each of n near-square cells of equal area (Cook 1986); exactly n"
     }
 
-    fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
-        let frame = Frame::new(n, window)?;
+    fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         let ideal = (n as f64 * frame.height / frame.width).sqrt().round();
         let rows = (ideal as usize).clamp(1, n.max(1));
         let first = |row: usize| row * n / rows;
@@ -42,6 +40,7 @@ impl Sampler for Jittered {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Window;
     use rand::SeedableRng;
 
     #[test]

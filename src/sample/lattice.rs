@@ -1,4 +1,4 @@
-use super::frame::Frame;
+use super::Frame;
 use crate::geometry::Point;
 use rand::{Rng, RngExt};
 

@@ -1,7 +1,6 @@
-use super::frame::Frame;
 use super::lattice::Lattice;
-use super::{SampleError, Sampler};
-use crate::geometry::{Point, Window};
+use super::{Frame, SampleError, Sampler};
+use crate::geometry::Point;
 use rand::Rng;
 
 /// The square lattice of density n/A at a random offset, without jitter.
@@ -17,16 +16,16 @@ impl Sampler for Square {
         "square lattice at a random offset, no jitter; as near n as the lattice allows"
     }
 
-    fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
-        let frame = Frame::new(n, window)?;
+    fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         let side = (frame.width * frame.height / n.max(1) as f64).sqrt();
-        Ok(Lattice { step: side, row_step: side, shift: 0. }.fill(n, &frame, rng))
+        Ok(Lattice { step: side, row_step: side, shift: 0. }.fill(n, frame, rng))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Window;
     use crate::stats::nearest_neighbours;
     use rand::SeedableRng;
 

@@ -1,7 +1,6 @@
-use super::frame::Frame;
 use super::lattice::Lattice;
-use super::{SampleError, Sampler};
-use crate::geometry::{Point, Window};
+use super::{Frame, SampleError, Sampler};
+use crate::geometry::Point;
 use rand::Rng;
 
 /// The triangular (hexagonally packed) lattice of density n/A at a random offset, rows along x, without jitter.
@@ -19,17 +18,16 @@ impl Sampler for Triangular {
         "triangular lattice at a random offset, no jitter; as near n as the lattice allows, stretched to close on a torus"
     }
 
-    fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
-        let frame = Frame::new(n, window)?;
+    fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         let step = frame.spacing(n.max(1));
-        Ok(Lattice { step, row_step: step * 3f64.sqrt() / 2., shift: 0.5 }.fill(n, &frame, rng))
+        Ok(Lattice { step, row_step: step * 3f64.sqrt() / 2., shift: 0.5 }.fill(n, frame, rng))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Rectangle;
+    use crate::geometry::{Rectangle, Window};
     use crate::mosaic::hexagonal_spacing;
     use crate::stats::nearest_neighbours;
     use rand::SeedableRng;

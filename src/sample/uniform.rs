@@ -1,6 +1,5 @@
-use super::frame::Frame;
-use super::{SampleError, Sampler};
-use crate::geometry::{Point, Window};
+use super::{Frame, SampleError, Sampler};
+use crate::geometry::Point;
 use rand::{Rng, RngExt};
 
 /// Independent uniform points: complete spatial randomness.
@@ -16,8 +15,7 @@ impl Sampler for Uniform {
         "independent uniform points (white noise); exactly n"
     }
 
-    fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
-        let frame = Frame::new(n, window)?;
+    fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         Ok((0..n)
             .map(|_| {
                 let (u, v): (f64, f64) = (rng.random(), rng.random());

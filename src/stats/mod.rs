@@ -3,12 +3,14 @@
 //! Every statistic takes the points and the window they could have been seen in; points must be finite and inside
 //! it, as those of a [`Mosaic`](crate::mosaic::Mosaic) are.
 
+mod edge_weight;
 mod error;
 mod histogram;
 mod measure;
 mod nearest;
 mod pairs;
 mod pcf;
+mod polygon_waves;
 mod trend;
 mod voronoi;
 

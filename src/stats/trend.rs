@@ -1,4 +1,5 @@
-use crate::geometry::{Point, Window};
+use super::polygon_waves;
+use crate::geometry::{Point, Polygon, Window};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, SQRT_2};
 
@@ -44,7 +45,10 @@ pub struct Trend {
 /// any linear or quadratic trend, the next 24 measure the noise; their ratio of mean squares follows F(5, 17). The
 /// structure factor of a regular pattern may rise with frequency: then trends are reported too rarely, not too often.
 ///
-/// The density itself is fitted by a series of Legendre polynomials up to degree 2.
+/// In a polygon the same waves, across its bounds, are made orthonormal over the polygon, slow ones first.
+///
+/// The density itself is fitted by a series of Legendre polynomials up to degree 2; in a polygon by least squares over
+/// its area.
 pub fn trend(points: &[Point], window: &Window) -> Trend {
     if points.len() < FEWEST || points.iter().any(|p| !p.is_finite()) {
         return Trend::default();
@@ -57,10 +61,18 @@ pub fn trend(points: &[Point], window: &Window) -> Trend {
 
     let along: Vec<(usize, usize)> = NOISE_ALONG_AXIS.flat_map(|j| [(j, 0), (0, j)]).collect();
     let across = noise_across(bounds.height() / bounds.width());
+    let [strength, scatter_along, scatter_across] = match window {
+        Window::Polygon(polygon) => {
+            polygon_waves::mean_squares(polygon, &unit, [&TREND_WAVES, &along, &across])
+        }
+        Window::Rectangle(_) | Window::Torus(_) => {
+            [&TREND_WAVES[..], &along, &across].map(|modes| mean_square(&unit, modes))
+        }
+    };
     // Four of the five waves of the trend run along an axis, and so in the noise: the two kinds feel the cut edges of
     // the window differently.
-    let scatter = 0.8 * mean_square(&unit, &along) + 0.2 * mean_square(&unit, &across);
-    let f = mean_square(&unit, &TREND_WAVES) / scatter;
+    let scatter = 0.8 * scatter_along + 0.2 * scatter_across;
+    let f = strength / scatter;
     // A lattice that fits its window leaves every sum at rounding: no scatter, no trend.
     let (f, p_value) = if scatter > 1e-18 * points.len() as f64 {
         (Some(f), Some(f_tail(f, TREND_WAVES.len(), NOISE_FREEDOM)))
@@ -68,11 +80,16 @@ pub fn trend(points: &[Point], window: &Window) -> Trend {
         (None, Some(1.))
     };
 
-    let surface = DensityFit::new(&unit);
+    let surface = match window {
+        Window::Polygon(polygon) => DensityFit::within(polygon, &unit),
+        Window::Rectangle(_) | Window::Torus(_) => DensityFit::new(&unit),
+    };
+    let place =
+        |(u, v): (f64, f64)| Point::new(bounds.x0() + u * bounds.width(), bounds.y0() + v * bounds.height());
     Trend {
         p_value,
         f,
-        density_ratio: Some(surface.ratio()),
+        density_ratio: Some(surface.ratio(|at| window.contains(place(at)))),
         change_x: Some(2. * surface.coefficients[1]),
         change_y: Some(2. * surface.coefficients[2]),
         significant: p_value.is_some_and(|p| p < TREND_LEVEL),
@@ -108,7 +125,7 @@ fn mean_square(unit: &[(f64, f64)], modes: &[(usize, usize)]) -> f64 {
 }
 
 /// 1, √2cos(πu), √2cos(2πu) …, by cos((j+1)t) = 2 cos t cos jt − cos((j−1)t).
-fn waves(u: f64, values: &mut [f64]) {
+pub(super) fn waves(u: f64, values: &mut [f64]) {
     let cosine = (PI * u).cos();
     let (mut before, mut now) = (cosine, 1.);
     for (j, value) in values.iter_mut().enumerate() {
@@ -143,17 +160,31 @@ impl DensityFit {
         Self { coefficients }
     }
 
-    fn ratio(&self) -> f64 {
+    /// The same for a polygon, over which the terms are not orthogonal.
+    fn within(polygon: &Polygon, unit: &[(f64, f64)]) -> Self {
+        let means =
+            Self::DEGREES.map(|d| unit.iter().map(|&at| Self::term(d, at)).sum::<f64>() / unit.len() as f64);
+        let fitted =
+            polygon_waves::least_squares(polygon, Self::DEGREES.map(|d| move |at| Self::term(d, at)), means);
+        Self { coefficients: fitted.unwrap_or([1., 0., 0., 0., 0., 0.]) }
+    }
+
+    /// Greatest over least density at the places of a grid that are `inside`.
+    fn ratio(&self, inside: impl Fn((f64, f64)) -> bool) -> f64 {
         let steps = 32;
         let (mut least, mut greatest) = (f64::INFINITY, 0f64);
         for (i, j) in (0..=steps).flat_map(|i| (0..=steps).map(move |j| (i, j))) {
             let at = (f64::from(i) / f64::from(steps), f64::from(j) / f64::from(steps));
+            if !inside(at) {
+                continue;
+            }
             let density: f64 =
                 Self::DEGREES.iter().zip(&self.coefficients).map(|(&d, c)| c * Self::term(d, at)).sum();
             least = least.min(density);
             greatest = greatest.max(density);
         }
-        greatest / least.max(LEAST_SHARE * greatest)
+        // a polygon so thin that the grid misses it
+        if greatest <= 0. { 1. } else { greatest / least.max(LEAST_SHARE * greatest) }
     }
 }
 
@@ -244,6 +275,46 @@ mod tests {
         // Neither is it idle: independent points have the level itself.
         let rate = reported(sampler("uniform").unwrap(), 300, &windows[0], 1., 1500);
         assert!((0.004..0.018).contains(&rate), "{rate}");
+    }
+
+    fn polygon(corners: &[(f64, f64)]) -> Window {
+        Window::Polygon(Polygon::new(vec![corners.iter().map(|&(x, y)| Point::new(x, y)).collect()]).unwrap())
+    }
+
+    #[test]
+    fn false_alarms_and_power_in_polygons_are_those_in_rectangles() {
+        let l = polygon(&[(0., 0.), (3., 0.), (3., 1.), (1., 1.), (1., 2.5), (0., 2.5)]);
+        let tilted = polygon(&[(1., 0.), (3., 1.3), (1.8, 3.), (0., 1.4)]);
+        for window in [&l, &tilted] {
+            for sampler in crate::sample::samplers() {
+                let rate = reported(*sampler, 300, window, 1., 150);
+                println!("{} in a polygon: {:.1} % false alarms", sampler.name(), 100. * rate);
+                assert!(rate <= 0.04, "{}: {rate}", sampler.name());
+            }
+            let power = reported(sampler("dart-throwing").unwrap(), 300, window, 2.5, 60);
+            println!("ratio 2.5 found in {:.0} %", 100. * power);
+            assert!(power >= 0.7, "{power}");
+        }
+        let rate = reported(sampler("uniform").unwrap(), 300, &l, 1., 1500);
+        assert!((0.004..0.018).contains(&rate), "{rate}");
+    }
+
+    #[test]
+    fn a_rectangle_given_as_a_polygon_has_the_trend_of_the_rectangle() {
+        let bounds = polygon(&[(2., 0.), (5., 0.), (5., 2.), (2., 2.)]);
+        let rectangle = Window::rectangle(2., 0., 5., 2.).unwrap();
+        let points = sampler("uniform").unwrap();
+        let points = points.sample(200, &rectangle, &mut ChaCha8Rng::seed_from_u64(3)).unwrap();
+        let (a, b) = (trend(&points, &rectangle), trend(&points, &bounds));
+        for (a, b) in [
+            (a.f, b.f),
+            (a.p_value, b.p_value),
+            (a.density_ratio, b.density_ratio),
+            (a.change_x, b.change_x),
+            (a.change_y, b.change_y),
+        ] {
+            assert!((a.unwrap() / b.unwrap() - 1.).abs() < 1e-9, "{a:?} {b:?}");
+        }
     }
 
     #[test]

@@ -74,7 +74,7 @@ impl Voronoi {
 /// Points that are not finite have no cell; where all points lie on a line every cell is infinite.
 pub fn voronoi(points: &[Point], window: &Window) -> Voronoi {
     let bounds = window.bounds();
-    let Some(spacing) = hexagonal_spacing(points.len(), bounds.area()) else {
+    let Some(spacing) = hexagonal_spacing(points.len(), window.area()) else {
         return Voronoi { cells: Vec::new() };
     };
     if !window.is_torus() {
@@ -166,7 +166,14 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
             })
             .sum();
         let (right, bottom) = (bounds.width() / side, bounds.height() / side);
-        let inside = corners.iter().all(|c| c[0] > 0. && c[0] < right && c[1] > 0. && c[1] < bottom);
+        let inside = match window {
+            Window::Polygon(polygon) => corners.iter().all(|c| {
+                polygon.contains_strictly(Point::new(bounds.x0() + c[0] * side, bounds.y0() + c[1] * side))
+            }),
+            Window::Rectangle(_) | Window::Torus(_) => {
+                corners.iter().all(|c| c[0] > 0. && c[0] < right && c[1] > 0. && c[1] < bottom)
+            }
+        };
         cells[*index] = Cell {
             area: Some(twice.abs() / 2. * side * side),
             sides: corners.len(),
@@ -183,7 +190,7 @@ fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Rectangle;
+    use crate::geometry::{Polygon, Rectangle};
     use proptest::prelude::*;
     use rand::{RngExt, SeedableRng};
 
@@ -205,6 +212,25 @@ mod tests {
         assert!((summary.area.mean.unwrap() - 3f64.sqrt() / 2.).abs() < 1e-9);
         assert!(summary.area_cv.unwrap() < 1e-9);
         assert_eq!(summary.sides.ri, None);
+    }
+
+    #[test]
+    fn cells_of_a_polygon_are_bound_if_every_vertex_is_strictly_inside() {
+        let points = uniform(500, 8);
+        let square = [(0., 0.), (1., 0.), (1., 1.), (0., 1.)].map(|(x, y)| Point::new(x, y)).to_vec();
+        let as_polygon = Window::Polygon(Polygon::new(vec![square.clone()]).unwrap());
+        assert_eq!(voronoi(&points, &as_polygon), voronoi(&points, &Window::unit_square()));
+        let hole = [(0.4, 0.4), (0.6, 0.4), (0.6, 0.6), (0.4, 0.6)].map(|(x, y)| Point::new(x, y)).to_vec();
+        let frame = Window::polygon(vec![square, hole]).unwrap();
+        let outside: Vec<Point> = points.into_iter().filter(|&p| frame.contains(p)).collect();
+        let (whole, framed) = (voronoi(&outside, &Window::unit_square()), voronoi(&outside, &frame));
+        let lost: Vec<Point> = (0..outside.len())
+            .filter(|&i| whole.cells[i].bound && !framed.cells[i].bound)
+            .map(|i| outside[i])
+            .collect();
+        assert!(lost.len() > 10 && whole.cells.iter().zip(&framed.cells).all(|(a, b)| a.area == b.area));
+        // only cells at the hole reach into it
+        assert!(lost.iter().all(|&p| frame.border_distance(p) < 0.15), "{lost:?}");
     }
 
     #[test]

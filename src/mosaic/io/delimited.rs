@@ -11,16 +11,7 @@ pub(super) fn read(text: &str) -> Result<RawFile, Located> {
     if let Some(names) = all_datasets_header(&table) {
         return read_all_datasets(&table, names);
     }
-    let (columns, rows) = match table.rows.split_first() {
-        Some((first, rest)) if !first.cells.iter().any(|cell| table.is_number(cell)) => {
-            (Columns::named_in(first)?, rest)
-        }
-        Some((first, _)) if first.cells.len() < 2 => {
-            let fault = super::ReadFault::OneColumn { found: super::error::shortened(first.text) };
-            return Err(Located::line(first.line, fault));
-        }
-        _ => (Columns::FIRST_TWO, table.rows.as_slice()),
-    };
+    let (columns, rows) = columns_of(&table)?;
     let mut points = Vec::with_capacity(rows.len());
     let mut scores = columns.score.map(|_| Vec::with_capacity(rows.len()));
     for row in rows {
@@ -37,6 +28,49 @@ pub(super) fn read(text: &str) -> Result<RawFile, Located> {
         datasets: vec![dataset],
         scores,
     })
+}
+
+/// Corners of rings, each ring a dataset: a blank line, or another value in a column `ring`, begins the next.
+pub(super) fn read_rings(text: &str) -> Result<RawFile, Located> {
+    let table = Table::new(text, "two columns of numbers, x and y")?;
+    if let Some(names) = all_datasets_header(&table) {
+        return read_all_datasets(&table, names);
+    }
+    let (columns, rows) = columns_of(&table)?;
+    let header = table.rows.first().filter(|_| rows.len() < table.rows.len());
+    let ring = header.and_then(|h| h.cells.iter().position(|cell| cell.eq_ignore_ascii_case("ring")));
+    let lines = text.split('\n').enumerate();
+    let blank: Vec<usize> = lines.filter(|(_, line)| line.trim().is_empty()).map(|(i, _)| i + 1).collect();
+    let mut datasets: Vec<Dataset> = Vec::new();
+    let mut before = None;
+    for row in rows {
+        let name = ring.and_then(|column| row.cells.get(column)).map_or("", |cell| cell.as_ref());
+        let place = Some((name, blank.partition_point(|&line| line < row.line)));
+        if place != before {
+            datasets.push(Dataset { name: name.to_owned(), origin: Origin::Zero, points: Vec::new() });
+        }
+        before = place;
+        let corner = Point::new(table.number(row, columns.x, "x")?, table.number(row, columns.y, "y")?);
+        if let Some(dataset) = datasets.last_mut() {
+            dataset.points.push(corner);
+        }
+    }
+    let (dialect, unit) = (Dialect::Delimited, columns.unit);
+    Ok(RawFile { dialect, unit, y_may_point_up: true, datasets, scores: None })
+}
+
+/// Which columns hold what, and the rows below the header, if there is one.
+fn columns_of<'t, 'a>(table: &'t Table<'a>) -> Result<(Columns, &'t [Row<'a>]), Located> {
+    match table.rows.split_first() {
+        Some((first, rest)) if !first.cells.iter().any(|cell| table.is_number(cell)) => {
+            Ok((Columns::named_in(first)?, rest))
+        }
+        Some((first, _)) if first.cells.len() < 2 => {
+            let fault = super::ReadFault::OneColumn { found: super::error::shortened(first.text) };
+            Err(Located::line(first.line, fault))
+        }
+        _ => Ok((Columns::FIRST_TWO, table.rows.as_slice())),
+    }
 }
 
 /// The names of the datasets, if the table is WebPlotDigitizer's export of all of them: a row with each name

@@ -178,6 +178,18 @@ pub enum ReadFault {
         /// The kind found.
         found: String,
     },
+    /// An ImageJ ROI that encloses no window.
+    #[error(
+        "expected an ImageJ polygon, freehand, traced or rectangular ROI, found {found}: draw the window with one of \
+         these tools"
+    )]
+    NotAnOutlineRoi {
+        /// The kind found.
+        found: String,
+    },
+    /// Rings that enclose no window.
+    #[error("{0}")]
+    Outline(crate::geometry::PolygonError),
     /// A dataset asked for that is not in the file.
     #[error("expected a dataset named {wanted}, found {found}: choose one of these")]
     NoSuchDataset {

@@ -13,19 +13,29 @@ const FIRST_SUB_PIXEL: u16 = 222;
 /// the first pixel to its centre (class `ij.gui.Roi`: "Line and Point Rois: Integer coordinates refer to the
 /// center of a pixel").
 const FIRST_CENTRED: u16 = 228;
+const RECTANGLE: u8 = 1;
 const POINT: u8 = 10;
+/// Polygon, freehand outline, traced outline.
+const OUTLINES: [u8; 3] = [0, 7, 8];
+
+/// What a ROI is to hold.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Wanted {
+    Points,
+    Outline,
+}
 
 /// Most that one ROI, and all ROIs of a set together, may unpack to: 4 and 16 million sub-pixel points.
 const LARGEST_ROI: u64 = 48 << 20;
 const LARGEST_SET: u64 = 192 << 20;
 
 /// One `.roi` file.
-pub(super) fn read_roi(name: &str, bytes: &[u8]) -> Result<RawFile, Located> {
-    Ok(file(vec![parse(name, bytes)?]))
+pub(super) fn read_roi(name: &str, bytes: &[u8], wanted: Wanted) -> Result<RawFile, Located> {
+    Ok(file(vec![parse(name, bytes, wanted)?]))
 }
 
 /// A `RoiSet.zip` of the ROI manager.
-pub(super) fn read_set(bytes: &[u8]) -> Result<RawFile, Located> {
+pub(super) fn read_set(bytes: &[u8], wanted: Wanted) -> Result<RawFile, Located> {
     let broken = |detail: &dyn std::fmt::Display| ReadFault::Archive {
         expected: "a set of ImageJ ROIs (.zip)",
         detail: clipped(&detail.to_string(), 120),
@@ -51,7 +61,7 @@ pub(super) fn read_set(bytes: &[u8]) -> Result<RawFile, Located> {
             return Err(Located::member(&name, ReadFault::TooLarge { limit_mib: limit >> 20 }));
         }
         budget -= size;
-        datasets.push(parse(&name, &roi).map_err(|fault| Located::member(&name, fault))?);
+        datasets.push(parse(&name, &roi, wanted).map_err(|fault| Located::member(&name, fault))?);
     }
     if !datasets.is_empty() {
         return Ok(file(datasets));
@@ -75,9 +85,9 @@ fn file(datasets: Vec<Dataset>) -> RawFile {
     }
 }
 
-/// A point or multi-point ROI: big-endian header, then all x and all y as 16-bit offsets from the bounding box,
+/// A point or multi-point ROI, or an outline: big-endian header, then all x and all y as 16-bit offsets from the bounding box,
 /// then, if sub-pixel, all x and all y as absolute 32-bit floats (format of ImageJ's `ij.io.RoiDecoder`).
-fn parse(name: &str, bytes: &[u8]) -> Result<Dataset, ReadFault> {
+fn parse(name: &str, bytes: &[u8], wanted: Wanted) -> Result<Dataset, ReadFault> {
     let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let name = name.strip_suffix(".roi").unwrap_or(name).to_owned();
     if bytes.len() < HEADER || !bytes.starts_with(b"Iout") {
@@ -87,8 +97,21 @@ fn parse(name: &str, bytes: &[u8]) -> Result<Dataset, ReadFault> {
     }
     let roi = Fields(bytes);
     let kind = bytes.get(6).copied().unwrap_or_default();
-    if kind != POINT || roi.u32(36) > 0 {
-        return Err(ReadFault::NotAPointRoi { found: kind_name(kind, roi.u32(36) > 0) });
+    let composite = roi.u32(36) > 0;
+    match wanted {
+        Wanted::Points if kind != POINT || composite => {
+            return Err(ReadFault::NotAPointRoi { found: kind_name(kind, composite) });
+        }
+        Wanted::Outline if kind == RECTANGLE && !composite => {
+            let [top, left, bottom, right] = [8, 10, 12, 14].map(|at| roi.i16(at));
+            let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
+            let points = corners.iter().map(|&(x, y)| Point::new(x, y)).collect();
+            return Ok(Dataset { name, origin: Origin::Half, points });
+        }
+        Wanted::Outline if !OUTLINES.contains(&kind) || composite => {
+            return Err(ReadFault::NotAnOutlineRoi { found: kind_name(kind, composite) });
+        }
+        Wanted::Points | Wanted::Outline => {}
     }
     let version = roi.u16(4);
     let sub_pixel = version >= FIRST_SUB_PIXEL && roi.u16(50) & SUB_PIXEL != 0;
@@ -117,7 +140,9 @@ fn parse(name: &str, bytes: &[u8]) -> Result<Dataset, ReadFault> {
     if let Some(p) = points.iter().find(|p| !p.is_finite()) {
         return Err(ReadFault::NotFinite { column: "a point".into(), found: format!("({}, {})", p.x, p.y) });
     }
-    let origin = if sub_pixel && version < FIRST_CENTRED { Origin::Half } else { Origin::Zero };
+    // outlines run along the edges of pixels
+    let from_corner = wanted == Wanted::Outline || (sub_pixel && version < FIRST_CENTRED);
+    let origin = if from_corner { Origin::Half } else { Origin::Zero };
     Ok(Dataset { name, origin, points })
 }
 
@@ -159,6 +184,7 @@ fn kind_name(kind: u8, composite: bool) -> String {
     ];
     match KINDS.get(usize::from(kind)) {
         _ if composite => "a composite ROI".into(),
+        _ if kind == POINT => "points".into(),
         Some(&name) => name.into(),
         None => format!("kind {kind}"),
     }

@@ -8,6 +8,7 @@ mod error;
 mod header;
 mod imagej;
 mod origin;
+mod outline;
 mod read;
 mod scale_table;
 mod text;
@@ -16,6 +17,7 @@ mod write;
 
 pub use error::{Place, ReadError, ReadFault, WriteError};
 pub use origin::Origin;
+pub use outline::{OutlineFile, read_outline};
 pub use read::{CoordinateFile, Dialect, ReadOptions, Series, read_coordinates, read_from};
 pub use scale_table::{ScaleTable, ScaleTableError};
 pub use write::{format_plain_points, format_points, write_plain_points, write_points};

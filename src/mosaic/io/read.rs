@@ -129,11 +129,10 @@ pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, ReadFault> {
 }
 
 fn raw(name: &str, bytes: &[u8]) -> Result<RawFile, Located> {
-    let is_tar = bytes.get(257..262) == Some(b"ustar") || name.to_ascii_lowercase().ends_with(".tar");
     match bytes {
-        [b'I', b'o', b'u', b't', ..] => imagej::read_roi(name, bytes),
-        [b'P', b'K', 3, 4, ..] | [b'P', b'K', 5, 6, ..] => imagej::read_set(bytes),
-        _ if is_tar && !bytes.is_empty() => webplotdigitizer::read_tar(bytes),
+        [b'I', b'o', b'u', b't', ..] => imagej::read_roi(name, bytes, imagej::Wanted::Points),
+        [b'P', b'K', 3, 4, ..] | [b'P', b'K', 5, 6, ..] => imagej::read_set(bytes, imagej::Wanted::Points),
+        _ if is_tar(name, bytes) => webplotdigitizer::read_tar(bytes),
         _ => {
             if let Some(found) = foreign(bytes) {
                 return Err(ReadFault::NotCoordinates { found: found.into() }.into());
@@ -148,8 +147,14 @@ fn raw(name: &str, bytes: &[u8]) -> Result<RawFile, Located> {
     }
 }
 
+/// By its content, or if that is too short to tell by its name.
+pub(super) fn is_tar(name: &str, bytes: &[u8]) -> bool {
+    let named = || name.to_ascii_lowercase().ends_with(".tar");
+    !bytes.is_empty() && (bytes.get(257..262) == Some(b"ustar") || named())
+}
+
 /// Files that are often given by mistake.
-fn foreign(bytes: &[u8]) -> Option<&'static str> {
+pub(super) fn foreign(bytes: &[u8]) -> Option<&'static str> {
     [
         (&b"\x89PNG"[..], "a PNG image"),
         (b"II*\0", "a TIFF image"),
@@ -167,7 +172,7 @@ fn foreign(bytes: &[u8]) -> Option<&'static str> {
 }
 
 impl RawFile {
-    fn understand(mut self, options: &ReadOptions) -> Result<CoordinateFile, Located> {
+    pub(super) fn understand(mut self, options: &ReadOptions) -> Result<CoordinateFile, Located> {
         if let Some(wanted) = &options.dataset {
             if !self.datasets.iter().any(|d| &d.name == wanted) {
                 let found = listed(self.datasets.iter().map(|d| d.name.as_str()));

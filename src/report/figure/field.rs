@@ -1,4 +1,4 @@
-use super::canvas::{Anchor, Area, Canvas, INK, Style};
+use super::canvas::{Anchor, Area, Canvas, FRAME, INK, Style};
 use super::{MosaicFigure, with_unit};
 use crate::geometry::{Point, Rectangle};
 use crate::image::Plane;
@@ -22,6 +22,9 @@ const LARGEST_DOT_SIDE: f64 = 1500.;
 /// Radius of a point in hexagonal spacings, and its bounds in canvas units.
 const DOT_RADIUS: f64 = 0.2;
 const DOT_RADIUS_BOUNDS: (f64, f64) = (0.1, 1.5);
+/// The border of a window that is no rectangle: its colour on a picture (Okabe & Ito 2008), its width in canvas units.
+const OUTLINE_ON_PICTURE: &str = "#E69F00";
+const OUTLINE_WIDTH: f64 = 0.8;
 /// Share of the field's width that the scale bar takes at most.
 const SCALE_BAR_SHARE: f64 = 0.4;
 
@@ -78,6 +81,7 @@ pub(super) fn draw_picture(
     let bytes = png(grey.as_raw(), grey.width(), grey.height(), ExtendedColorType::L8)?;
     canvas.picture(&bytes, place, area);
     canvas.frame(area);
+    draw_outline(canvas, &projection, figure, OUTLINE_ON_PICTURE);
     draw_scale_bar(canvas, area, figure);
     Ok(())
 }
@@ -100,7 +104,7 @@ fn reduced(grey: GrayImage) -> GrayImage {
     thumbnail(&grey, side(width), side(height))
 }
 
-/// The points in their window.
+/// The points in their window, and its border.
 pub(super) fn draw_points(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) -> Result<(), ReportError> {
     let projection = Projection::new(area, figure.window.bounds());
     let inside = |p: &&Point| figure.window.contains(**p);
@@ -108,17 +112,29 @@ pub(super) fn draw_points(canvas: &mut Canvas, area: Area, figure: &MosaicFigure
     if dots.is_empty() {
         canvas.sentence(area, "The mosaic has no points.");
     } else {
-        let spacing = hexagonal_spacing(dots.len(), area.width * area.height).unwrap_or_default();
+        let drawn = figure.window.area() * projection.scale * projection.scale;
+        let spacing = hexagonal_spacing(dots.len(), drawn).unwrap_or_default();
         let radius = (spacing * DOT_RADIUS).clamp(DOT_RADIUS_BOUNDS.0, DOT_RADIUS_BOUNDS.1);
         if dots.len() <= MOST_VECTOR_POINTS {
             canvas.dots(&dots, radius);
         } else {
             draw_dot_picture(canvas, area, &dots, radius)?;
         }
-        canvas.frame(area);
+        if figure.window.rings().is_empty() {
+            canvas.frame(area);
+        }
+        draw_outline(canvas, &projection, figure, FRAME);
     }
     draw_scale_bar(canvas, area, figure);
     Ok(())
+}
+
+/// The rings of a window that is not its bounds.
+fn draw_outline(canvas: &mut Canvas, projection: &Projection, figure: &MosaicFigure, colour: &str) {
+    for ring in figure.window.rings() {
+        let corners = ring.iter().chain(ring.first()).map(|&p| projection.place(p)).collect();
+        canvas.polyline(corners, colour, OUTLINE_WIDTH, None);
+    }
 }
 
 fn draw_dot_picture(

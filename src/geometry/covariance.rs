@@ -1,0 +1,155 @@
+use super::Polygon;
+use std::f64::consts::PI;
+
+/// Shifts tabulated on either side of none, along x and y.
+const SHIFTS: usize = 48;
+/// Rows of a polygon in one shift along y.
+const ROWS_PER_SHIFT: usize = 20;
+/// Directions in half a turn over which the covariance is averaged, and radii at which it is.
+const DIRECTIONS: usize = 360;
+const RADII: usize = 512;
+
+/// How much of a window stays in sight when it is moved: the area |W ∩ (W + h)| of the window and itself moved by h.
+///
+/// Tabulated at 97 × 49 shifts (the rest follows from symmetry) up to the sides of the window's bounds and bilinear between
+/// them. Every entry is summed over 960 rows, exact along x. Relative to the area of the window it is exact for upright
+/// rectangles and within 10⁻³ for others; the tests measure that.
+#[derive(Clone, Debug)]
+pub struct SetCovariance {
+    area: f64,
+    /// The unit of shifts along x and y.
+    step: (f64, f64),
+    /// Row by row; the shifts along x of a row begin at −[`SHIFTS`], those along y at 0.
+    table: Vec<f64>,
+    /// Means over directions, at radii from 0 to the diagonal of the bounds.
+    means: Vec<f64>,
+    diagonal: f64,
+}
+
+const COLUMNS: usize = 2 * SHIFTS + 1;
+
+impl SetCovariance {
+    pub(super) fn of(polygon: &Polygon) -> Self {
+        let bounds = polygon.bounds();
+        let step = (bounds.width() / SHIFTS as f64, bounds.height() / SHIFTS as f64);
+        let rows = SHIFTS * ROWS_PER_SHIFT;
+        let height = bounds.height() / rows as f64;
+        let chords: Vec<Vec<(f64, f64)>> = (0..rows)
+            .map(|row| {
+                let mut chords = Vec::new();
+                polygon.chords(bounds.y0() + (row as f64 + 0.5) * height, &mut chords);
+                chords
+            })
+            .collect();
+        let mut table = Vec::with_capacity(COLUMNS * (SHIFTS + 1));
+        for down in 0..=SHIFTS {
+            for column in 0..COLUMNS {
+                let dx = (column as f64 - SHIFTS as f64) * step.0;
+                let pairs = chords[down * ROWS_PER_SHIFT..].iter().zip(&chords);
+                table.push(height * pairs.map(|(below, above)| common(below, above, dx)).sum::<f64>());
+            }
+        }
+        // The rows miss up to half of theirs at horizontal edges; the area is known.
+        let area = polygon.area();
+        let correction = area / table[SHIFTS];
+        table.iter_mut().for_each(|entry| *entry *= correction);
+        let diagonal = bounds.width().hypot(bounds.height());
+        let mut covariance = Self { area, step, table, means: Vec::new(), diagonal };
+        covariance.means =
+            (0..=RADII).map(|k| covariance.mean_of_directions(k as f64 / RADII as f64 * diagonal)).collect();
+        covariance
+    }
+
+    /// Share of the window's area that is left when it is moved by (dx, dy): 1 for no shift, 0 beyond the window's size.
+    pub fn share(&self, dx: f64, dy: f64) -> f64 {
+        let (dx, dy) = if dy < 0. { (-dx, -dy) } else { (dx, dy) };
+        let (u, v) = (dx / self.step.0 + SHIFTS as f64, dy / self.step.1);
+        if !(u >= 0. && u <= 2. * SHIFTS as f64 && v <= SHIFTS as f64) {
+            return 0.;
+        }
+        let (column, row) = ((u as usize).min(COLUMNS - 2), (v as usize).min(SHIFTS - 1));
+        let (s, t) = (u - column as f64, v - row as f64);
+        let at = |row: usize, column: usize| self.table[row * COLUMNS + column];
+        let upper = (1. - s) * at(row, column) + s * at(row, column + 1);
+        let lower = (1. - s) * at(row + 1, column) + s * at(row + 1, column + 1);
+        ((1. - t) * upper + t * lower) / self.area
+    }
+
+    /// The isotropised set covariance as a share of the area: [`Self::share`] averaged over all directions of a shift by
+    /// `r` (Ohser & Stoyan 1981).
+    pub fn isotropised(&self, r: f64) -> f64 {
+        let at = r / self.diagonal * RADII as f64;
+        if !(at >= 0. && at <= RADII as f64) {
+            return 0.;
+        }
+        let k = (at as usize).min(RADII - 1);
+        self.means[k] + (at - k as f64) * (self.means[k + 1] - self.means[k])
+    }
+
+    fn mean_of_directions(&self, r: f64) -> f64 {
+        let directions = (0..DIRECTIONS).map(|k| (k as f64 + 0.5) / DIRECTIONS as f64 * PI);
+        directions.map(|angle| self.share(r * angle.cos(), r * angle.sin())).sum::<f64>() / DIRECTIONS as f64
+    }
+}
+
+/// Length in common of the intervals `a` and of `b` moved by `shift`; both rise.
+fn common(a: &[(f64, f64)], b: &[(f64, f64)], shift: f64) -> f64 {
+    let (mut i, mut j, mut length) = (0, 0, 0.);
+    while i < a.len() && j < b.len() {
+        let (from, to) = (b[j].0 + shift, b[j].1 + shift);
+        length += (a[i].1.min(to) - a[i].0.max(from)).max(0.);
+        if a[i].1 < to { i += 1 } else { j += 1 }
+    }
+    length
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point;
+
+    fn polygon(rings: &[&[(f64, f64)]]) -> Polygon {
+        Polygon::new(rings.iter().map(|r| r.iter().map(|&(x, y)| Point::new(x, y)).collect()).collect())
+            .unwrap()
+    }
+
+    #[test]
+    fn of_a_rectangle_it_is_the_product_of_what_is_left_of_its_sides() {
+        let (w, h) = (3., 2.);
+        let polygon = polygon(&[&[(5., 1.), (8., 1.), (8., 3.), (5., 3.)]]);
+        let covariance = polygon.covariance();
+        for (dx, dy) in [(0., 0.), (0.3, 0.7), (-1.234, 0.5), (2.9, -1.9), (3.5, 0.), (0., -2.1)] {
+            let expected = (1. - f64::abs(dx) / w).max(0.) * (1. - f64::abs(dy) / h).max(0.);
+            assert!((covariance.share(dx, dy) - expected).abs() < 1e-9, "{dx} {dy}");
+        }
+        for r in [0.01, 0.3, 1., 2.] {
+            let expected = 1. - (2. * (w + h) - r) * r / (PI * w * h);
+            assert!((covariance.isotropised(r) - expected).abs() < 2e-5, "{r}");
+        }
+    }
+
+    #[test]
+    fn of_a_triangle_and_of_a_frame_it_is_within_a_thousandth() {
+        let triangle = polygon(&[&[(0., 0.), (1., 0.), (0., 1.)]]);
+        for (dx, dy) in [(0.013, 0.021), (0.2, 0.3), (0.31, -0.17), (-0.05, 0.4), (0.6, 0.5)] {
+            // the moved triangle is the smaller one that is left at its corner
+            let side =
+                if dx * dy >= 0. { 1. - f64::abs(dx + dy) } else { 1. - f64::abs(dx).max(f64::abs(dy)) };
+            let expected = side.max(0.).powi(2);
+            let found = triangle.covariance().share(dx, dy);
+            assert!((found - expected).abs() < 1e-3, "{dx} {dy}: {found}, {expected}");
+        }
+        let frame = polygon(&[
+            &[(0., 0.), (1., 0.), (1., 1.), (0., 1.)],
+            &[(0.213, 0.301), (0.713, 0.301), (0.713, 0.801), (0.213, 0.801)],
+        ]);
+        let overlap = |side: f64, d: f64| (side - d).clamp(0., side);
+        for (dx, dy) in [(0.03, 0.1), (0.11, 0.02), (0.2, 0.15)] {
+            // square with square, less the two holes in what is common, plus where the holes coincide
+            let both = overlap(0.5, dx) * overlap(0.5, dy);
+            let expected = ((1. - dx) * (1. - dy) - 0.5 + both) / 0.75;
+            let found = frame.covariance().share(dx, dy);
+            assert!((found - expected).abs() < 1e-3, "{dx} {dy}: {found}, {expected}");
+        }
+    }
+}

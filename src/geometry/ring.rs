@@ -1,0 +1,131 @@
+use super::edge_tree::{Edge, EdgeTree, Extent};
+use super::{Point, PolygonError};
+
+/// A closed line of corners, the last joined to the first.
+pub type Ring = Vec<Point>;
+
+/// Where a point lies.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    Inside,
+    Border,
+    Outside,
+}
+
+/// Where `p` lies: on an edge, or by the parity of the edges that a ray to the right crosses.
+pub(super) fn place(tree: &EdgeTree, p: Point) -> Place {
+    let mut inside = false;
+    let mut on_border = false;
+    tree.visit(
+        |b| b.y0 <= p.y && p.y <= b.y1 && b.x1 >= p.x,
+        |_, edge| {
+            let (low, high) =
+                if edge.from.y <= edge.to.y { (edge.from, edge.to) } else { (edge.to, edge.from) };
+            if p.y < low.y || p.y > high.y {
+                return true;
+            }
+            let side = Edge { from: low, to: high }.side(p);
+            let between = p.x >= low.x.min(high.x) && p.x <= low.x.max(high.x);
+            if side == 0. && between {
+                on_border = true;
+                return false;
+            }
+            // p lies left of the edge seen upwards in y: the ray meets it
+            if p.y < high.y && side > 0. {
+                inside = !inside;
+            }
+            true
+        },
+    );
+    match (on_border, inside) {
+        (true, _) => Place::Border,
+        (false, true) => Place::Inside,
+        (false, false) => Place::Outside,
+    }
+}
+
+/// Whether the ring of `tree` surrounds `ring`, which does not cross it: by the first corner, or middle of an edge, that
+/// does not lie on it.
+pub(super) fn surrounds(tree: &EdgeTree, ring: &Ring) -> bool {
+    let next = ring.iter().cycle().skip(1);
+    let places =
+        ring.iter().zip(next).flat_map(|(a, b)| [*a, Point::new((a.x + b.x) / 2., (a.y + b.y) / 2.)]);
+    places.map(|p| place(tree, p)).find(|p| *p != Place::Border) == Some(Place::Inside)
+}
+
+/// Where two edges cross, each with its ends strictly on either side of the other.
+pub(super) fn crossing(tree: &EdgeTree) -> Option<Point> {
+    for (i, edge) in tree.edges().iter().enumerate() {
+        let extent = Extent::of(edge);
+        let mut found = None;
+        tree.visit(
+            |b| b.touches(&extent),
+            |j, other| {
+                if j <= i {
+                    return true;
+                }
+                let (a, b) = (edge.side(other.from), edge.side(other.to));
+                let (c, d) = (other.side(edge.from), other.side(edge.to));
+                let opposite = |u: f64, v: f64| (u < 0. && v > 0.) || (u > 0. && v < 0.);
+                if opposite(a, b) && opposite(c, d) {
+                    let t = c / (c - d);
+                    let at = |u: f64, v: f64| u + t * (v - u);
+                    found = Some(Point::new(at(edge.from.x, edge.to.x), at(edge.from.y, edge.to.y)));
+                }
+                found.is_none()
+            },
+        );
+        if found.is_some() {
+            return found;
+        }
+    }
+    None
+}
+
+pub(super) fn edges_of(rings: &[Ring]) -> Vec<Edge> {
+    rings
+        .iter()
+        .flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&from, &to)| Edge { from, to }))
+        .collect()
+}
+
+/// Half the sum of cross products; from the first corner, so that far polygons do not cancel.
+pub(super) fn signed_area(ring: &[Point]) -> f64 {
+    let Some(&o) = ring.first() else { return 0. };
+    let cross = |a: &Point, b: &Point| (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
+    ring.windows(2).map(|w| cross(&w[0], &w[1])).sum::<f64>() / 2.
+}
+
+/// Without repeated corners and rings of fewer than three.
+pub(super) fn tidy(rings: Vec<Ring>) -> Result<Vec<Ring>, PolygonError> {
+    if let Some(p) = rings.iter().flatten().find(|p| !p.is_finite()) {
+        return Err(PolygonError::NotFinite { x: p.x, y: p.y });
+    }
+    let tidied = rings.into_iter().map(|mut ring| {
+        // −0 is 0, so that equal polygons have equal bytes
+        ring.iter_mut().for_each(|p| *p = Point::new(p.x + 0., p.y + 0.));
+        ring.dedup();
+        while ring.len() > 1 && ring.first() == ring.last() {
+            ring.pop();
+        }
+        ring
+    });
+    let rings: Vec<Ring> = tidied.filter(|ring| ring.len() > 2).collect();
+    if rings.is_empty() { Err(PolygonError::NoArea) } else { Ok(rings) }
+}
+
+/// The part of a ring where `depth` is not negative; `edge` puts a crossing exactly on the cutting line.
+pub(super) fn cut(ring: &[Point], depth: impl Fn(Point) -> f64, edge: impl Fn(Point) -> Point) -> Ring {
+    let mut kept = Vec::with_capacity(ring.len() + 4);
+    for (&a, &b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+        let (da, db) = (depth(a), depth(b));
+        if da >= 0. {
+            kept.push(a);
+        }
+        if (da > 0. && db < 0.) || (da < 0. && db > 0.) {
+            let t = da / (da - db);
+            kept.push(edge(Point::new(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y))));
+        }
+    }
+    kept
+}
