@@ -1,6 +1,7 @@
 //! The learned filter bank: a small convolutional network a modality, trained by `scripts/train-detector`, its weights compiled
 //! into the program. See MODEL_CARD.md beside this file for data, scores and limits.
 
+mod convolution;
 mod input;
 mod maps;
 mod network;

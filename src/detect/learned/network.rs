@@ -1,4 +1,5 @@
-use super::maps::{Kernel, MARGIN, Maps, for_all};
+use super::convolution::Kernel;
+use super::maps::{MARGIN, Maps, for_all};
 use super::weights::{Weights, WeightsError};
 use crate::image::{Plane, mirror};
 
@@ -121,20 +122,20 @@ impl Network {
     fn apply(&self, seen: &Maps) -> Maps {
         match self {
             Self::Residual { first, layers, last } => {
-                let mut maps = seen.convolved(first, 1).rectified();
+                let mut maps = seen.layer(first, 1);
                 for (layer, dilation) in layers.iter().zip(DILATIONS) {
-                    maps = maps.convolved(layer, dilation).rectified().plus(&maps);
+                    maps = maps.residual(layer, dilation);
                 }
                 maps.convolved(last, 1)
             }
             Self::UNet(net) => {
-                let layer = |maps: &Maps, kernel: &Kernel| maps.convolved(kernel, 1).rectified();
+                let layer = |maps: &Maps, kernel: &Kernel| maps.layer(kernel, 1);
                 let top = layer(&layer(seen, &net.first), &net.top);
                 let middle = layer(&layer(&top.halved(), &net.down), &net.middle);
                 let bottom = layer(&layer(&middle.halved(), &net.deep), &net.bottom);
-                let risen = bottom.convolved(&net.rise, 1).doubled().plus(&middle);
+                let risen = bottom.convolved(&net.rise, 1).doubled_onto(&middle);
                 let joined = layer(&risen, &net.join);
-                let lifted = joined.convolved(&net.lift, 1).doubled().plus(&top);
+                let lifted = joined.convolved(&net.lift, 1).doubled_onto(&top);
                 layer(&lifted, &net.merge).convolved(&net.last, 1)
             }
         }

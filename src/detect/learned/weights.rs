@@ -1,4 +1,4 @@
-use super::maps::Kernel;
+use super::convolution::Kernel;
 use serde_json::{Map, Value};
 use thiserror::Error;
 

@@ -1,0 +1,235 @@
+use super::maps::{LANES, Maps};
+use fearless_simd::{Level, Simd, dispatch, prelude::*};
+
+/// The weights of one convolution, out × in × side × side, and its bias, one an output channel.
+#[derive(Clone, Debug)]
+pub(super) struct Kernel {
+    pub outputs: usize,
+    pub inputs: usize,
+    pub side: usize,
+    pub weights: Vec<f32>,
+    pub bias: Vec<f32>,
+}
+
+/// What becomes of a sum before it is written.
+#[derive(Clone, Copy, PartialEq)]
+enum After {
+    Nothing,
+    /// Below zero it becomes zero.
+    Rectified,
+    /// The same; then the input at its place is added.
+    RectifiedAndAdded,
+}
+
+impl Maps {
+    /// What `kernel` makes of these maps: each output Σ weight · input + bias, taps `dilation` px apart, zeros outside.
+    pub(super) fn convolved(&self, kernel: &Kernel, dilation: usize) -> Self {
+        self.through(kernel, dilation, After::Nothing)
+    }
+
+    /// The same, and what is below zero becomes zero.
+    pub(super) fn layer(&self, kernel: &Kernel, dilation: usize) -> Self {
+        self.through(kernel, dilation, After::Rectified)
+    }
+
+    /// The same added to these maps; `kernel` has as many outputs as inputs.
+    pub(super) fn residual(&self, kernel: &Kernel, dilation: usize) -> Self {
+        self.through(kernel, dilation, After::RectifiedAndAdded)
+    }
+
+    /// By the widest registers that the processor has. So many sums are kept in them (outputs × registers along x) that
+    /// their additions overlap, and so few that 16 registers hold them and their factors.
+    fn through(&self, kernel: &Kernel, dilation: usize, after: After) -> Self {
+        let mut out = Self::framed(kernel.outputs, self.height, self.width);
+        let pass = |together| Pass {
+            input: self,
+            kernel,
+            blocks: kernel.blocks(together),
+            taps: self.offsets(kernel, dilation),
+            after,
+        };
+        let level = Level::new();
+        match kernel.outputs {
+            1 => dispatch!(level, simd => pass(1).run::<_, 1, 4>(simd, &mut out)),
+            n if n.is_multiple_of(5) => dispatch!(level, simd => pass(5).run::<_, 5, 2>(simd, &mut out)),
+            _ => dispatch!(level, simd => pass(4).run::<_, 4, 2>(simd, &mut out)),
+        }
+        out
+    }
+
+    /// How far before or after a pixel every tap reads, by input, row and column.
+    fn offsets(&self, kernel: &Kernel, dilation: usize) -> Vec<isize> {
+        let half = (kernel.side / 2) as isize;
+        let (stride, plane) = (self.stride as isize, self.plane() as isize);
+        let mut offsets = Vec::with_capacity(kernel.inputs * kernel.side * kernel.side);
+        for input in 0..kernel.inputs as isize {
+            for j in -half..=half {
+                offsets.extend((-half..=half).map(|i| input * plane + (j * stride + i) * dilation as isize));
+            }
+        }
+        offsets
+    }
+}
+
+impl Kernel {
+    /// Weights in the order in which they are used: for blocks of outputs, by input, row and column, the block's outputs
+    /// side by side. Outputs that fill the last block are zero.
+    fn blocks(&self, together: usize) -> Vec<f32> {
+        let taps = self.inputs * self.side * self.side;
+        let mut blocks = Vec::with_capacity(self.outputs.next_multiple_of(together) * taps);
+        for first in (0..self.outputs).step_by(together) {
+            for tap in 0..taps {
+                blocks.extend(
+                    (first..first + together).map(|o| self.weights.get(o * taps + tap).unwrap_or(&0.)),
+                );
+            }
+        }
+        blocks
+    }
+}
+
+/// One convolution of all rows. Its functions are compiled once for every kind of processor, into their caller.
+struct Pass<'a> {
+    input: &'a Maps,
+    kernel: &'a Kernel,
+    blocks: Vec<f32>,
+    taps: Vec<isize>,
+    after: After,
+}
+
+impl Pass<'_> {
+    /// `TOGETHER` outputs and `VECTORS` registers along x at a time, at the end of a row one register.
+    #[inline(always)]
+    fn run<S: Simd, const TOGETHER: usize, const VECTORS: usize>(&self, simd: S, out: &mut Maps) {
+        const { assert!(S::f32s::LEN <= LANES) };
+        let width = self.input.width;
+        let long = VECTORS * S::f32s::LEN;
+        for y in 0..self.input.height {
+            for (block, weights) in self.blocks.chunks(TOGETHER * self.taps.len()).enumerate() {
+                let first = block * TOGETHER;
+                let bias = std::array::from_fn(|k| self.kernel.bias.get(first + k).copied().unwrap_or(0.));
+                let mut x = 0;
+                while x + long <= width {
+                    let sums =
+                        self.sums::<S, TOGETHER, VECTORS>(simd, weights, bias, self.input.start(0, y) + x);
+                    self.write(simd, sums, (first, y, x), out);
+                    x += long;
+                }
+                while x < width {
+                    let sums = self.sums::<S, TOGETHER, 1>(simd, weights, bias, self.input.start(0, y) + x);
+                    self.write(simd, sums, (first, y, x), out);
+                    x += S::f32s::LEN;
+                }
+            }
+        }
+    }
+
+    /// The sums of a block of outputs from the pixel `at` on.
+    #[inline(always)]
+    fn sums<S: Simd, const TOGETHER: usize, const VECTORS: usize>(
+        &self,
+        simd: S,
+        weights: &[f32],
+        bias: [f32; TOGETHER],
+        at: usize,
+    ) -> [[S::f32s; VECTORS]; TOGETHER] {
+        let mut sums = bias.map(|b| [S::f32s::splat(simd, b); VECTORS]);
+        for (weights, &offset) in weights.as_chunks::<TOGETHER>().0.iter().zip(&self.taps) {
+            let start = at.wrapping_add_signed(offset);
+            let input = &self.input.data[start..start + VECTORS * S::f32s::LEN];
+            let input: [S::f32s; VECTORS] = std::array::from_fn(|v| {
+                S::f32s::from_slice(simd, &input[v * S::f32s::LEN..(v + 1) * S::f32s::LEN])
+            });
+            for (sums, &weight) in sums.iter_mut().zip(weights) {
+                let weight = S::f32s::splat(simd, weight);
+                for (sum, input) in sums.iter_mut().zip(input) {
+                    *sum = weight.mul_add(input, *sum);
+                }
+            }
+        }
+        sums
+    }
+
+    /// Writes the sums of the outputs from `channel` on to their places in row `y` from `x` on, as far as the row goes.
+    #[inline(always)]
+    fn write<S: Simd, const TOGETHER: usize, const VECTORS: usize>(
+        &self,
+        simd: S,
+        sums: [[S::f32s; VECTORS]; TOGETHER],
+        (channel, y, x): (usize, usize, usize),
+        out: &mut Maps,
+    ) {
+        for (channel, sums) in (channel..out.channels).zip(sums) {
+            let mut start = out.start(channel, y) + x;
+            let end = start + out.width - x;
+            for mut sum in sums {
+                if self.after != After::Nothing {
+                    sum = sum.max(0.);
+                }
+                if self.after == After::RectifiedAndAdded {
+                    sum += S::f32s::from_slice(simd, &self.input.data[start..start + S::f32s::LEN]);
+                }
+                if start + S::f32s::LEN <= end {
+                    sum.store_slice(&mut out.data[start..start + S::f32s::LEN]);
+                } else {
+                    let row = &mut out.data[start..end];
+                    row.copy_from_slice(&sum.as_slice()[..row.len()]);
+                }
+                start += S::f32s::LEN;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::maps::textured;
+    use super::*;
+
+    #[test]
+    fn a_convolution_equals_its_definition() {
+        for (inputs, outputs, side, dilation, width) in [
+            (1, 10, 7, 1, 13),
+            (3, 5, 3, 4, 8),
+            (2, 4, 3, 2, 17),
+            (6, 1, 1, 1, 5),
+            (3, 6, 5, 1, 131),
+            (8, 8, 3, 1, 1),
+        ] {
+            let weights: Vec<f32> =
+                (0..outputs * inputs * side * side).map(|k| ((k * 13) % 17) as f32 / 8. - 1.).collect();
+            let bias: Vec<f32> = (0..outputs).map(|k| k as f32).collect();
+            let kernel = Kernel { outputs, inputs, side, weights, bias };
+            let maps = textured(inputs, 9, width);
+            let (out, rectified) = (maps.convolved(&kernel, dilation), maps.layer(&kernel, dilation));
+            let added = (inputs == outputs).then(|| maps.residual(&kernel, dilation));
+            for o in 0..outputs {
+                for y in 0..9 {
+                    for x in 0..width {
+                        let sum = defined(&maps, &kernel, dilation, (o, y, x));
+                        assert!((out.row(o, y)[x] - sum).abs() < 1e-3);
+                        assert!((rectified.row(o, y)[x] - sum.max(0.)).abs() < 1e-3);
+                        if let Some(added) = &added {
+                            assert!((added.row(o, y)[x] - sum.max(0.) - maps.row(o, y)[x]).abs() < 1e-3);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    fn defined(maps: &Maps, kernel: &Kernel, dilation: usize, (o, y, x): (usize, usize, usize)) -> f32 {
+        let (side, half) = (kernel.side, kernel.side / 2 * dilation);
+        let mut sum = kernel.bias[o];
+        for i in 0..kernel.inputs {
+            let taps = &kernel.weights[(o * kernel.inputs + i) * side * side..][..side * side];
+            for (tap, w) in taps.iter().enumerate() {
+                let (yy, xx) = (y + tap / side * dilation, x + tap % side * dilation);
+                if (half..maps.height + half).contains(&yy) && (half..maps.width + half).contains(&xx) {
+                    sum += w * maps.row(i, yy - half)[xx - half];
+                }
+            }
+        }
+        sum
+    }
+}
