@@ -57,8 +57,11 @@ impl Rings {
         } else {
             corners.par_iter().map(power_at).collect()
         };
-        let whole = RingProfile::from_powers(powers.iter().flatten());
-        let tiles = powers.iter().map(|p| p.as_ref().map(|p| RingProfile::from_powers([p]))).collect();
+        let whole = RingProfile::from_powers(powers.iter().flatten(), (tile_height, tile_width));
+        let tiles = powers
+            .iter()
+            .map(|p| p.as_ref().map(|p| RingProfile::from_powers([p], (tile_height, tile_width))))
+            .collect();
         Self { whole, columns, rows, tiles, sample, height, width }
     }
 
