@@ -9,10 +9,8 @@ use crate::stats::{Measures, Pcf};
 
 /// Fewer cones than this leave every statistic uncertain: the RI of 30 points scatters by about 15 %.
 const FEW: usize = 30;
-/// A ring weaker than this is seen in noise as well.
-const FAINT: f64 = 0.2;
-/// Ring and density may differ by this factor, as a logarithm, before they contradict each other.
-const CONTRADICTION: f64 = 0.25;
+/// Below this confidence in the spacing, a person should look.
+const CONFIDENT: f64 = 0.9;
 
 pub(super) fn record_of(
     mosaic: &Mosaic,
@@ -93,14 +91,10 @@ pub(super) fn warnings_of(
 ) -> Vec<String> {
     let mut warnings = Vec::new();
     if let Some(found) = found {
-        if found.ring_strength < FAINT {
+        let confidence = found.spacing_confidence();
+        if confidence < CONFIDENT {
             warnings.push(format!(
-                "Yellott's ring is faint (strength {:.2}): the spacing, and with it the detections, may be wrong",
-                found.ring_strength
-            ));
-        } else if (found.spacing / found.ring_spacing).ln().abs() > CONTRADICTION {
-            warnings.push(format!(
-                "Yellott's ring says {:.1} px between cones, the density of the detections {:.1} px",
+                "the cone spacing is uncertain (confidence {confidence:.2}), and with it the detections: {:.1} px by Yellott's                  ring, {:.1} px by the density of the cones found; --spacing overrules both",
                 found.ring_spacing, found.spacing
             ));
         }

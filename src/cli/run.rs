@@ -6,7 +6,7 @@ use super::{Done, compare::samplers_named};
 use anyhow::{Result, bail};
 use clap::Args;
 use conemosaic::batch::{Crop, ImageWindow, RunOptions, RunOutcome, ScaleSource, image_files, run_files};
-use conemosaic::report::{Cell, counted, significant};
+use conemosaic::report::{Cell, by_need, counted, expected_errors, significant};
 use conemosaic::stats::MeasureOptions;
 use std::path::PathBuf;
 
@@ -94,11 +94,13 @@ impl Run {
             "RI",
             "closest to",
             "l∞",
+            "errors",
         ];
-        let rows: Vec<Vec<String>> = outcome
-            .records
-            .iter()
-            .map(|r| {
+        // what needs the eye of a person comes first: a long table is cut
+        let rows: Vec<Vec<String>> = by_need(&outcome.records)
+            .into_iter()
+            .map(|k| {
+                let r = &outcome.records[k];
                 let density = if scaled { r.mosaic.density_per_mm2() } else { Some(r.mosaic.density) };
                 let least = r.mosaic.l_infinity.iter().map(|d| d.l_infinity).min_by(f64::total_cmp);
                 let number = |value: Option<f64>| Cell::from(value).readable();
@@ -111,6 +113,7 @@ impl Run {
                     r.mosaic.nearest.ri.map_or("–".into(), |ri| significant(ri, 3)),
                     r.mosaic.closest_sampler().unwrap_or("–").to_owned(),
                     least.map_or("–".into(), |d| significant(d, 2)),
+                    expected_errors(&r.detection),
                 ]
             })
             .collect();

@@ -25,7 +25,7 @@ pub use types::{Detection, Detections, Modality, Polarity};
 
 use crate::image::{EmptyPixels, Plane, crop, imaged_part};
 use search::Field;
-use spacing::Rings;
+use spacing::{Rings, contradiction};
 use thiserror::Error;
 
 /// Shortest side of an image in px: below, there is no room for even a handful of cones at the closest spacing.
@@ -108,8 +108,17 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
         modality::decide(rings.sample(), rings.whole(), options.modality, options.polarity);
     let ring = rings.whole().spacing(modality);
     let start = options.spacing.map_or_else(|| rings.map(modality), SpacingMap::constant);
-    let (mut found, mut map) = field
-        .until_settled(&start, SETTLED, |part, spacing| filter::cones(part, modality, polarity, spacing));
+    let filtered = |part: &Plane, spacing: f64| filter::cones(part, modality, polarity, spacing);
+    let (mut found, mut map) = field.until_settled(&start, SETTLED, filtered);
+    if options.spacing.is_none()
+        && let Some(shown) = contradiction(&found.centres(), image.dim(), field.empty, start.typical())
+    {
+        // ring and density cannot both be right: the more regular mosaic is
+        let other = field.until_settled(&SpacingMap::constant(shown), SETTLED, filtered);
+        if other.0.regularity(image.dim()) > found.regularity(image.dim()) {
+            (found, map) = other;
+        }
+    }
     let model = model_for(options.detector, modality)?;
     if let Some(model) = model {
         (found, map) =

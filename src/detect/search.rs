@@ -4,7 +4,7 @@ use super::spacing::{SpacingMap, refined_map};
 use super::suppress::{by_score, suppress_sorted};
 use super::tiles::{Tile, tiles};
 use super::{Detection, LEARNED_SETTLED};
-use crate::geometry::Point;
+use crate::geometry::{Point, Window, nearest_neighbours};
 use crate::image::{EmptyPixels, Plane, crop};
 use rayon::prelude::*;
 
@@ -23,6 +23,21 @@ pub(super) struct Found {
 }
 
 impl Found {
+    pub(super) fn centres(&self) -> Vec<Point> {
+        self.cones.iter().map(|d| d.centre).collect()
+    }
+
+    /// Regularity index of the cones: mean over standard deviation of the distances to the nearest neighbour; 0 where it is not
+    /// defined.
+    pub(super) fn regularity(&self, (height, width): (usize, usize)) -> f64 {
+        let Ok(window) = Window::of_image(width, height) else { return 0. };
+        let distances = nearest_neighbours(&self.centres(), &window).distances;
+        let n = distances.len() as f64;
+        let mean = distances.iter().sum::<f64>() / n;
+        let deviation = (distances.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.)).sqrt();
+        if deviation > 0. { mean / deviation } else { 0. }
+    }
+
     fn each(&mut self, change: impl Fn(&mut Detection)) {
         self.cones.iter_mut().chain(&mut self.rejected).for_each(change);
     }
@@ -86,8 +101,7 @@ impl Field<'_> {
         let mut found = Found::default();
         for _ in 0..PASSES {
             found = self.search(&map, &find);
-            let centres: Vec<Point> = found.cones.iter().map(|d| d.centre).collect();
-            let next = refined_map(&centres, width, height, self.empty, start);
+            let next = refined_map(&found.centres(), width, height, self.empty, start);
             // local counts scatter more than the count of the whole image
             let settled = if next.is_constant() { settled } else { settled.max(LEARNED_SETTLED) };
             let done = next.change_from(&map) < settled;

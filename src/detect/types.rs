@@ -125,6 +125,11 @@ impl Detections {
         self.rejected.iter().map(|d| d.score).sum()
     }
 
+    /// Probability (0–1) that `spacing` is within 15 % of the true one.
+    pub fn spacing_confidence(&self) -> f64 {
+        super::calibration::spacing(self.ring_strength, self.ring_spacing, self.spacing)
+    }
+
     /// Moves everything `left` px to the right and `top` px down.
     pub(super) fn move_by(&mut self, left: usize, top: usize) {
         for d in self.cones.iter_mut().chain(&mut self.rejected) {

@@ -16,6 +16,6 @@ pub use csv::write_csv;
 pub use error::ReportError;
 pub use figure::{Curve, MosaicFigure, ReferenceLine, mosaic_figure};
 pub use overlay::{MarkKind, OverlayMark, encode_png, overlay};
-pub use page::page;
-pub use record::{CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord, SamplerDistance};
+pub use page::{expected_errors, page};
+pub use record::{CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord, SamplerDistance, by_need};
 pub use table::{counted, significant, table};

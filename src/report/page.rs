@@ -1,4 +1,4 @@
-use super::{Cell, ImageRecord, MosaicRecord, counted, significant};
+use super::{Cell, DetectionRecord, ImageRecord, MosaicRecord, by_need, counted, significant};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 const STYLE: &str = "
@@ -43,9 +43,11 @@ pub fn page(records: &[ImageRecord], failures: &[(&str, &str)], samplers: &[Stri
                 p {
                     "NN: distance to the nearest neighbour, mean ± standard deviation. RI: regularity index, their ratio, of all points "
                     "and of those whose neighbours cannot lie beyond the border. ℓ∞: largest difference of the pair correlation functions of "
-                    "the mosaic and of a sampler (mean of several samples of as many points in the same window)."
+                    "the mosaic and of a sampler (mean of several samples of as many points in the same window). Expected errors: false "
+                    "alarms and misses that the scores of the cones and of the rejected candidates lead to expect; images that most need "
+                    "the eye of a person come first."
                 }
-                @for (k, record) in records.iter().enumerate() { (one(k, record)) }
+                @for k in by_need(records) { (one(k, &records[k])) }
             }
         }
     }
@@ -69,9 +71,10 @@ fn overview(records: &[ImageRecord], samplers: &[String], scaled: bool) -> Marku
                 th { "spacing" br; "px" } th { "NN" br; @if scaled { "µm" } @else { "px" } }
                 th { "RI" } th { "RI" br; "interior" }
                 @for sampler in samplers { th { "ℓ∞" br; (sampler) } }
-                th.word { "closest to" }
+                th.word { "closest to" } th { "expected" br; "errors" }
             } }
-            tbody { @for (k, r) in records.iter().enumerate() {
+            tbody { @for k in by_need(records) {
+                @let r = &records[k];
                 @let m = &r.mosaic;
                 @let um = if scaled { m.um_per_unit } else { Some(1.) };
                 tr {
@@ -90,10 +93,18 @@ fn overview(records: &[ImageRecord], samplers: &[String], scaled: bool) -> Marku
                         td { (distance(m, sampler)) }
                     }
                     td.word { (Cell::from(m.closest_sampler()).readable()) }
+                    td { (expected_errors(&r.detection)) }
                 }
             } }
         }
     }
+}
+
+/// How many errors the scores lead to expect, and per hundred cones.
+pub fn expected_errors(found: &DetectionRecord) -> String {
+    let errors = found.expected_false_alarms + found.expected_misses;
+    let percent = 100. * errors / found.n.max(1) as f64;
+    format!("{errors:.0} ({percent:.1} %)")
 }
 
 /// Two decimals, so that a column can be compared at a glance.

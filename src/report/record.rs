@@ -89,6 +89,33 @@ pub struct DetectionRecord {
     pub ring_strength: f64,
     /// Cone spacing after refinement by density, px.
     pub density_spacing_px: f64,
+    /// Probability that the spacing is within 15 % of the true one.
+    pub spacing_confidence: f64,
+    /// Closest and widest local spacing, px.
+    pub spacing_range_px: [f64; 2],
+    /// How many of the cones are expected to be none, by their scores.
+    pub expected_false_alarms: f64,
+    /// How many cones are expected among the candidates that were rejected, by their scores.
+    pub expected_misses: f64,
+}
+
+impl DetectionRecord {
+    /// Errors expected per cone found.
+    pub fn expected_error_rate(&self) -> f64 {
+        (self.expected_false_alarms + self.expected_misses) / self.n.max(1) as f64
+    }
+}
+
+/// Indices of the records, those first that need the eye of a person most; equals stay in order.
+pub fn by_need(records: &[ImageRecord]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..records.len()).collect();
+    // where the spacing is wrong, so are the scores
+    let need = |k: &usize| {
+        let found = &records[*k].detection;
+        found.expected_error_rate() + 1. - found.spacing_confidence
+    };
+    order.sort_by(|a, b| need(b).total_cmp(&need(a)));
+    order
 }
 
 /// One image of a run: a row of `summary.csv`, the content of `metrics.json`.
@@ -153,6 +180,12 @@ const IMAGE_DETAILS: &[Column<ImageRecord>] = &[
     ("name", |r| r.name.as_str().into()),
     ("polarity", |r| r.detection.polarity.name().into()),
     ("detector", |r| r.detection.detector.name().into()),
+    ("expected_false_alarms", |r| r.detection.expected_false_alarms.into()),
+    ("expected_misses", |r| r.detection.expected_misses.into()),
+    ("expected_error_rate", |r| r.detection.expected_error_rate().into()),
+    ("spacing_confidence", |r| r.detection.spacing_confidence.into()),
+    ("spacing_min_px", |r| r.detection.spacing_range_px[0].into()),
+    ("spacing_max_px", |r| r.detection.spacing_range_px[1].into()),
     ("window_area_px2", |r| r.mosaic.window_area.into()),
     ("window_area_mm2", |r| r.mosaic.window_area_mm2().into()),
 ];

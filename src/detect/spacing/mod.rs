@@ -8,8 +8,8 @@ mod ring;
 mod rings;
 
 pub use map::SpacingMap;
-pub(super) use refine::refined_map;
 pub use refine::{BORDER, refined};
+pub(super) use refine::{contradiction, refined_map};
 pub use ring::{RingEstimate, RingProfile};
 pub(super) use rings::Rings;
 

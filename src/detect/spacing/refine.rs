@@ -1,4 +1,4 @@
-use super::SpacingMap;
+use super::{SPACING_RANGE, SpacingMap};
 use crate::geometry::Point;
 use crate::image::EmptyPixels;
 use crate::mosaic::hexagonal_spacing;
@@ -27,6 +27,18 @@ pub fn refined(centres: &[Point], width: usize, height: usize, ring_spacing: f64
     by_density(centres, width, height, None, ring_spacing)
 }
 
+/// The spacing that the density of `centres` shows if it lies farther from the ring's than detections may carry it.
+pub(in crate::detect) fn contradiction(
+    centres: &[Point],
+    (height, width): (usize, usize),
+    empty: Option<&EmptyPixels>,
+    ring_spacing: f64,
+) -> Option<f64> {
+    let (low, high) = SPACING_RANGE;
+    let shown = density_spacing(centres, width, height, empty)?.clamp(low, high);
+    ((shown / ring_spacing).ln().abs() > TRUST).then_some(shown)
+}
+
 fn by_density(
     centres: &[Point],
     width: usize,
@@ -34,13 +46,23 @@ fn by_density(
     empty: Option<&EmptyPixels>,
     ring_spacing: f64,
 ) -> f64 {
+    trusted(density_spacing(centres, width, height, empty), ring_spacing)
+}
+
+/// √(2A/(√3 n)), n and A inside the border; `None` if nothing lies there.
+fn density_spacing(
+    centres: &[Point],
+    width: usize,
+    height: usize,
+    empty: Option<&EmptyPixels>,
+) -> Option<f64> {
     let border = BORDER.min(width.min(height) as f64 / 4.);
     let (right, lower) = (width as f64 - 0.5 - border, height as f64 - 0.5 - border);
     let near = border - 0.5;
     let inside = centres.iter().filter(|p| p.x > near && p.x < right && p.y > near && p.y < lower).count();
     let area = (width as f64 - 2. * border) * (height as f64 - 2. * border);
     let imaged = empty.map_or(1., |e| 1. - e.part(0, 0, width, height));
-    trusted(hexagonal_spacing(inside.max(1), area * imaged), ring_spacing)
+    hexagonal_spacing(inside.max(1), area * imaged)
 }
 
 fn trusted(by_density: Option<f64>, ring_spacing: f64) -> f64 {
