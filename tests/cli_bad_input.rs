@@ -230,7 +230,7 @@ fn windows_that_are_none_are_refused() {
     place.write("a.csv", "x,y\n1,2\n5,5\n");
     for window in ["0x0", "-1x3", "nonsense", "1,2", "nan,0,1,1", "5,5,1,1", ""] {
         let error = place.refused(&["measure", "a.csv", "--window", window, "--out", "out"]);
-        assert!(error.contains("unit, image, WxH or X0,Y0,X1,Y1"), "{error}");
+        assert!(error.contains("auto, image, unit, WxH, X0,Y0,X1,Y1 or a file of corners"), "{error}");
     }
     let outcome = place.run(&["measure", "a.csv", "--out", "out"]);
     assert_eq!(outcome.code, 2);

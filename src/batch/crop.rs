@@ -88,7 +88,8 @@ impl Crop {
         };
         Window::rectangle(x0.max(-0.5), y0.max(-0.5), x1.min(w - 0.5), y1.min(h - 0.5)).map_err(|_| {
             let file = file.to_owned();
-            BatchError::Nowhere { file, window: self.to_string(), width, height }
+            let window = format!("{} {self}", option.trim_start_matches('-'));
+            BatchError::Nowhere { file, window, width, height }
         })
     }
 }

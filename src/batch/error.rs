@@ -47,13 +47,11 @@ pub enum BatchError {
         file: PathBuf,
     },
     /// The window or crop does not fit.
-    #[error(
-        "{file}: the window {window} leaves nothing of the image of {width} × {height} px: choose a part of it"
-    )]
+    #[error("{file}: the {window} leaves nothing of the image of {width} × {height} px: choose a part of it")]
     Nowhere {
         /// The image.
         file: PathBuf,
-        /// As given.
+        /// “crop” or “window”, and as given.
         window: String,
         /// Width of the image in px.
         width: usize,

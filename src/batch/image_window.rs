@@ -32,7 +32,7 @@ impl FromStr for ImageWindow {
                 Ok(rectangle) => Ok(Self::Rectangle(rectangle)),
                 Err(_) if Path::new(text).is_file() => Ok(Self::File(text.into())),
                 Err(_) => Err(format!(
-                    "“{text}” is no window and no file: expected auto, image, WxH (centred), X0,Y0,X1,Y1 (px, or µm with \
+                    "“{text}” is no window, nor a file: expected auto, image, WxH (centred), X0,Y0,X1,Y1 (px, or µm with \
                      um behind it) or a file of corners"
                 )),
             },
@@ -76,25 +76,23 @@ impl<'a> ImageWindows<'a> {
     pub(super) fn of(&self, file: &Path, image: &Plane, scale: Option<Scale>) -> Result<Window, BatchError> {
         let (height, width) = image.dim();
         let whole = Window::of_image(width, height)?;
-        let left = |window: Option<Window>, asked: &dyn fmt::Display| {
-            window.ok_or_else(|| BatchError::Nowhere {
-                file: file.to_owned(),
-                window: asked.to_string(),
-                width,
-                height,
-            })
+        let left = |window: Option<Window>, asked: String| {
+            window.ok_or(BatchError::Nowhere { file: file.to_owned(), window: asked, width, height })
         };
         let window = match (self.asked, &self.outline) {
             (ImageWindow::Rectangle(rectangle), _) => {
                 rectangle.window("--window", file, width, height, scale)?
             }
             (ImageWindow::Auto, _) => imaged_area(image)?,
-            (_, Some(outline)) => left(pixels_of(outline, file, scale)?.within(&whole.bounds()), self.asked)?,
+            (_, Some(outline)) => {
+                let inside = pixels_of(outline, file, scale)?.within(&whole.bounds());
+                left(inside, format!("window {}", self.asked))?
+            }
             (ImageWindow::Image | ImageWindow::File(_), None) => whole,
         };
         let Some(crop) = self.crop else { return Ok(window) };
         let frame = crop.window("--crop", file, width, height, scale)?;
-        left(window.within(&frame.bounds()), &format!("{crop} of {}", self.asked))
+        left(window.within(&frame.bounds()), format!("crop {crop} of the window {}", self.asked))
     }
 }
 
@@ -142,7 +140,7 @@ mod tests {
     #[test]
     fn what_is_no_window_says_what_one_is() {
         let error = "nowhere.csv".parse::<ImageWindow>().unwrap_err();
-        assert!(error.contains("no file") && error.contains("auto"), "{error}");
+        assert!(error.contains("nor a file") && error.contains("auto"), "{error}");
         for text in ["auto", "image", "40x20px", "1,2,3,4um"] {
             assert_eq!(text.parse::<ImageWindow>().unwrap().to_string(), text);
         }

@@ -42,7 +42,7 @@ impl FromStr for Region {
             (_, _, Some(&[x0, y0, x1, y1])) if x0 < x1 && y0 < y1 => Ok(Self::Edges([x0, y0, x1, y1])),
             _ if Path::new(text).is_file() => Ok(Self::File(text.into())),
             _ => Err(format!(
-                "“{text}” is no window and no file: expected auto, image, unit, WxH, X0,Y0,X1,Y1 or a file of corners"
+                "“{text}” is no window, nor a file: expected auto, image, unit, WxH, X0,Y0,X1,Y1 or a file of corners"
             )),
         }
     }

@@ -3,6 +3,10 @@ use super::Plane;
 /// Smaller regions, as a part of the image, are dark places rather than places that were not imaged.
 const SMALLEST: f64 = 0.005;
 
+/// A region of at least so many runs of pixels a row, on average no longer than this, is the ground between cones.
+const POROUS_RUNS: usize = 4;
+const POROUS_LENGTH: usize = 64;
+
 /// The smallest upright rectangle of an image that holds all that was imaged, in px.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ImagedPart {
@@ -39,10 +43,11 @@ pub(super) fn part_of(mask: &[bool], width: usize) -> Option<ImagedPart> {
 
 /// For every pixel, row by row, whether it was imaged; `None` if all were.
 ///
-/// What was not imaged are exactly black regions (4-connected) that touch the border and cover at least 0.5 % of the
-/// image each, as montages and registered averages leave them. One pass over the pixels, and one byte a pixel.
+/// What was not imaged are exactly black regions (4-connected) that cover at least 0.5 % of the image each, as montages and
+/// registered averages leave them: margins, and gaps between tiles. Porous regions are imaged: the dark ground between
+/// bright cones. One pass over the pixels, and one byte a pixel.
 pub fn imaged_mask(plane: &Plane) -> Option<Vec<bool>> {
-    let (height, width) = plane.dim();
+    let width = plane.ncols();
     let least = SMALLEST * plane.len() as f64;
     // the commonest case, an image without margin, needs no labelling
     let black = match plane.as_slice() {
@@ -56,19 +61,20 @@ pub fn imaged_mask(plane: &Plane) -> Option<Vec<bool>> {
     for row in plane.rows() {
         regions.add_row(row.iter().map(|&v| v == 0.));
     }
-    let mut sizes = vec![0usize; regions.runs.len()];
-    let mut touches = vec![false; regions.runs.len()];
+    let mut shapes = vec![Region::default(); regions.runs.len()];
     for k in 0..regions.runs.len() {
         let (run, root) = (regions.runs[k], regions.root(k));
-        sizes[root] += run.end - run.first;
-        let at_border = run.row == 0 || run.row + 1 == height || run.first == 0 || run.end == width;
-        touches[root] |= at_border;
+        let region = &mut shapes[root];
+        region.rows += usize::from(region.runs == 0 || region.last_row != run.row);
+        region.last_row = run.row;
+        region.size += run.end - run.first;
+        region.runs += 1;
     }
     let mut mask = vec![true; plane.len()];
     let mut all = true;
     for k in 0..regions.runs.len() {
         let (run, root) = (regions.runs[k], regions.root(k));
-        if touches[root] && sizes[root] as f64 >= least {
+        if shapes[root].size as f64 >= least && !shapes[root].is_porous() {
             mask[run.row * width + run.first..run.row * width + run.end].fill(false);
             all = false;
         }
@@ -82,6 +88,23 @@ struct Run {
     row: usize,
     first: usize,
     end: usize,
+}
+
+/// A connected region in numbers.
+#[derive(Clone, Copy, Default)]
+struct Region {
+    size: usize,
+    runs: usize,
+    /// Rows in which it has a run; the last of them.
+    rows: usize,
+    last_row: usize,
+}
+
+impl Region {
+    /// Whether something keeps interrupting it: many runs a row, and short ones.
+    fn is_porous(&self) -> bool {
+        self.runs >= POROUS_RUNS * self.rows && self.size <= POROUS_LENGTH * self.runs
+    }
 }
 
 /// Connected regions as runs, row by row, each of which points to an earlier run of its region.
@@ -141,7 +164,7 @@ mod tests {
     #[test]
     fn a_black_margin_is_empty_and_a_dark_spot_is_not() {
         let plane = Plane::from_shape_fn((100, 100), |(y, x)| {
-            let spot = (40..60).contains(&x) && (40..60).contains(&y);
+            let spot = (40..46).contains(&x) && (40..46).contains(&y);
             if x < 20 || spot { 0. } else { 0.5 + 0.001 * (x + y) as f32 }
         });
         let mask = imaged_mask(&plane).unwrap();
@@ -163,18 +186,28 @@ mod tests {
 
     #[test]
     fn arms_that_meet_below_are_one_region() {
-        // a comb: black teeth of 1 % each that join in a black bar, which alone touches the border
+        // a comb: three black teeth of .37 % each, too small alone, that join in a black bar
         let plane = Plane::from_shape_fn((100, 100), |(y, x)| {
-            let tooth = x % 20 == 10 && (20..97).contains(&y);
+            let tooth = x % 30 == 10 && (60..97).contains(&y);
             if y >= 97 || tooth { 0. } else { 1. }
         });
         let empty = imaged_mask(&plane).unwrap().iter().filter(|v| !**v).count();
-        assert_eq!(empty, 300 + 5 * 77);
-        // the same region cut off from the border is a dark place
-        let inside = Plane::from_shape_fn((102, 100), |(y, x)| {
-            if y == 101 || x == 0 || x == 99 { 1. } else { plane[[y.min(99), x]] }
+        assert_eq!(empty, 300 + 3 * 37);
+    }
+
+    #[test]
+    fn a_gap_between_tiles_is_empty_and_the_ground_between_bright_cones_is_not() {
+        let gap = Plane::from_shape_fn((100, 100), |(y, x)| {
+            f32::from(u8::from(!((30..50).contains(&x) && (40..60).contains(&y))))
         });
-        assert_eq!(imaged_mask(&inside), None);
+        assert_eq!(imaged_mask(&gap).unwrap().iter().filter(|v| !**v).count(), 400);
+        for spacing in [5., 8., 20., 40.] {
+            let cones = Plane::from_shape_fn((300, 400), |(y, x)| {
+                let from_centre = |v: usize| (v as f64 / spacing).fract() - 0.5;
+                f32::from(u8::from(from_centre(x).hypot(from_centre(y)) < 0.3))
+            });
+            assert_eq!(imaged_mask(&cones), None, "{spacing}");
+        }
     }
 
     #[test]

@@ -74,10 +74,15 @@ impl Place {
 
     /// A small simulated image.
     pub fn image(&self, name: &str, seed: u32) {
+        self.image_of(name, 64, 56, seed);
+    }
+
+    /// A simulated image of a given size in px.
+    pub fn image_of(&self, name: &str, width: u32, height: u32, seed: u32) {
         fs::create_dir_all(self.path(name).parent().unwrap()).unwrap();
         let (path, seed) = (self.path(name), seed.to_string());
-        let path = path.to_str().unwrap();
-        self.ok(&["render", "--width", "64", "--height", "56", "--seed", &seed, "--out", path, "-q"]);
+        let (path, width, height) = (path.to_str().unwrap(), width.to_string(), height.to_string());
+        self.ok(&["render", "--width", &width, "--height", &height, "--seed", &seed, "--out", path, "-q"]);
     }
 
     /// Every file below a folder, by its path in it.
