@@ -5,6 +5,7 @@ mod edge_tree;
 mod neighbours;
 mod point;
 mod polygon;
+mod polygon_identity;
 mod ring;
 mod window;
 

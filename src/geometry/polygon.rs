@@ -2,7 +2,6 @@ use super::edge_tree::{Edge, EdgeTree, Extent};
 use super::ring::{Place, Ring, crossing, cut, edges_of, place, signed_area, surrounds, tidy};
 use super::{Point, Rectangle, SetCovariance, WindowError};
 use serde::{Deserialize, Serialize};
-use std::hash::{Hash, Hasher};
 use std::sync::{Arc, OnceLock};
 
 /// Rings that enclose no window.
@@ -249,19 +248,6 @@ impl Polygon {
         let times = |p: &Point| Point::new(p.x * factor, p.y * factor);
         Self::new(self.rings().iter().map(|ring| ring.iter().map(times).collect()).collect())
     }
-
-    fn bits(&self) -> impl Iterator<Item = u64> {
-        let rings = self.rings().iter();
-        rings.flat_map(|r| {
-            let corners = r.iter().flat_map(|p| [p.x.to_bits(), p.y.to_bits()]);
-            std::iter::once(r.len() as u64).chain(corners)
-        })
-    }
-
-    /// Bytes that two polygons share only if they are the same.
-    pub(crate) fn bytes(&self) -> Vec<u8> {
-        self.bits().flat_map(u64::to_le_bytes).collect()
-    }
 }
 
 /// Positive nodes and weights of Gauss's rule of 8 nodes on [−1, 1] (Abramowitz & Stegun 1964, table 25.4).
@@ -271,35 +257,6 @@ const GAUSS: [(f64, f64); 4] = [
     (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
     (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
 ];
-
-impl PartialEq for Polygon {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.shape, &other.shape) || self.rings() == other.rings()
-    }
-}
-
-/// Coordinates are finite, so every polygon equals itself.
-impl Eq for Polygon {}
-
-impl Hash for Polygon {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.bits().for_each(|bits| bits.hash(state));
-    }
-}
-
-impl From<Polygon> for Vec<Vec<[f64; 2]>> {
-    fn from(polygon: Polygon) -> Self {
-        polygon.rings().iter().map(|ring| ring.iter().map(|p| p.coordinates()).collect()).collect()
-    }
-}
-
-impl TryFrom<Vec<Vec<[f64; 2]>>> for Polygon {
-    type Error = PolygonError;
-
-    fn try_from(rings: Vec<Vec<[f64; 2]>>) -> Result<Self, PolygonError> {
-        Self::new(rings.into_iter().map(|ring| ring.into_iter().map(Point::from).collect()).collect())
-    }
-}
 
 #[cfg(test)]
 mod tests {
