@@ -1,15 +1,17 @@
 //! Searches an image at a spacing that may vary from place to place, and again at the spacing that its own detections show.
 
+use super::Detection;
 use super::spacing::{SpacingMap, refined_map};
 use super::suppress::{by_score, suppress_sorted};
 use super::tiles::{Tile, tiles};
-use super::{Detection, LEARNED_SETTLED};
 use crate::geometry::{Point, Window, nearest_neighbours};
 use crate::image::{EmptyPixels, Plane, crop};
 use rayon::prelude::*;
 
 /// At most this often an image is searched again at the spacing that its own detections show.
 const PASSES: usize = 5;
+/// A map settles when no node changes by more than this part: a local count scatters more than that of a whole image.
+const MAP_SETTLED: f64 = 0.08;
 /// A tile also answers for what lies so far beyond it, in spacings: a cone on the cut must not fall between two tiles.
 const OVERLAP: f64 = 0.5;
 /// Of two detections of neighbouring tiles nearer to each other than this, in spacings, the lower one goes.
@@ -102,8 +104,7 @@ impl Field<'_> {
         for _ in 0..PASSES {
             found = self.search(&map, &find);
             let next = refined_map(&found.centres(), width, height, self.empty, start);
-            // local counts scatter more than the count of the whole image
-            let settled = if next.is_constant() { settled } else { settled.max(LEARNED_SETTLED) };
+            let settled = if next.is_constant() { settled } else { MAP_SETTLED };
             let done = next.change_from(&map) < settled;
             map = next;
             if done {
