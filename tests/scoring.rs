@@ -297,8 +297,7 @@ fn groups_count_once_each_and_their_mean_is_no_mean_over_images() {
 fn a_detector_compared_with_itself_does_not_differ_and_a_better_one_does() {
     let (good, bad) = (scores_of(&[0.95; 8]), scores_of(&[0.6; 8]));
     let singles: Vec<Vec<usize>> = (0..8).map(|i| vec![i]).collect();
-    let of =
-        |a: &[Score], b: &[Score]| compare_scores(a, b, &singles, 2000, &mut ChaCha8Rng::seed_from_u64(1));
+    let of = |a: &[Score], b: &[Score]| compare_scores(a, b, &singles, 2000, &ChaCha8Rng::seed_from_u64(1));
     for same in of(&good, &good) {
         assert_eq!(
             (same.difference, same.interval, same.p),

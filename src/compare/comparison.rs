@@ -38,13 +38,13 @@ fn density(score: &Score, area: Option<f64>) -> Option<f64> {
 
 /// Paired differences of Dice, sensitivity, false discovery rate, count and density (per mm² where every scale is
 /// known, else per px²) of two detectors or graders, each held against the same marks. `clusters` are the images that
-/// belong together: subjects.
+/// belong together: subjects. Every measure begins with the same `rng`, and so has the same resamples.
 pub fn compare_scores(
     first: &[Score],
     second: &[Score],
     clusters: &[Vec<usize>],
     resamples: usize,
-    rng: &mut ChaCha8Rng,
+    rng: &ChaCha8Rng,
 ) -> Vec<Difference> {
     let scaled = first.iter().chain(second).all(|s| s.um_per_px.is_some());
     RATES
@@ -53,7 +53,7 @@ pub fn compare_scores(
         .filter_map(|(measure, value)| {
             let pairs: Vec<Option<(f64, f64)>> =
                 first.iter().zip(second).map(|(a, b)| value(a).zip(value(b))).collect();
-            difference(measure, &pairs, clusters, resamples, rng)
+            difference(measure, &pairs, clusters, resamples, &mut rng.clone())
         })
         .collect()
 }

@@ -54,10 +54,9 @@ pub struct Comparison {
     pub between_intervals: BTreeMap<&'static str, Interval>,
 }
 
-/// Each use of chance its own stream, so that none depends on what else is asked for.
-const INTERVALS: u64 = 1;
-const DIFFERENCES: u64 = 2;
-const BETWEEN: u64 = 3;
+/// Streams of chance, so that no interval depends on what else is asked for.
+const AGAINST_MARKS: u64 = 1;
+const OF_TWO: u64 = 2;
 
 impl Analysis {
     /// `None` without an image.
@@ -80,7 +79,7 @@ impl Analysis {
             Some((expected / n, summary.pooled.fp as f64 / n))
         });
         let mut analysis = Self {
-            intervals: intervals(&scores, &clusters, options.resamples, &mut rng(INTERVALS)),
+            intervals: intervals(&scores, &clusters, options.resamples, &mut rng(AGAINST_MARKS)),
             method: method(&groups, options.resamples),
             over_groups: mean_over_groups(&groups),
             groups,
@@ -101,17 +100,11 @@ impl Analysis {
             analysis.comparison = Some(Comparison {
                 first: options.detected.label(),
                 second: versus.label(),
-                differences: compare_scores(
-                    &scores,
-                    &others,
-                    &clusters,
-                    options.resamples,
-                    &mut rng(DIFFERENCES),
-                ),
+                differences: compare_scores(&scores, &others, &clusters, options.resamples, &rng(OF_TWO)),
                 summary: summarise(&others)?,
                 froc: judged.as_ref().and_then(|images| froc(images)),
                 between: summarise(&between)?,
-                between_intervals: intervals(&between, &clusters, options.resamples, &mut rng(BETWEEN)),
+                between_intervals: intervals(&between, &clusters, options.resamples, &mut rng(OF_TWO)),
             });
         }
         analysis.notes = analysis.remarks(rows);

@@ -1,4 +1,4 @@
-use super::canvas::{Anchor, Area, Canvas, INK, Ranges, Style, round_above, text_width};
+use super::canvas::{Anchor, Area, Canvas, INK, Ranges, Style, round_above};
 use super::panels::{two_areas, two_panels};
 use crate::compare::{Froc, FrocPoint};
 use crate::report::significant;
@@ -11,8 +11,6 @@ const COLOURS: [&str; 2] = ["#0072B2", "#D55E00"];
 const DASHES: [Option<&str>; 2] = [None, Some("5 1.6")];
 const LINE: f64 = 11.;
 const SWATCH: f64 = 15.;
-/// Fonts that stand in for Helvetica are up to so much wider.
-const WIDE_FONT: f64 = 1.15;
 /// The axes show so many times what is missing to 1 at the dot, and so many times its false alarms.
 const SHOWN: f64 = 4.;
 /// And at least this part of the axis of rates.
@@ -53,7 +51,7 @@ pub fn froc_figure(title: &str, lines: &[FrocLine]) -> String {
     let labels = ("sensitivity (recall)", "precision (1 − FDR)");
     let recall = curve(|p| p.sensitivity, |p| p.precision);
     recall.draw(&mut canvas, right, Ranges { x: (sensitivity, 1.), y: (precision, 1.) }, labels);
-    legend(&mut canvas, left, lines);
+    legend(&mut canvas, right, lines);
     canvas.into_svg(title, DESCRIPTION)
 }
 
@@ -90,7 +88,7 @@ impl Plot<'_> {
     }
 }
 
-/// At the lower right, where no good curve passes.
+/// At the lower left of precision over sensitivity, where no good curve passes.
 fn legend(canvas: &mut Canvas, area: Area, lines: &[FrocLine]) {
     let words = |line: &FrocLine| {
         let best = line.froc.points.get(line.froc.best)?;
@@ -98,8 +96,7 @@ fn legend(canvas: &mut Canvas, area: Area, lines: &[FrocLine]) {
         Some(if line.name.is_empty() { text } else { format!("{}: {text}", line.name) })
     };
     let texts: Vec<String> = lines.iter().filter_map(words).collect();
-    let width = texts.iter().map(|t| WIDE_FONT * text_width(t, Style::Note)).fold(0., f64::max);
-    let start = (area.right() - width - SWATCH - 8.).max(area.x + 4.);
+    let start = area.x + 6.;
     for (k, text) in texts.iter().enumerate() {
         let y = area.bottom() - 7. - (texts.len() - 1 - k) as f64 * LINE;
         let colour = COLOURS.get(k).copied().unwrap_or(INK);
