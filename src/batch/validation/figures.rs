@@ -65,9 +65,10 @@ pub(super) fn agreement(
 }
 
 /// The curves of one detector or two.
-pub(super) fn froc_svg(froc: &Froc, comparison: Option<&Comparison>) -> String {
-    let second = comparison.and_then(|c| Some(FrocLine { name: &c.second, froc: c.froc.as_ref()? }));
+pub(super) fn froc_svg(froc: &Froc, given: &Summary, comparison: Option<&Comparison>) -> String {
+    let second = comparison
+        .and_then(|c| Some(FrocLine { name: &c.second, froc: c.froc.as_ref()?, given: &c.summary }));
     let name = if second.is_some() { comparison.map_or("", |c| &c.first) } else { "" };
-    let lines: Vec<FrocLine> = [FrocLine { name, froc }].into_iter().chain(second).collect();
+    let lines: Vec<FrocLine> = [FrocLine { name, froc, given }].into_iter().chain(second).collect();
     froc_figure("Sensitivity, false alarms and precision over the threshold of the score", &lines)
 }

@@ -54,7 +54,10 @@ pub(super) fn write(
     match analysis.and_then(|a| Some((a, a.froc.as_ref()?))) {
         Some((analysis, froc)) => {
             tables::curve(out, froc)?;
-            out.write("froc.svg", froc_svg(froc, analysis.comparison.as_ref()).as_bytes())?;
+            out.write(
+                "froc.svg",
+                froc_svg(froc, &analysis.summary, analysis.comparison.as_ref()).as_bytes(),
+            )?;
             figures.push((
                 "froc.svg",
                 "FROC and precision–recall curves over the threshold of the score".into(),

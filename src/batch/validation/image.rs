@@ -6,7 +6,8 @@ use crate::batch::detection::{detect_in, read_image};
 use crate::batch::outputs::OutputFolder;
 use crate::batch::pairing::image_name;
 use crate::batch::{BatchError, Input};
-use crate::compare::{JudgedImage, MatchOptions, Matching, Score, Verdict, judge, validate};
+use crate::compare::{JudgedImage, MatchOptions, Matching, Score, judge, validate};
+use crate::detect::Detection;
 use crate::geometry::Point;
 use crate::image::Plane;
 use crate::mosaic::io::{ReadOptions, read_coordinates};
@@ -21,6 +22,8 @@ const RING: f64 = 0.3;
 struct Found {
     points: Vec<Point>,
     scores: Option<Vec<f64>>,
+    /// What the detector looked at and did not take for a cone: the other end of the curve over the score.
+    rejected: Vec<Detection>,
 }
 
 /// Scores the detections of the image that a file of marks belongs to, and draws them if asked to.
@@ -63,7 +66,7 @@ pub(super) fn score(input: &Input, pairs: &Pairs, out: &OutputFolder) -> Result<
         }
         None => None,
     };
-    let expected_false_alarms = judged.as_ref().and_then(expected);
+    let expected_false_alarms = found.scores.as_ref().and_then(|scores| expected(scores, &matching));
     let file = input.path.display().to_string();
     Ok(ValidationRow { file, name: input.name.clone(), group, score, judged, expected_false_alarms, versus })
 }
@@ -86,7 +89,12 @@ impl Against<'_> {
         let score = Score { um_per_px: self.um_per_px, ..score };
         let judged = match &found.scores {
             Some(scores) => {
-                let judged = judge(marks, &found.points, scores, self.size, self.matching)?;
+                let rejected = &found.rejected;
+                let points: Vec<Point> =
+                    found.points.iter().copied().chain(rejected.iter().map(|d| d.centre)).collect();
+                let scores: Vec<f64> =
+                    scores.iter().copied().chain(rejected.iter().map(|d| d.score)).collect();
+                let judged = judge(marks, &points, &scores, self.size, self.matching)?;
                 Some(JudgedImage { area_mm2: score.area_mm2(), ..judged })
             }
             None => None,
@@ -95,10 +103,13 @@ impl Against<'_> {
     }
 }
 
-/// Σ (1 − score) of the detections that count as hits or false alarms.
-fn expected(judged: &JudgedImage) -> Option<f64> {
-    let counted = judged.judged.iter().filter(|j| matches!(j.verdict, Verdict::Hit | Verdict::FalseAlarm));
-    counted.map(|j| (0. ..=1.).contains(&j.score).then_some(1. - j.score)).sum()
+/// Σ (1 − score) of the detections that count as hits or false alarms; `None` without scores between 0 and 1.
+fn expected(scores: &[f64], matching: &Matching) -> Option<f64> {
+    let hits = matching.pairs.iter().filter(|p| p.counted).map(|p| p.detection);
+    let mut counted: Vec<usize> = hits.chain(matching.false_alarms.iter().copied()).collect();
+    counted.sort_unstable();
+    let lack = |d: usize| scores.get(d).filter(|s| (0. ..=1.).contains(*s)).map(|s| 1. - s);
+    counted.into_iter().map(lack).sum()
 }
 
 fn picture(input: &Input, pairs: &Pairs, pixels_matter: bool) -> Result<Plane, BatchError> {
@@ -134,7 +145,7 @@ fn find(
             let path = pairs.image(&input.path).unwrap_or_else(|| input.path.clone());
             let found = detect_in(&Input { path, name: input.name.clone() }, image, options)?;
             let scores = found.cones.iter().map(|d| d.score).collect();
-            Ok(Found { points: found.centres(), scores: Some(scores) })
+            Ok(Found { points: found.centres(), scores: Some(scores), rejected: found.rejected })
         }
         (Detected::Detector(_), None) => Err(missing("no image to detect cones in: give --images".into())),
     }
@@ -147,7 +158,7 @@ fn read(path: &Path, options: &ReadOptions) -> Result<Found, BatchError> {
         Some(unit) if unit != LengthUnit::Pixel => Err(BatchError::NotPixels { file: path.to_owned(), unit }),
         _ => {
             let scores = file.scores.or_else(|| file.points.is_empty().then(Vec::new));
-            Ok(Found { points: file.points, scores })
+            Ok(Found { points: file.points, scores, rejected: Vec::new() })
         }
     }
 }

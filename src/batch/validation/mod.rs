@@ -82,7 +82,7 @@ pub struct ValidationRow {
     pub group: Option<String>,
     /// How well detections and marks agree.
     pub score: Score,
-    /// Every detection judged, where they have scores.
+    /// Every detection judged, where they have scores, and what the program's own detector rejected.
     pub judged: Option<JudgedImage>,
     /// False alarms that the scores lead to expect outside the border, Σ (1 − score), if all are between 0 and 1.
     pub expected_false_alarms: Option<f64>,
