@@ -76,8 +76,8 @@ fn cones_are_found_where_the_truth_has_them() {
         let (name, _) = file.rsplit_once('.').unwrap();
         let (h, w) = image.dim();
         let (score, _) = validate(&truth(name), &found.centres(), w, h, &MatchOptions::default()).unwrap();
-        println!("{file}: Dice {:.4}", score.dice);
-        assert!(score.dice >= bar, "{file}: Dice {:.4}, expected {bar}", score.dice);
+        println!("{file}: Dice {:.4}", score.rates.dice);
+        assert!(score.rates.dice >= bar, "{file}: Dice {:.4}, expected {bar}", score.rates.dice);
     }
 }
 

@@ -47,6 +47,7 @@ fn dice(images: &[Marked], modality: Modality, change: impl Fn(&Marked) -> Marke
         validate(&marks, &found.centres(), image.ncols(), image.nrows(), &MatchOptions::default())
             .unwrap()
             .0
+            .rates
             .dice
     };
     images.par_iter().map(one).collect::<Vec<_>>().iter().sum::<f64>() / images.len() as f64

@@ -1,9 +1,14 @@
 //! The scoring rule against numbers of an independent program, and what must hold of any pairing.
 
-use conemosaic::compare::{Assignment, MatchError, MatchOptions, Score, match_points, summarise, validate};
+use conemosaic::compare::{
+    Assignment, MatchError, MatchOptions, Score, by_group, compare_scores, intervals, match_points,
+    mean_over_groups, summarise, validate,
+};
 use conemosaic::geometry::Point;
 use conemosaic::mosaic::io::{Origin, ReadOptions, read_coordinates};
 use proptest::prelude::*;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
 use std::path::Path;
 
 /// Numbers in [0, 1), multiples of 2⁻²⁰, so that every program makes the same point sets.
@@ -86,7 +91,7 @@ fn counts_and_means_equal_those_of_the_published_rule() {
     for truth in &TRUTH {
         let (marks, detections, w, h) = case(truth);
         let (score, _) = validate(&marks, &detections, w, h, &MatchOptions::default()).unwrap();
-        assert_eq!([score.tp, score.fn_, score.fp], truth.9, "seed {}", truth.0);
+        assert_eq!([score.rates.tp, score.rates.fn_, score.rates.fp], truth.9, "seed {}", truth.0);
         scores.push(score);
     }
     let summary = summarise(&scores).unwrap();
@@ -128,7 +133,7 @@ fn counts_on_real_marks_equal_those_of_the_published_rule() {
         assert_eq!(summary.images, images);
         assert_eq!([summary.pooled.tp, summary.pooled.fn_, summary.pooled.fp], [tp, fn_, fp]);
         for (ours, truth) in [(summary.sensitivity, sensitivity), (summary.fdr, fdr), (summary.dice, dice)] {
-            assert!((ours - truth).abs() < 1e-9, "{ours} instead of {truth}");
+            assert!((ours - truth).abs() < 1e-12, "{ours} instead of {truth}");
         }
     }
 }
@@ -138,7 +143,9 @@ fn perfect_detections_score_one() {
     let marks = marks(11, 150., 150., 8., 2., false);
     for assignment in Assignment::ALL {
         let (score, matching) = validate(&marks, &marks, 150, 150, &options(assignment)).unwrap();
-        assert_eq!((score.sensitivity, score.fdr, score.dice, score.precision), (1., 0., 1., 1.));
+        let rates = &score.rates;
+        assert_eq!((rates.sensitivity, rates.fdr, rates.dice, rates.precision), (1., 0., 1., 1.));
+        assert_eq!(score.offset_px, Some([0., 0.]));
         assert_eq!((score.localisation_px, score.density_ratio), (Some(0.), Some(1.)));
         assert_eq!(matching.pairs.len(), marks.len());
         assert!(matching.pairs.iter().all(|p| p.mark == p.detection));
@@ -179,7 +186,7 @@ fn too_few_points_for_a_neighbour_distance_still_have_a_limit() {
     let (a, b, c) = (Point::new(50., 50.), Point::new(52., 50.), Point::new(62., 50.));
     let limit = |marks: &[Point], found: &[Point]| {
         let (score, m) = validate(marks, found, 100, 100, &MatchOptions::default()).unwrap();
-        (m.limit, score.tp, score.fn_, score.fp)
+        (m.limit, score.rates.tp, score.rates.fn_, score.rates.fp)
     };
     assert_eq!(limit(&[a], &[b, c]), (7.5, 1, 0, 1));
     assert_eq!(limit(&[a], &[b]), (7., 1, 0, 0));
@@ -204,19 +211,106 @@ fn coordinates_and_options_out_of_range_are_refused() {
 }
 
 #[test]
-fn density_agreement_is_bias_and_limits_of_the_ratios() {
+fn agreement_is_of_counts_and_of_densities_outside_the_border() {
     let marks = marks(12, 150., 150., 8., 1., false);
     let more = detections(13, &marks, 150., 150., 1., 0., 40);
     let fewer = detections(14, &marks, 150., 150., 0.8, 0., 0);
     let score = |found: &[Point]| validate(&marks, found, 150, 150, &MatchOptions::default()).unwrap().0;
     let scores = [score(&more), score(&fewer)];
-    let ratios = scores.map(|s| s.density_ratio.unwrap());
-    assert!(ratios[0] > 1. && ratios[1] < 1.);
+    let counts = scores.map(|s| s.detections_inside as f64 - s.marks_inside as f64);
+    assert!(counts[0] > 0. && counts[1] < 0.);
     let summary = summarise(&scores).unwrap();
-    let [low, high] = summary.density_limits.unwrap();
-    assert!((summary.density_bias.unwrap() - ((ratios[0] + ratios[1]) / 2. - 1.)).abs() < 1e-12);
+    let [low, high] = summary.count.unwrap().limits.unwrap();
+    assert!((summary.count.unwrap().bias - (counts[0] + counts[1]) / 2.).abs() < 1e-12);
     // The standard deviation of two values is their difference over √2.
-    assert!((high - low - 2. * 1.96 * (ratios[0] - ratios[1]) / 2f64.sqrt()).abs() < 1e-12);
+    assert!((high - low - 2. * 1.96 * (counts[0] - counts[1]) / 2f64.sqrt()).abs() < 1e-9);
+    let percent = |s: &Score| {
+        let (d, m) = (s.detections_inside as f64, s.marks_inside as f64);
+        200. * (d - m) / (d + m)
+    };
+    let expected = (percent(&scores[0]) + percent(&scores[1])) / 2.;
+    assert!((summary.density_percent.unwrap().bias - expected).abs() < 1e-12);
+}
+
+#[test]
+fn a_systematic_shift_is_measured_with_its_direction() {
+    let marks = marks(12, 150., 150., 8., 1., false);
+    let shifted: Vec<Point> = marks.iter().map(|p| Point::new(p.x - 1., p.y + 0.5)).collect();
+    let (score, _) = validate(&marks, &shifted, 150, 150, &MatchOptions::default()).unwrap();
+    let [x, y] = score.offset_px.unwrap();
+    assert!((x + 1.).abs() < 1e-9 && (y - 0.5).abs() < 1e-9);
+    let scaled = Score { um_per_px: Some(0.4), ..score };
+    assert!((scaled.localisation_um().unwrap() - 0.4 * 1.25f64.sqrt()).abs() < 1e-9);
+    assert!((scaled.area_mm2().unwrap() - 136. * 136. * 0.16e-6).abs() < 1e-12);
+    assert_eq!(score.localisation_um(), None);
+}
+
+fn scores_of(keep: &[f64]) -> Vec<Score> {
+    let marks = marks(12, 150., 150., 8., 1., false);
+    let one = |(k, keep): (usize, &f64)| {
+        let found = detections(30 + k as u64, &marks, 150., 150., *keep, 1., 10);
+        validate(&marks, &found, 150, 150, &MatchOptions::default()).unwrap().0
+    };
+    keep.iter().enumerate().map(one).collect()
+}
+
+#[test]
+fn intervals_hold_their_means_and_agreement_of_single_images_is_in_closed_form() {
+    let scores = scores_of(&[0.7, 0.75, 0.8, 0.85, 0.9, 0.95]);
+    let summary = summarise(&scores).unwrap();
+    let singles: Vec<Vec<usize>> = (0..6).map(|i| vec![i]).collect();
+    let of = |clusters: &[Vec<usize>], seed| {
+        intervals(&scores, clusters, 2000, &mut ChaCha8Rng::seed_from_u64(seed))
+    };
+    let found = of(&singles, 1);
+    for (name, value) in [("dice", summary.dice), ("pooled.dice", summary.pooled.dice), ("fdr", summary.fdr)]
+    {
+        let [low, high] = found[name];
+        assert!(low < value && value < high, "{name}: {low} {value} {high}");
+    }
+    assert_eq!(Some(found["count.bias"]), summary.count.unwrap().bias_interval());
+    assert_eq!(found, of(&singles, 1), "the same seed gives the same intervals");
+    assert_ne!(found, of(&singles, 2));
+    assert!(of(&[(0..6).collect()], 1).is_empty(), "one subject has no interval");
+    let pairs = of(&[vec![0, 1], vec![2, 3], vec![4, 5]], 1);
+    assert_ne!(pairs["count.bias"], found["count.bias"]);
+}
+
+#[test]
+fn groups_count_once_each_and_their_mean_is_no_mean_over_images() {
+    let scores = scores_of(&[0.6, 0.9, 0.9, 0.9]);
+    let names = [Some("b"), Some("a"), Some("a"), Some("a")];
+    let groups = by_group(&names, &scores);
+    assert_eq!(
+        groups.iter().map(|g| (g.group.as_str(), g.summary.images)).collect::<Vec<_>>(),
+        [("a", 3), ("b", 1)]
+    );
+    assert_eq!(groups[1].dice_sd, None);
+    let over = mean_over_groups(&groups).unwrap();
+    let dice = scores.iter().map(|s| s.rates.dice).collect::<Vec<_>>();
+    let expected = ((dice[1] + dice[2] + dice[3]) / 3. + dice[0]) / 2.;
+    assert!((over.dice - expected).abs() < 1e-12);
+    assert!(by_group(&[None; 4], &scores).is_empty());
+}
+
+#[test]
+fn a_detector_compared_with_itself_does_not_differ_and_a_better_one_does() {
+    let (good, bad) = (scores_of(&[0.95; 8]), scores_of(&[0.6; 8]));
+    let singles: Vec<Vec<usize>> = (0..8).map(|i| vec![i]).collect();
+    let of = |a: &[Score], b: &[Score]| compare_scores(a, b, &singles, 2000, &ChaCha8Rng::seed_from_u64(1));
+    for same in of(&good, &good) {
+        assert_eq!(
+            (same.difference, same.interval, same.p),
+            (0., Some([0., 0.]), Some(1.)),
+            "{}",
+            same.measure
+        );
+    }
+    let dice = &of(&good, &bad)[0];
+    assert_eq!((dice.measure, dice.images), ("dice", 8));
+    assert!((dice.difference - (dice.first - dice.second)).abs() < 1e-12 && dice.interval.unwrap()[0] > 0.);
+    // all eight of one sign
+    assert_eq!(dice.p, Some(2. / 256.));
 }
 
 #[test]

@@ -46,15 +46,16 @@ pub fn coordinate_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec<
     Ok(named(files))
 }
 
-/// An overlay of this program, with the coordinates or the metrics that it was written with beside it: no image of a
-/// retina.
+/// An overlay of this program, with the coordinates, the scores or the metrics that it was written with beside it: no
+/// image of a retina.
 fn is_overlay(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default();
     if name == "overlay.png" {
         return path.with_file_name("metrics.json").is_file();
     }
     let drawn = name.to_str().and_then(|name| name.strip_suffix(".overlay.png"));
-    drawn.is_some_and(|name| path.with_file_name(format!("{name}.csv")).is_file())
+    let beside = |file: &str| path.with_file_name(file).is_file();
+    drawn.is_some_and(|name| beside(&format!("{name}.csv")) || beside("validation.csv"))
 }
 
 /// Tables and records of this program that hold no coordinates.
@@ -66,6 +67,10 @@ fn is_table(path: &Path) -> bool {
         "l_infinity.csv",
         "validation.csv",
         "validation.json",
+        "groups.csv",
+        "froc.csv",
+        "reliability.csv",
+        "comparison.csv",
         "pcf.csv",
         "metrics.json",
         "run.json",

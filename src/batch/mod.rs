@@ -29,4 +29,7 @@ pub use progress::{Progress, Silent};
 pub use region::Region;
 pub use run::{RunOptions, RunOutcome, run_files};
 pub use scales::ScaleSource;
-pub use validation::{Detected, ValidationOptions, ValidationOutcome, ValidationRow, validate_files};
+pub use validation::{
+    Analysis, Comparison, Detected, Grouping, ValidationOptions, ValidationOutcome, ValidationRow, VersusRow,
+    validate_files,
+};

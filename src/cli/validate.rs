@@ -2,59 +2,96 @@ use super::Done;
 use super::common::Common;
 use super::detect::DetectArgs;
 use super::measure::CoordinateArgs;
+use super::scale::ScaleArgs;
 use anyhow::{Result, bail};
 use clap::Args;
-use conemosaic::batch::{Detected, ValidationOptions, ValidationOutcome, validate_files};
-use conemosaic::compare::{Assignment, MatchOptions};
-use conemosaic::mosaic::io::{Origin, ReadOptions};
-use conemosaic::report::{counted, significant, table};
+use clap::builder::PossibleValuesParser;
+use conemosaic::batch::{Detected, Grouping, ValidationOptions, ValidationOutcome, validate_files};
+use conemosaic::compare::{Assignment, MatchOptions, RESAMPLES};
+use conemosaic::detect::{DetectOptions, Detector};
+use conemosaic::mosaic::io::{GroupTable, Origin, ReadOptions};
+use conemosaic::report::{counted, table};
 use std::path::PathBuf;
 
-/// Holds detections against hand-plotted marks: sensitivity, false discovery rate, Dice
+/// Holds detections against hand-plotted marks: sensitivity, FDR, Dice, agreement, FROC, reliability
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
-  conemosaic validate --reference marks --origin 1 --images marks --out scores
-  conemosaic validate --reference marks --detections cones --out scores --assignment optimal
+  conemosaic validate --reference marks --origin 1 --images marks --group-by prefix:2 --out scores
+  conemosaic validate --reference marks --detections cones --images marks --overlay --out scores
+  conemosaic validate --reference marks --images marks --versus-detector classical --out scores
+  conemosaic validate --reference grader1 --detections cones --versus grader2 --size 150x150 --out scores
 
-Marks are NAME_coords.csv or NAME.csv. A mark matches the nearest detection within 0.75 × the median nearest-neighbour distance of the marks; 7 px along the border do not count (Cunefare et al. 2017).
+Marks are NAME_coords.csv or NAME.csv. A mark matches the nearest detection within 0.75 × the median nearest-neighbour distance of the marks; 7 px along the border do not count (Cunefare et al. 2017). Detections have columns x and y, and may have one called score, confidence or probability.
 
 Writes to scores/:
-  validation.csv    one row an image
-  validation.json   means and pooled rates
-  failures.csv      marks that could not be scored, if any; then the exit code is 2")]
+  index.html          all of it as a page, the worst images first
+  validation.csv      one row an image
+  validation.json     means, pooled rates, intervals, and everything below
+  bland_altman.svg    agreement of count and density
+  groups.csv          with --group-by or --group-table: one row a group
+  froc.csv, .svg      with scores: sensitivity and false alarms over the threshold
+  reliability.csv, .svg  with scores from 0 to 1: are they the probability of a hit?
+  comparison.csv, .svg   with --versus: paired differences of two detectors or graders
+  NAME.overlay.png    with --overlay: hits, misses and false alarms
+  failures.csv        marks that could not be scored, if any; then the exit code is 2")]
 pub struct Validate {
     /// Folder of hand marks
     #[arg(long, value_name = "DIR")]
     reference: PathBuf,
-    /// Folder of detections NAME.csv, of this program or another
-    #[arg(long, value_name = "DIR", required_unless_present = "images", conflicts_with = "images")]
+    /// Folder of detections NAME.csv or NAME_coords.csv, of this program or another
+    #[arg(long, value_name = "DIR", required_unless_present = "images")]
     detections: Option<PathBuf>,
-    /// Folder of images NAME.png or NAME.tif to detect cones in
+    /// Folder of images NAME.png or NAME.tif: to detect cones in unless --detections are given, for sizes and overlays
+    /// [default: beside the marks]
     #[arg(long, value_name = "DIR")]
     images: Option<PathBuf>,
     /// Folder for the results
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Size of the images in px [default: from the image beside the marks or in --images]
+    /// Also draw hits, misses and false alarms on the images
+    #[arg(long)]
+    overlay: bool,
+    /// Size of the images in px [default: from the images]
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(usize, usize)>,
+    /// What the detections call the centre of the top-left pixel: 0, 0.5 or 1
+    #[arg(long, value_name = "O", default_value = "0", value_parser = origin)]
+    detections_origin: Origin,
     /// Who gets whom where several are near: nearest (as published) or optimal (Hungarian, one to one)
-    #[arg(long, value_name = "A", default_value = "nearest", value_parser = ["nearest", "optimal"])]
+    #[arg(long, value_name = "A", default_value = "nearest", value_parser = PossibleValuesParser::new(Assignment::ALL.map(Assignment::name)), help_heading = "Scoring")]
     assignment: String,
     /// Width in px of the border in which nothing counts
-    #[arg(long, value_name = "PX", default_value_t = 7.)]
+    #[arg(long, value_name = "PX", default_value_t = 7., help_heading = "Scoring")]
     border: f64,
     /// Reach of a mark, as a fraction of the median nearest-neighbour distance of the marks
-    #[arg(long, value_name = "F", default_value_t = 0.75)]
+    #[arg(long, value_name = "F", default_value_t = 0.75, help_heading = "Scoring")]
     reach: f64,
-    /// What the detections call the centre of the top-left pixel: 0, 0.5 or 1
-    #[arg(long, value_name = "O", default_value = "0", conflicts_with = "images")]
-    detections_origin: String,
+    /// Images of one subject belong together: prefix:N (the first N parts of the name between underscores) or a regular
+    /// expression whose first group is the subject
+    #[arg(long, value_name = "RULE", group = "grouping", help_heading = "Groups and intervals")]
+    group_by: Option<Grouping>,
+    /// The same by a CSV of name,group; a name may be the beginning of many
+    #[arg(long, value_name = "FILE", group = "grouping", help_heading = "Groups and intervals")]
+    group_table: Option<PathBuf>,
+    /// Resamples of the bootstrap (BCa, 95 %), of groups if there are any, else of images; 2000 or more
+    #[arg(long, value_name = "N", default_value_t = RESAMPLES as u32, value_parser = clap::value_parser!(u32).range(2000..=1_000_000), help_heading = "Groups and intervals")]
+    resamples: u32,
+    /// Compare with these detections, or marks of another grader: NAME.csv or NAME_coords.csv
+    #[arg(long, value_name = "DIR", group = "second", help_heading = "Comparison of two")]
+    versus: Option<PathBuf>,
+    /// What they call the centre of the top-left pixel: 0, 0.5 or 1
+    #[arg(long, value_name = "O", default_value = "0", requires = "versus", value_parser = origin, help_heading = "Comparison of two")]
+    versus_origin: Origin,
+    /// Compare with this detector on the same images
+    #[arg(long, value_name = "D", group = "second", value_parser = PossibleValuesParser::new(Detector::ALL.map(Detector::name)), help_heading = "Comparison of two")]
+    versus_detector: Option<String>,
     #[command(flatten)]
     marks: CoordinateArgs,
-    #[command(flatten)]
+    #[command(flatten, next_help_heading = "Detection, without --detections")]
     detect: DetectArgs,
+    #[command(flatten)]
+    scale: ScaleArgs,
 }
 
 fn size(text: &str) -> Result<(usize, usize), String> {
@@ -65,34 +102,65 @@ fn size(text: &str) -> Result<(usize, usize), String> {
     }
 }
 
+fn origin(text: &str) -> Result<Origin, String> {
+    text.parse().map_err(|_| "expected 0, 0.5 or 1".to_owned())
+}
+
 /// So many of the worst images are named.
 const WORST: usize = 5;
 
 impl Validate {
     pub fn execute(self, common: &Common) -> Result<Done> {
+        let options = self.options(common.seed)?;
+        let outcome = validate_files(&self.reference, &options, &self.out, &*common.progress())?;
+        common.say(&self.summary(&outcome));
+        Ok(Done::with(&outcome.failures))
+    }
+
+    fn options(&self, seed: u64) -> Result<ValidationOptions> {
         let matching = MatchOptions {
             border: self.border,
             fraction: self.reach,
             assignment: self.assignment.parse::<Assignment>().map_err(anyhow::Error::msg)?,
         };
         matching.validate()?;
-        let detected = match (&self.detections, &self.images) {
-            (Some(folder), _) => {
-                let Ok(origin) = self.detections_origin.parse::<Origin>() else {
-                    bail!("--detections-origin {}: expected 0, 0.5 or 1", self.detections_origin);
-                };
-                let read = ReadOptions { origin: Some(origin), ..ReadOptions::default() };
-                Detected::Folder { folder: folder.clone(), read }
-            }
-            (None, Some(folder)) => {
-                Detected::Images { folder: folder.clone(), detect: self.detect.options()? }
-            }
-            (None, None) => bail!("give --detections or --images"),
+        let folder = |folder: &PathBuf, origin: Origin| Detected::Folder {
+            folder: folder.clone(),
+            read: ReadOptions { origin: Some(origin), ..ReadOptions::default() },
         };
-        let options = ValidationOptions { read: self.marks.options()?, detected, size: self.size, matching };
-        let outcome = validate_files(&self.reference, &options, &self.out, &*common.progress())?;
-        common.say(&self.summary(&outcome));
-        Ok(Done::with(&outcome.failures))
+        let detect = self.detect.options()?;
+        let detected = match &self.detections {
+            Some(given) => folder(given, self.detections_origin),
+            None if self.detections_origin != Origin::Zero => {
+                bail!("--detections-origin {}: there are no --detections", self.detections_origin)
+            }
+            None => Detected::Detector(detect),
+        };
+        let versus = match (&self.versus, &self.versus_detector) {
+            (Some(given), _) => Some(folder(given, self.versus_origin)),
+            (None, Some(name)) => {
+                let detector = name.parse::<Detector>().map_err(anyhow::Error::msg)?;
+                Some(Detected::Detector(DetectOptions { detector, ..detect }))
+            }
+            (None, None) => None,
+        };
+        let grouping = match &self.group_table {
+            Some(path) => Some(Grouping::Table(GroupTable::read(path)?)),
+            None => self.group_by.clone(),
+        };
+        Ok(ValidationOptions {
+            read: self.marks.options()?,
+            detected,
+            versus,
+            images: self.images.clone(),
+            size: self.size,
+            matching,
+            grouping,
+            scales: self.scale.source()?,
+            overlays: self.overlay,
+            resamples: self.resamples as usize,
+            seed,
+        })
     }
 
     fn summary(&self, outcome: &ValidationOutcome) -> String {
@@ -100,51 +168,50 @@ impl Validate {
         for path in &outcome.ignored {
             text.push_str(&format!("not marks of any image, left out: {}\n", path.display()));
         }
-        if let Some(summary) = &outcome.summary {
-            let four = |v: f64| format!("{v:.4}");
-            let rates = |name: &str, s: f64, f: f64, d: f64| vec![name.to_owned(), four(s), four(f), four(d)];
-            let pooled = &summary.pooled;
-            text.push_str(&table(
-                &["", "sensitivity", "FDR", "Dice"],
-                &[
-                    rates("mean over images", summary.sensitivity, summary.fdr, summary.dice),
-                    rates("all cones pooled", pooled.sensitivity, pooled.fdr, pooled.dice),
-                ],
-            ));
-            text.push_str(&format!(
-                "\n{}; {} hits, {} misses, {} false alarms; assignment: {}",
-                counted(summary.images, "image"),
-                pooled.tp,
-                pooled.fn_,
-                pooled.fp,
-                self.assignment
-            ));
-            if let (Some(px), Some(s)) = (summary.localisation_px, summary.localisation_s) {
-                let (px, s) = (significant(px, 2), significant(s, 2));
-                text.push_str(&format!("\nmedian distance of hits: {px} px ({s} cone spacings)"));
-            }
-            if let Some(bias) = summary.density_bias {
-                text.push_str(&format!("\ndensity against marks: {:+.1} %", 100. * bias));
-                if let Some([low, high]) = summary.density_limits {
-                    text.push_str(&format!(" (95 % of images {:+.1} to {:+.1} %)", 100. * low, 100. * high));
-                }
+        if let Some(analysis) = &outcome.analysis {
+            for (_, table) in analysis.tables() {
+                text.push_str(&table.to_text());
+                text.push_str("\n\n");
             }
             let mut rows: Vec<_> = outcome.rows.iter().collect();
-            rows.sort_by(|a, b| a.score.dice.total_cmp(&b.score.dice));
+            rows.sort_by(|a, b| a.score.rates.dice.total_cmp(&b.score.rates.dice));
             let worst: Vec<Vec<String>> = rows
                 .iter()
                 .take(WORST)
                 .map(|r| {
-                    let s = &r.score;
-                    vec![r.name.clone(), s.fn_.to_string(), s.fp.to_string(), four(s.dice)]
+                    let rates = &r.score.rates;
+                    vec![
+                        r.name.clone(),
+                        rates.fn_.to_string(),
+                        rates.fp.to_string(),
+                        format!("{:.4}", rates.dice),
+                    ]
                 })
                 .collect();
-            text.push_str("\n\n");
             text.push_str(&table(&["lowest Dice", "misses", "false alarms", "Dice"], &worst));
-            text.push_str("\n\n");
+            let pooled = &analysis.summary.pooled;
+            text.push_str(&format!(
+                "\n\n{}; {} hits, {} misses, {} false alarms; assignment: {}\n{}\n",
+                counted(analysis.summary.images, "image"),
+                pooled.tp,
+                pooled.fn_,
+                pooled.fp,
+                self.assignment,
+                analysis.method,
+            ));
+            if let Some(comparison) = &analysis.comparison {
+                text.push_str(&format!(
+                    "p: paired sign-flip permutation test; Dice between the two: {:.4} (mean over images)\n",
+                    comparison.between.dice
+                ));
+            }
+            for note in &analysis.notes {
+                text.push_str(&format!("note: {note}\n"));
+            }
+            text.push('\n');
         }
         let out = self.out.display();
-        text.push_str(&format!("Table: {out}/validation.csv"));
+        text.push_str(&format!("Page:  {out}/index.html\nTable: {out}/validation.csv"));
         if !outcome.failures.is_empty() {
             let failed = counted(outcome.failures.len(), "file");
             text.push_str(&format!("\n{failed} of marks failed: {out}/failures.csv"));

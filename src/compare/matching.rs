@@ -181,11 +181,7 @@ pub fn match_points(
     options.validate()?;
     check("mark", marks)?;
     check("detection", detections)?;
-    let limit = match (Index::new(marks)?, Index::new(detections)?) {
-        (Some(marks), _) if marks.points.len() > 1 => options.fraction * marks.median_neighbour_distance(),
-        (_, Some(found)) if found.points.len() > 1 => options.fraction * found.median_neighbour_distance(),
-        _ => options.border,
-    };
+    let limit = reach(marks, detections, options)?;
     let partners = match (Index::new(detections)?, options.assignment) {
         (None, _) => vec![None; marks.len()],
         (Some(found), Assignment::Nearest) => nearest(marks, &found, limit),
@@ -195,10 +191,9 @@ pub fn match_points(
         }
     };
 
-    let (b, w, h) = (options.border, width as f64, height as f64);
-    let in_border = |p: &Point| p.x <= b - 0.5 || p.x >= w - b - 0.5 || p.y <= b - 0.5 || p.y >= h - b - 0.5;
-    let marks_in_border: Vec<bool> = marks.iter().map(in_border).collect();
-    let detections_in_border: Vec<bool> = detections.iter().map(in_border).collect();
+    let field = Field::new(width, height, options.border);
+    let marks_in_border: Vec<bool> = marks.iter().map(|p| field.is_border(p)).collect();
+    let detections_in_border: Vec<bool> = detections.iter().map(|p| field.is_border(p)).collect();
 
     let mut pairs = Vec::with_capacity(marks.len());
     let mut misses = Vec::new();
@@ -220,7 +215,45 @@ pub fn match_points(
     Ok(Matching { pairs, misses, false_alarms, marks_in_border, detections_in_border, limit, assignment })
 }
 
-fn check(what: &'static str, points: &[Point]) -> Result<(), MatchError> {
+/// Largest distance of a pair, in px.
+pub(super) fn reach(
+    marks: &[Point],
+    detections: &[Point],
+    options: &MatchOptions,
+) -> Result<f64, MatchError> {
+    Ok(match (Index::new(marks)?, Index::new(detections)?) {
+        (Some(marks), _) if marks.points.len() > 1 => options.fraction * marks.median_neighbour_distance(),
+        (_, Some(found)) if found.points.len() > 1 => options.fraction * found.median_neighbour_distance(),
+        _ => options.border,
+    })
+}
+
+/// An image and the border in it that does not count; all in px.
+#[derive(Clone, Copy)]
+pub(super) struct Field {
+    width: f64,
+    height: f64,
+    border: f64,
+}
+
+impl Field {
+    pub(super) const fn new(width: usize, height: usize, border: f64) -> Self {
+        Self { width: width as f64, height: height as f64, border }
+    }
+
+    pub(super) fn is_border(&self, p: &Point) -> bool {
+        let Self { width: w, height: h, border: b } = *self;
+        p.x <= b - 0.5 || p.x >= w - b - 0.5 || p.y <= b - 0.5 || p.y >= h - b - 0.5
+    }
+
+    /// Area that counts, in px².
+    pub(super) fn area(&self) -> f64 {
+        let side = |pixels: f64| (pixels - 2. * self.border).max(0.);
+        side(self.width) * side(self.height)
+    }
+}
+
+pub(super) fn check(what: &'static str, points: &[Point]) -> Result<(), MatchError> {
     let is_place = |v: f64| v.abs() <= LARGEST;
     match points.iter().enumerate().find(|(_, p)| !(is_place(p.x) && is_place(p.y))) {
         Some((index, p)) => Err(MatchError::Coordinate { what, index, x: p.x, y: p.y }),
@@ -247,17 +280,17 @@ fn nearest(marks: &[Point], detections: &Index, limit: f64) -> Vec<Option<(usize
 }
 
 /// Points that can be searched by distance.
-struct Index<'a> {
+pub(super) struct Index<'a> {
     points: &'a [Point],
     tree: ImmutableKdTree<f64, 2>,
 }
 
 /// Most detections that a mark is offered: more within reach means that the detections are not cones.
-const MOST_CANDIDATES: usize = 64;
+pub(super) const MOST_CANDIDATES: usize = 64;
 
 impl<'a> Index<'a> {
     /// `None` without points.
-    fn new(points: &'a [Point]) -> Result<Option<Self>, MatchError> {
+    pub(super) fn new(points: &'a [Point]) -> Result<Option<Self>, MatchError> {
         if points.is_empty() {
             return Ok(None);
         }
@@ -273,7 +306,7 @@ impl<'a> Index<'a> {
     }
 
     /// The same, up to `limit` away.
-    fn within(&self, p: Point, limit: f64, count: usize) -> Vec<(usize, f64)> {
+    pub(super) fn within(&self, p: Point, limit: f64, count: usize) -> Vec<(usize, f64)> {
         let count = NonZero::new(count).unwrap_or(NonZero::<usize>::MIN);
         // A little further, lest the rounding of squares cuts off what lies at the limit.
         let radius = limit * limit * (1. + 1e-9) + f64::MIN_POSITIVE;

@@ -1,15 +1,31 @@
 //! A mosaic against samplers; detections against reference marks.
 
+mod agreement;
 mod assignment;
+mod bootstrap;
+mod comparison;
+mod froc;
+mod groups;
 mod l_infinity;
 mod matching;
 mod reference;
+mod reliability;
+mod sign_flip;
+mod summary;
 mod validation;
 
+pub use agreement::{Agreement, agreement};
+pub use bootstrap::{Interval, RESAMPLES, bootstrap};
+pub use comparison::{Difference, compare_scores};
+pub use froc::{Froc, FrocPoint, Judged, JudgedImage, Verdict, froc, judge};
+pub use groups::{GroupSummary, MeanOverGroups, by_group, clusters, mean_over_groups};
 pub use l_infinity::{CompareError, l_infinity};
 pub use matching::{Assignment, MatchError, MatchOptions, Matching, Pair, match_points};
 pub use reference::{ReferenceCurve, References};
-pub use validation::{Rates, Score, Summary, summarise, validate};
+pub use reliability::{Reliability, ReliabilityBin, reliability};
+pub use sign_flip::sign_flip_test;
+pub use summary::{Summary, intervals, summarise};
+pub use validation::{Rates, Score, validate};
 
 /// The middle value, or the mean of the two middle ones; `None` without values.
 fn median(values: &mut [f64]) -> Option<f64> {
@@ -18,4 +34,8 @@ fn median(values: &mut [f64]) -> Option<f64> {
     let upper = values.get(middle)?;
     let lower = if values.len().is_multiple_of(2) { values.get(middle - 1)? } else { upper };
     Some((lower + upper) / 2.)
+}
+
+fn mean(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }

@@ -1,11 +1,11 @@
-use super::matching::{Assignment, MatchError, MatchOptions, Matching, match_points};
+use super::matching::{Assignment, Field, MatchError, MatchOptions, Matching, match_points};
 use crate::geometry::Point;
 use crate::mosaic::hexagonal_spacing;
 use serde::Serialize;
 
-/// How well the detections of one image agree with hand marks.
+/// Counts and the rates that follow from them. 0 / 0 is 0, as in the evaluations published.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Score {
+pub struct Rates {
     /// Hits: pairs outside the border.
     pub tp: usize,
     /// Misses: marks without detection, outside the border.
@@ -13,20 +13,56 @@ pub struct Score {
     pub fn_: usize,
     /// False alarms: detections without mark, outside the border.
     pub fp: usize,
-    /// tp / (tp + fn); 0 without marks.
+    /// Recall, tp / (tp + fn); 0 without marks.
     pub sensitivity: f64,
     /// False discovery rate, fp / (tp + fp); 0 without detections.
     pub fdr: f64,
-    /// 2 tp / (2 tp + fp + fn); 0 if there is neither.
-    pub dice: f64,
     /// tp / (tp + fp); 0 without detections.
     pub precision: f64,
-    /// Median distance, in px, of the pairs outside the border.
+    /// 2 tp / (2 tp + fp + fn), of points the same as F1, the harmonic mean of sensitivity and precision; 0 if there is
+    /// neither mark nor detection.
+    pub dice: f64,
+}
+
+impl Rates {
+    /// From the numbers of hits, misses and false alarms.
+    pub fn new(tp: usize, fn_: usize, fp: usize) -> Self {
+        let ratio = |part: usize, whole: usize| part as f64 / whole.max(1) as f64;
+        Self {
+            tp,
+            fn_,
+            fp,
+            sensitivity: ratio(tp, tp + fn_),
+            fdr: ratio(fp, tp + fp),
+            precision: ratio(tp, tp + fp),
+            dice: ratio(2 * tp, 2 * tp + fn_ + fp),
+        }
+    }
+}
+
+/// How well the detections of one image agree with hand marks.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Score {
+    /// Hits, misses, false alarms and their rates.
+    #[serde(flatten)]
+    pub rates: Rates,
+    /// Localisation error: median distance, in px, of the pairs outside the border.
     pub localisation_px: Option<f64>,
     /// The same in hexagonal spacings of the marks outside the border.
     pub localisation_s: Option<f64>,
-    /// Detections / marks, both outside the border: 1 means equal density.
+    /// Mean way, in px to the right and down, from mark to detection of the pairs outside the border: near zero, unless
+    /// one of the two counts pixels from elsewhere.
+    pub offset_px: Option<[f64; 2]>,
+    /// Marks outside the border.
+    pub marks_inside: usize,
+    /// Detections outside the border.
+    pub detections_inside: usize,
+    /// The second over the first: 1 means equal density. `None` without marks.
     pub density_ratio: Option<f64>,
+    /// Area of the image without its border, in px².
+    pub area_px: f64,
+    /// Micrometres on the retina per pixel, where known; [`validate`] leaves it open.
+    pub um_per_px: Option<f64>,
     /// Marks, border included.
     pub n_marks: usize,
     /// Detections, border included.
@@ -35,6 +71,18 @@ pub struct Score {
     pub limit_px: f64,
     /// Who got whom where several were near.
     pub assignment: Assignment,
+}
+
+impl Score {
+    /// Median distance of the pairs outside the border, in µm; `None` without pairs or scale.
+    pub fn localisation_um(&self) -> Option<f64> {
+        self.localisation_px.zip(self.um_per_px).map(|(px, um)| px * um)
+    }
+
+    /// Area of the image without its border, in mm²; `None` without scale.
+    pub fn area_mm2(&self) -> Option<f64> {
+        self.um_per_px.map(|um| self.area_px * um * um * 1e-6)
+    }
 }
 
 /// Scores detections against hand marks of one image of `width` × `height` px, and says which belongs to which.
@@ -53,108 +101,31 @@ pub fn validate(
     let marks_inside = inside(&matching.marks_in_border);
     let detections_inside = inside(&matching.detections_in_border);
 
-    let mut distances: Vec<f64> = matching.pairs.iter().filter(|p| p.counted).map(|p| p.distance).collect();
+    let hits = || matching.pairs.iter().filter(|p| p.counted);
+    let mut distances: Vec<f64> = hits().map(|p| p.distance).collect();
+    let offset = |axis: fn(Point) -> f64| {
+        let ways = hits().map(|p| axis(detections[p.detection]) - axis(marks[p.mark]));
+        ways.sum::<f64>() / distances.len() as f64
+    };
+    let offset_px = (!distances.is_empty()).then(|| [offset(|p| p.x), offset(|p| p.y)]);
     let localisation_px = super::median(&mut distances);
-    let side = |pixels: usize| (pixels as f64 - 2. * options.border).max(0.);
-    let spacing = hexagonal_spacing(marks_inside, side(width) * side(height)).filter(|s| *s > 0.);
+    let area_px = Field::new(width, height, options.border).area();
+    let spacing = hexagonal_spacing(marks_inside, area_px).filter(|s| *s > 0.);
 
-    let rates = Rates::new(matching.true_positives(), matching.false_negatives(), matching.false_positives());
     let score = Score {
-        tp: rates.tp,
-        fn_: rates.fn_,
-        fp: rates.fp,
-        sensitivity: rates.sensitivity,
-        fdr: rates.fdr,
-        dice: rates.dice,
-        precision: ratio(rates.tp, rates.tp + rates.fp),
+        rates: Rates::new(matching.true_positives(), matching.false_negatives(), matching.false_positives()),
         localisation_px,
         localisation_s: localisation_px.zip(spacing).map(|(d, s)| d / s),
+        offset_px,
+        marks_inside,
+        detections_inside,
         density_ratio: (marks_inside > 0).then(|| detections_inside as f64 / marks_inside as f64),
+        area_px,
+        um_per_px: None,
         n_marks: marks.len(),
         n_detections: detections.len(),
         limit_px: matching.limit,
         assignment: matching.assignment,
     };
     Ok((score, matching))
-}
-
-/// Counts and the rates that follow from them.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Rates {
-    /// Hits.
-    pub tp: usize,
-    /// Misses.
-    #[serde(rename = "fn")]
-    pub fn_: usize,
-    /// False alarms.
-    pub fp: usize,
-    /// tp / (tp + fn).
-    pub sensitivity: f64,
-    /// fp / (tp + fp).
-    pub fdr: f64,
-    /// 2 tp / (2 tp + fp + fn).
-    pub dice: f64,
-}
-
-impl Rates {
-    fn new(tp: usize, fn_: usize, fp: usize) -> Self {
-        let (sensitivity, fdr) = (ratio(tp, tp + fn_), ratio(fp, tp + fp));
-        Self { tp, fn_, fp, sensitivity, fdr, dice: ratio(2 * tp, 2 * tp + fn_ + fp) }
-    }
-}
-
-/// 0 / 0 is 0, as in the evaluations published.
-fn ratio(part: usize, whole: usize) -> f64 {
-    part as f64 / whole.max(1) as f64
-}
-
-/// How well detections agree with hand marks over several images.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Summary {
-    /// Number of images.
-    pub images: usize,
-    /// Mean of the images' sensitivities.
-    pub sensitivity: f64,
-    /// Mean of the images' false discovery rates.
-    pub fdr: f64,
-    /// Mean of the images' Dice coefficients.
-    pub dice: f64,
-    /// Mean of the images' localisation errors in px, over images with a hit.
-    pub localisation_px: Option<f64>,
-    /// The same in hexagonal spacings.
-    pub localisation_s: Option<f64>,
-    /// Agreement of density (Bland & Altman 1986): mean over images of density ratio − 1.
-    pub density_bias: Option<f64>,
-    /// Its 95 % limits, bias ± 1.96 standard deviations (n − 1); none for fewer than two images.
-    pub density_limits: Option<[f64; 2]>,
-    /// All images' points counted together.
-    pub pooled: Rates,
-}
-
-/// Means over images and pooled rates; `None` without images.
-pub fn summarise(scores: &[Score]) -> Option<Summary> {
-    let mean = |value: fn(&Score) -> Option<f64>| mean(&scores.iter().filter_map(value).collect::<Vec<_>>());
-    let ratios: Vec<f64> = scores.iter().filter_map(|s| s.density_ratio).collect();
-    let density_bias = mean(|s| s.density_ratio).map(|m| m - 1.);
-    let density_limits = density_bias.filter(|_| ratios.len() > 1).map(|bias| {
-        let squares: f64 = ratios.iter().map(|r| (r - 1. - bias).powi(2)).sum();
-        let reach = 1.96 * (squares / (ratios.len() - 1) as f64).sqrt();
-        [bias - reach, bias + reach]
-    });
-    let total = |count: fn(&Score) -> usize| scores.iter().map(count).sum();
-    Some(Summary {
-        images: scores.len(),
-        sensitivity: mean(|s| Some(s.sensitivity))?,
-        fdr: mean(|s| Some(s.fdr))?,
-        dice: mean(|s| Some(s.dice))?,
-        localisation_px: mean(|s| s.localisation_px),
-        localisation_s: mean(|s| s.localisation_s),
-        density_bias,
-        density_limits,
-        pooled: Rates::new(total(|s| s.tp), total(|s| s.fn_), total(|s| s.fp)),
-    })
-}
-
-fn mean(values: &[f64]) -> Option<f64> {
-    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }

@@ -10,12 +10,21 @@ mod overlay;
 mod page;
 mod record;
 mod table;
+mod validation;
+mod validation_page;
 
 pub use cell::Cell;
 pub use csv::write_csv;
 pub use error::ReportError;
-pub use figure::{Curve, MosaicFigure, ReferenceLine, mosaic_figure};
-pub use overlay::{MarkKind, OverlayMark, encode_png, overlay};
+pub use figure::{
+    AgreementLine, AgreementPanel, Curve, FrocLine, MosaicFigure, ReferenceLine, ReliabilityFigure,
+    agreement_figure, froc_figure, mosaic_figure, reliability_figure,
+};
+pub use overlay::{MarkKind, OverlayMark, encode_png, overlay, overlay_with_border};
 pub use page::{expected_errors, page};
 pub use record::{CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord, SamplerDistance, by_need};
 pub use table::{counted, significant, table};
+pub use validation::{
+    TextTable, accuracy_table, agreement_table, comparison_table, group_table, threshold_table,
+};
+pub use validation_page::{ScoredImage, ValidationPage, validation_page};

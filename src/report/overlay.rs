@@ -24,6 +24,8 @@ pub enum MarkKind {
     Miss,
     /// Found and not marked by hand: a vermilion cross.
     FalseAlarm,
+    /// In the border, where nothing counts: a grey ring.
+    Uncounted,
 }
 
 impl MarkKind {
@@ -34,12 +36,13 @@ impl MarkKind {
             Self::Hit => [0x56, 0xB4, 0xE9],
             Self::Miss => [0xF0, 0xE4, 0x42],
             Self::FalseAlarm => [0xD5, 0x5E, 0x00],
+            Self::Uncounted => [0xA0, 0xA0, 0xA0],
         }
     }
 
     const fn shape(self) -> Shape {
         match self {
-            Self::Detection | Self::Hit => Shape::Ring,
+            Self::Detection | Self::Hit | Self::Uncounted => Shape::Ring,
             Self::Miss => Shape::Plus,
             Self::FalseAlarm => Shape::Cross,
         }
@@ -59,19 +62,37 @@ pub struct OverlayMark {
     pub kind: MarkKind,
 }
 
+/// What is left of the light of a border where nothing counts.
+const BORDER_LIGHT: f64 = 0.5;
+
+/// As [`overlay`], with a border of `border` px darkened: there nothing counts.
+pub fn overlay_with_border(picture: &Plane, marks: &[OverlayMark], spacing: f64, border: f64) -> RgbImage {
+    draw(picture, marks, spacing, border)
+}
+
 /// The image in grey, its contrast stretched from the 0.5th to the 99.5th percentile, with a mark on every place
 /// given. Enlarged by the whole number that sets cones of `spacing` px at least 16 px apart, as long as no side
 /// exceeds 4096 px; never reduced. Marks that are not finite are left out.
 pub fn overlay(picture: &Plane, marks: &[OverlayMark], spacing: f64) -> RgbImage {
+    draw(picture, marks, spacing, 0.)
+}
+
+fn draw(picture: &Plane, marks: &[OverlayMark], spacing: f64, border: f64) -> RgbImage {
     let (height, width) = picture.dim();
     let factor = enlargement(width, height, spacing);
     let grey = enlarged(&stretched(picture.view()), factor);
+    let factor = f64::from(factor);
     let mut out = RgbImage::new(grey.width(), grey.height());
-    for (pixel, level) in out.pixels_mut().zip(grey.pixels()) {
-        *pixel = Rgb([level.0[0]; 3]);
+    let counts = |at: u32, side: u32| {
+        let place = f64::from(at) + 0.5;
+        place >= border * factor && f64::from(side) - place >= border * factor
+    };
+    for (x, y, pixel) in out.enumerate_pixels_mut() {
+        let level = grey.get_pixel(x, y).0[0];
+        let dark = border > 0. && !(counts(x, grey.width()) && counts(y, grey.height()));
+        *pixel = Rgb([if dark { (f64::from(level) * BORDER_LIGHT) as u8 } else { level }; 3]);
     }
     let size = out.dimensions();
-    let factor = f64::from(factor);
     for mark in marks.iter().filter(|m| m.x.is_finite() && m.y.is_finite() && m.radius.is_finite()) {
         // Pixel centres: place x of the image lies at (x + ½) factor − ½ of the enlarged one.
         let centre = ((mark.x + 0.5) * factor - 0.5, (mark.y + 0.5) * factor - 0.5);
@@ -136,6 +157,17 @@ mod tests {
             assert_eq!(out.dimensions(), (160, 120));
             let (x, y) = coloured_centre(&out, 4.);
             assert!((x - 12.3).abs() < 0.1 && (y - 20.6).abs() < 0.1, "{kind:?}: {x}, {y}");
+        }
+    }
+
+    #[test]
+    fn a_border_is_darkened_to_the_pixel_and_the_rest_is_not() {
+        let picture = Plane::from_shape_fn((20, 30), |(y, x)| ((x * 7 + y * 3) % 11) as f32);
+        let (plain, bordered) = (overlay(&picture, &[], 8.), overlay_with_border(&picture, &[], 8., 7.));
+        for (x, y, pixel) in bordered.enumerate_pixels() {
+            let inside = (14..46).contains(&x) && (14..26).contains(&y);
+            let level = plain.get_pixel(x, y).0[0];
+            assert_eq!(pixel.0[0], if inside { level } else { level / 2 }, "{x}, {y}");
         }
     }
 

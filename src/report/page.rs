@@ -1,7 +1,7 @@
 use super::{Cell, DetectionRecord, ImageRecord, MosaicRecord, by_need, counted, significant};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-const STYLE: &str = "
+pub(super) const STYLE: &str = "
 :root { color-scheme: light dark; --line: #8884; --soft: #8882; --warn: #b45309; }
 body { font: 15px/1.5 system-ui, sans-serif; max-width: 1280px; margin: 2rem auto; padding: 0 1.2rem; }
 h1 { font-size: 1.5rem; margin-bottom: .2rem; } h2 { font-size: 1.1rem; margin: 2.6rem 0 .4rem; overflow-wrap: anywhere; }
@@ -143,7 +143,7 @@ fn outlined(record: &ImageRecord) -> String {
 }
 
 /// A file name as part of a URL.
-fn in_url(name: &str) -> String {
+pub(super) fn in_url(name: &str) -> String {
     name.bytes()
         .map(|b| match b {
             b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'_' | b'.' | b'~' => char::from(b).to_string(),

@@ -12,7 +12,7 @@ pub enum Place {
     Member(String),
 }
 
-/// A coordinate file or a scale table that cannot be read: which file, where in it, and why.
+/// A coordinate file or a table of scales or groups that cannot be read: which file, where in it, and why.
 #[derive(Debug)]
 pub struct ReadError {
     /// The file as it was given.
@@ -230,6 +230,20 @@ pub enum ReadFault {
         identifier: String,
         /// The line that gave the first scale.
         first_line: usize,
+    },
+    /// The same name with two groups.
+    #[error("expected one group for {name}, found another one on line {first_line}: keep the right one")]
+    TwoGroups {
+        /// The name, shortened.
+        name: String,
+        /// The line that gave the first group.
+        first_line: usize,
+    },
+    /// A row of a table of groups that lacks one of the two.
+    #[error("expected a name and its group, found {line}: give both, separated by a comma")]
+    NoGroup {
+        /// The row, shortened.
+        line: String,
     },
     /// A row of a scale table without identifier.
     #[error(

@@ -20,6 +20,9 @@ const STEMS: [(&str, &str); 2] = [("x", "y"), ("xm", "ym")];
 const UNITS: [Option<LengthUnit>; 4] =
     [Some(LengthUnit::Pixel), None, Some(LengthUnit::Micrometre), Some(LengthUnit::Unit)];
 
+/// What programs call how sure they are of a point, the preferred name first.
+const SCORES: [&str; 3] = ["score", "confidence", "probability"];
+
 impl Columns {
     /// The first two columns, of a file without header.
     pub const FIRST_TWO: Self = Self { x: 0, y: 1, score: None, unit: None };
@@ -40,7 +43,10 @@ impl Columns {
                 }
             }
         };
-        let score = find("score", None)?;
+        let mut score = None;
+        for name in SCORES {
+            score = score.or(find(name, None)?);
+        }
         for (x, y) in STEMS {
             for unit in UNITS {
                 if let (Some(x), Some(y)) = (find(x, unit)?, find(y, unit)?) {
@@ -115,6 +121,8 @@ mod tests {
             ("X [pixels],Y [pixels],Score", 0, 1, Some(2), px),
             (",Area,Mean,X,Y,XM,YM", 3, 4, None, None),
             ("Label,XM,YM", 1, 2, None, None),
+            ("x,y,Confidence", 0, 1, Some(2), None),
+            ("x,probability,y,score", 0, 2, Some(3), None),
         ] {
             assert_eq!(named(header).unwrap(), Columns { x, y, score, unit }, "{header}");
         }

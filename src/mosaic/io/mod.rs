@@ -1,10 +1,11 @@
-//! Reading and writing coordinate files in every dialect a lab has, and tables of scales.
+//! Reading and writing coordinate files in every dialect a lab has, and tables of scales and groups.
 //!
 //! Whatever a file counts from, [`read_coordinates`] gives pixels from 0 at the centre of the top-left pixel.
 
 mod cells;
 mod delimited;
 mod error;
+mod group_table;
 mod header;
 mod imagej;
 mod origin;
@@ -16,6 +17,7 @@ mod webplotdigitizer;
 mod write;
 
 pub use error::{Place, ReadError, ReadFault, WriteError};
+pub use group_table::GroupTable;
 pub use origin::Origin;
 pub use outline::{OutlineFile, read_outline};
 pub use read::{CoordinateFile, Dialect, ReadOptions, Series, read_coordinates, read_from};

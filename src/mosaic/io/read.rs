@@ -67,7 +67,7 @@ pub struct CoordinateFile {
     /// The points, x right and y down. Pixels count from 0 at the centre of the top-left pixel; micrometres and
     /// unit squares stand as in the file.
     pub points: Vec<Point>,
-    /// Column `score`, one a point.
+    /// Column `score`, `confidence` or `probability`, one a point.
     pub scores: Option<Vec<f64>>,
     /// The unit, if the file says so.
     pub unit: Option<LengthUnit>,

@@ -71,11 +71,11 @@ impl From<Anchor> for TextAnchor {
     }
 }
 
-/// Data ranges of a plot: x from and to, y from 0 to.
+/// Data ranges of a plot, from and to.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ranges {
     pub(super) x: (f64, f64),
-    pub(super) y_max: f64,
+    pub(super) y: (f64, f64),
 }
 
 /// Width of a text in canvas units, near enough for placing it: by classes of letters of a Helvetica.
@@ -172,13 +172,37 @@ impl Canvas {
         });
     }
 
+    /// A coloured strip without outline, for what lies above it to shine through.
+    pub(super) fn band(&mut self, area: Area, colour: &str, opacity: f64) {
+        self.scene.add(Primitive::Rect {
+            x: area.x,
+            y: area.y,
+            width: area.width,
+            height: area.height,
+            fill: colour.into(),
+            stroke: None,
+            stroke_width: None,
+            opacity: Some(opacity),
+        });
+    }
+
     pub(super) fn dots(&mut self, centres: &[(f64, f64)], radius: f64) {
+        self.coloured_dots(centres, radius, INK, None);
+    }
+
+    pub(super) fn coloured_dots(
+        &mut self,
+        centres: &[(f64, f64)],
+        radius: f64,
+        colour: &str,
+        opacity: Option<f64>,
+    ) {
         self.scene.add(Primitive::CircleBatch {
             cx: centres.iter().map(|c| c.0).collect(),
             cy: centres.iter().map(|c| c.1).collect(),
             r: radius,
-            fill: INK.into(),
-            fill_opacity: None,
+            fill: colour.into(),
+            fill_opacity: opacity,
             stroke: None,
             stroke_width: None,
         });
@@ -211,15 +235,15 @@ impl Canvas {
         labels: (&str, &str),
         y_step: f64,
     ) -> impl Fn(f64, f64) -> (f64, f64) + use<> {
-        let layout = Layout::new(ranges.x, (0., ranges.y_max))
+        let layout = Layout::new(ranges.x, ranges.y)
             .with_width(PAGE_WIDTH)
             .with_height(self.scene.height)
             .with_force_margins(area.x, PAGE_WIDTH - area.right())
             .with_force_margins_y(area.y, self.scene.height - area.bottom())
             .with_x_axis_min(ranges.x.0)
             .with_x_axis_max(ranges.x.1)
-            .with_y_axis_min(0.)
-            .with_y_axis_max(ranges.y_max)
+            .with_y_axis_min(ranges.y.0)
+            .with_y_axis_max(ranges.y.1)
             .with_ticks(5)
             .with_y_tick_step(y_step)
             .with_show_grid(false)
@@ -231,8 +255,10 @@ impl Canvas {
         add_axes_and_grid(&mut self.scene, &computed, &layout);
         let middle = area.x + area.width / 2.;
         self.text(middle, area.bottom() + 26., labels.0, Style::Axis, Anchor::Middle);
-        // Ticks are multiples of the step: the last one is the widest.
-        let ticks = text_width(&format!("{}", (ranges.y_max / y_step).floor() * y_step), Style::Note);
+        // Ticks are multiples of the step, with as many decimals: the outermost ones are the widest.
+        let decimals = (-y_step.log10().floor()).max(0.) as usize;
+        let width = |tick: f64| text_width(&format!("{:.decimals$}", tick * y_step), Style::Note);
+        let ticks = width((ranges.y.1 / y_step).floor()).max(width((ranges.y.0 / y_step).ceil()));
         self.scene.add(Primitive::Text {
             x: area.x - ticks - 12.,
             y: area.y + area.height / 2.,

@@ -62,8 +62,12 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
     let (left, right) = (top(highest(0., covered)), top(highest(x.1 - covered, x.1)));
     let y_max = left.min(right);
 
-    let place =
-        canvas.axes(area, Ranges { x, y_max }, ("r / hexagonal spacing", "g(r)"), round_above(y_max / 5.));
+    let place = canvas.axes(
+        area,
+        Ranges { x, y: (0., y_max) },
+        ("r / hexagonal spacing", "g(r)"),
+        round_above(y_max / 5.),
+    );
     canvas.line(place(x.0, 1.), place(x.1, 1.), FRAME, 0.6);
     for (index, curve) in references.iter().enumerate() {
         let (colour, dash) = style(index);

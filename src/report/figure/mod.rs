@@ -1,18 +1,25 @@
 //! The paper's row for one mosaic: picture, points, nearest neighbours, pair correlation function
-//! (Lanaro et al., figures 2–6).
+//! (Lanaro et al., figures 2–6). And what a validation shows: agreement, FROC, reliability.
 
+mod agreement;
 mod canvas;
 mod correlation;
 mod field;
+mod froc;
 mod neighbours;
 mod page;
+mod panels;
+mod reliability;
 
 use super::ReportError;
 use crate::geometry::{Point, Window};
 use crate::image::Plane;
 use crate::mosaic::LengthUnit;
+pub use agreement::{AgreementLine, AgreementPanel, agreement_figure};
 use canvas::{Anchor, Canvas, Style};
+pub use froc::{FrocLine, froc_figure};
 use page::Page;
+pub use reliability::{ReliabilityFigure, reliability_figure};
 
 /// Read by screen readers, and by whoever wonders what ℓ∞ is.
 const DESCRIPTION: &str = "One cone mosaic: its picture, its points, its nearest-neighbour distances with the Gaussian \

@@ -84,7 +84,7 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
     };
     // Counts are whole.
     let step = round_above((y_max / 4.).max(1.));
-    let place = canvas.axes(area, Ranges { x, y_max }, (&label, "cones"), step);
+    let place = canvas.axes(area, Ranges { x, y: (0., y_max) }, (&label, "cones"), step);
     for (edge, &count) in edges.windows(2).zip(&counts).filter(|(_, c)| **c > 0.) {
         let ((left, top), (right, bottom)) = (place(edge[0], count), place(edge[1], 0.));
         canvas.bar(Area { x: left, y: top, width: right - left, height: bottom - top }, BARS);

@@ -1,0 +1,193 @@
+use super::{ValidationOptions, ValidationRow};
+use crate::compare::{
+    Difference, Froc, GroupSummary, Interval, JudgedImage, MeanOverGroups, Reliability, Score, Summary,
+    Verdict, by_group, clusters, compare_scores, froc, intervals, mean_over_groups, reliability, summarise,
+};
+use crate::report::{
+    TextTable, accuracy_table, agreement_table, comparison_table, group_table, threshold_table,
+};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use std::collections::BTreeMap;
+
+/// What follows of the scores of all images.
+#[derive(Clone, Debug)]
+pub struct Analysis {
+    /// Means over images and pooled rates.
+    pub summary: Summary,
+    /// 95 % intervals of its values, by name.
+    pub intervals: BTreeMap<&'static str, Interval>,
+    /// How they were made.
+    pub method: String,
+    /// A summary a group; empty without groups.
+    pub groups: Vec<GroupSummary>,
+    /// Means over groups.
+    pub over_groups: Option<MeanOverGroups>,
+    /// The curve over the score, where all detections have one.
+    pub froc: Option<Froc>,
+    /// Reliability of the score, where all lie between 0 and 1.
+    pub reliability: Option<Reliability>,
+    /// False alarms per image, expected from the scores and observed, where all lie between 0 and 1.
+    pub false_alarms: Option<(f64, f64)>,
+    /// Two detectors or graders compared.
+    pub comparison: Option<Comparison>,
+    /// What a reader must know, each a sentence.
+    pub notes: Vec<String>,
+}
+
+/// Two detectors or graders on the same images.
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    /// What the first is called.
+    pub first: String,
+    /// What the second is called.
+    pub second: String,
+    /// Paired differences.
+    pub differences: Vec<Difference>,
+    /// The second against the marks.
+    pub summary: Summary,
+    /// Its curve, where its detections have scores.
+    pub froc: Option<Froc>,
+    /// The first against the second, taken as marks.
+    pub between: Summary,
+    /// 95 % intervals of that.
+    pub between_intervals: BTreeMap<&'static str, Interval>,
+}
+
+/// Streams of chance, so that no interval depends on what else is asked for.
+const AGAINST_MARKS: u64 = 1;
+const OF_TWO: u64 = 2;
+
+impl Analysis {
+    /// `None` without an image.
+    pub(super) fn of(rows: &[ValidationRow], options: &ValidationOptions) -> Option<Self> {
+        let scores: Vec<Score> = rows.iter().map(|r| r.score).collect();
+        let summary = summarise(&scores)?;
+        let names: Vec<Option<&str>> = rows.iter().map(|r| r.group.as_deref()).collect();
+        let clusters = clusters(&names);
+        let rng = |stream: u64| {
+            let mut rng = ChaCha8Rng::seed_from_u64(options.seed);
+            rng.set_stream(stream);
+            rng
+        };
+        let groups = by_group(&names, &scores);
+        let judged: Option<Vec<JudgedImage>> = rows.iter().map(|r| r.judged.clone()).collect();
+        let reliability = judged.as_ref().and_then(|images| reliability(&counted(images)));
+        let false_alarms = reliability.as_ref().and_then(|_| {
+            let expected = rows.iter().map(|r| r.expected_false_alarms).sum::<Option<f64>>()?;
+            let n = rows.len() as f64;
+            Some((expected / n, summary.pooled.fp as f64 / n))
+        });
+        let mut analysis = Self {
+            intervals: intervals(&scores, &clusters, options.resamples, &mut rng(AGAINST_MARKS)),
+            method: method(&groups, options.resamples),
+            over_groups: mean_over_groups(&groups),
+            groups,
+            froc: judged.as_ref().and_then(|images| froc(images)),
+            reliability,
+            false_alarms,
+            comparison: None,
+            notes: Vec::new(),
+            summary,
+        };
+        if let Some(versus) = &options.versus {
+            let pick = |pick: fn(&super::VersusRow) -> Score| -> Vec<Score> {
+                rows.iter().filter_map(|r| r.versus.as_ref()).map(pick).collect()
+            };
+            let (others, between) = (pick(|v| v.score), pick(|v| v.between));
+            let judged: Option<Vec<JudgedImage>> =
+                rows.iter().map(|r| r.versus.as_ref()?.judged.clone()).collect();
+            analysis.comparison = Some(Comparison {
+                first: options.detected.label(),
+                second: versus.label(),
+                differences: compare_scores(&scores, &others, &clusters, options.resamples, &rng(OF_TWO)),
+                summary: summarise(&others)?,
+                froc: judged.as_ref().and_then(|images| froc(images)),
+                between: summarise(&between)?,
+                between_intervals: intervals(&between, &clusters, options.resamples, &mut rng(OF_TWO)),
+            });
+        }
+        analysis.notes = analysis.remarks(rows);
+        Some(analysis)
+    }
+
+    fn remarks(&self, rows: &[ValidationRow]) -> Vec<String> {
+        let mut notes = Vec::new();
+        // Half a pixel is what the conventions of the field differ by.
+        if let Some([x, y]) = self.summary.offset_px
+            && x.abs().min(y.abs()) > 0.3
+            && x * y > 0.
+        {
+            notes.push(format!(
+                "detections lie {x:+.2} px in x and {y:+.2} px in y from their marks on average: if one of the two \
+                 counts pixels from elsewhere, say so with --origin (marks) or --detections-origin"
+            ));
+        }
+        if self.groups.is_empty() {
+            notes.push(
+                "intervals take images as independent: if subjects have several, give --group-by or --group-table"
+                    .into(),
+            );
+        }
+        let unscored = rows.iter().filter(|r| r.judged.is_none()).count();
+        if unscored > 0 && unscored < rows.len() {
+            notes.push(format!(
+                "detections of {unscored} of {} images have no scores: no FROC curve, no reliability",
+                rows.len()
+            ));
+        }
+        if self.froc.is_some() && self.reliability.is_none() {
+            notes.push(
+                "scores are not all between 0 and 1, so no probabilities: no reliability, and the FROC curve takes them \
+                 to be comparable between images"
+                    .into(),
+            );
+        }
+        notes
+    }
+
+    /// The tables that a person reads, each with its heading.
+    pub fn tables(&self) -> Vec<(&'static str, TextTable)> {
+        let mut tables = vec![
+            ("Accuracy", accuracy_table(&self.summary, &self.intervals)),
+            (
+                "Agreement with the marks",
+                agreement_table("detections − marks", &self.summary, &self.intervals),
+            ),
+        ];
+        if !self.groups.is_empty() {
+            tables.push(("Groups", group_table(&self.groups, self.over_groups.as_ref())));
+        }
+        if let Some(froc) = &self.froc {
+            let table = threshold_table(froc, self.reliability.as_ref(), self.false_alarms);
+            tables.push(("Score", table));
+        }
+        if let Some(c) = &self.comparison {
+            tables.push(("Comparison", comparison_table(&c.first, &c.second, &c.differences)));
+            let between = agreement_table("first − second", &c.between, &c.between_intervals);
+            tables.push(("Agreement of the two", between));
+        }
+        tables
+    }
+}
+
+/// Scores of what counts, and whether it was a hit.
+fn counted(images: &[JudgedImage]) -> Vec<(f64, bool)> {
+    let all = images.iter().flat_map(|image| &image.judged);
+    all.filter_map(|j| match j.verdict {
+        Verdict::Hit => Some((j.score, true)),
+        Verdict::FalseAlarm => Some((j.score, false)),
+        Verdict::Excuse | Verdict::Nothing => None,
+    })
+    .collect()
+}
+
+fn method(groups: &[GroupSummary], resamples: usize) -> String {
+    if groups.is_empty() {
+        format!(
+            "95 % intervals: BCa bootstrap, {resamples} resamples of images; of bias and limits, from t (Bland & Altman 1999)"
+        )
+    } else {
+        format!("95 % intervals: BCa bootstrap, {resamples} resamples of the {} groups", groups.len())
+    }
+}

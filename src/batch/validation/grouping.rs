@@ -1,0 +1,79 @@
+use crate::mosaic::io::GroupTable;
+use regex_lite::Regex;
+use std::str::FromStr;
+
+/// Which images belong together, by their names.
+#[derive(Clone, Debug)]
+pub enum Grouping {
+    /// The first so many parts of the name between underscores.
+    Prefix(usize),
+    /// What the first group of a regular expression matches; without a group, what all of it does.
+    Pattern(Regex),
+    /// A table of names and groups.
+    Table(GroupTable),
+}
+
+impl FromStr for Grouping {
+    type Err = String;
+
+    /// `prefix:N` or a regular expression.
+    fn from_str(text: &str) -> Result<Self, String> {
+        if let Some(count) = text.strip_prefix("prefix:") {
+            return match count.parse() {
+                Ok(parts) if parts > 0 => Ok(Self::Prefix(parts)),
+                _ => Err(format!("“{text}”: expected prefix:N, N being 1 or more")),
+            };
+        }
+        let pattern = Regex::new(text)
+            .map_err(|e| format!("“{text}” is neither prefix:N nor a regular expression: {e}"))?;
+        Ok(Self::Pattern(pattern))
+    }
+}
+
+impl Grouping {
+    /// The group of the image called `name`.
+    ///
+    /// # Errors
+    /// If the name does not match or is not in the table: what to do about it.
+    pub fn group_of(&self, name: &str) -> Result<String, String> {
+        match self {
+            Self::Prefix(parts) => Ok(name.split('_').take(*parts).collect::<Vec<_>>().join("_")),
+            Self::Pattern(pattern) => {
+                let found = pattern.captures(name);
+                let group = found.as_ref().and_then(|c| c.get(1).or_else(|| c.get(0)));
+                group.map(|g| g.as_str().to_owned()).filter(|g| !g.is_empty()).ok_or_else(|| {
+                    format!("“{name}” has no match for {pattern}: give a --group-by that fits every name")
+                })
+            }
+            Self::Table(table) => table
+                .group_of(name)
+                .map(str::to_owned)
+                .ok_or_else(|| format!("no row of {} is how “{name}” begins: add it", table.file())),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn group(rule: &str, name: &str) -> Result<String, String> {
+        rule.parse::<Grouping>()?.group_of(name)
+    }
+
+    #[test]
+    fn groups_come_from_the_name() {
+        let name = "AD_10253_790nm_OS_1";
+        assert_eq!(group("prefix:2", name).unwrap(), "AD_10253");
+        assert_eq!(group("prefix:9", name).unwrap(), name);
+        assert_eq!(group(r"^[A-Z]+_(\d+)_", name).unwrap(), "10253");
+        assert_eq!(group(r"O[DS]", name).unwrap(), "OS");
+    }
+
+    #[test]
+    fn names_without_a_group_say_what_to_do() {
+        assert!(group("prefix:0", "a").unwrap_err().contains("1 or more"));
+        assert!(group("(", "a").unwrap_err().contains("regular expression"));
+        assert!(group("x", "a").unwrap_err().contains("--group-by"));
+    }
+}

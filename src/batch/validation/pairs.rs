@@ -1,0 +1,77 @@
+use super::{Detected, ValidationOptions};
+use crate::batch::inputs::coordinate_files;
+use crate::batch::pairing::{image_beside, image_in, image_name, says_coords};
+use crate::batch::{BatchError, Input};
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+
+/// Which files belong to a file of marks.
+#[derive(Clone, Copy)]
+pub(super) struct Pairs<'a> {
+    pub reference: &'a Path,
+    pub options: &'a ValidationOptions,
+}
+
+impl Pairs<'_> {
+    /// The files of marks, one an image and called like it, and what else lies there: a file counts if it is called
+    /// `…_coords` or an image or a detection has its name.
+    pub fn marks(&self, out: &Path) -> Result<(Vec<Input>, Vec<PathBuf>), BatchError> {
+        let files = coordinate_files(&[self.reference.to_owned()], Some(out))?;
+        let belongs = |input: &Input| {
+            says_coords(&input.path)
+                || image_beside(&input.path).is_some()
+                || self.image(&input.path).is_some()
+                || self.detections(&input.path, &self.options.detected).is_some()
+        };
+        let (mut marks, ignored): (Vec<Input>, Vec<Input>) = files.into_iter().partition(belongs);
+        let twice: Vec<PathBuf> =
+            marks.iter().filter(|m| says_coords(&m.path)).map(|m| m.path.clone()).collect();
+        marks.retain(|m| {
+            says_coords(&m.path)
+                || !twice
+                    .iter()
+                    .any(|t| t.parent() == m.path.parent() && image_name(t) == image_name(&m.path))
+        });
+        if marks.is_empty() {
+            let paths = self.reference.display().to_string();
+            let expected = "NAME_coords.csv, or NAME.csv beside NAME.png or NAME.tif";
+            return Err(BatchError::Nothing { what: "hand marks", paths, expected });
+        }
+        let mut taken: HashSet<String> = marks.iter().map(|m| m.name.clone()).collect();
+        for mark in &mut marks {
+            if let Some(short) = mark.name.strip_suffix("_coords")
+                && taken.insert(short.to_owned())
+            {
+                mark.name = short.to_owned();
+            }
+        }
+        Ok((marks, ignored.into_iter().map(|i| i.path).collect()))
+    }
+
+    /// The image that belongs to a file of marks.
+    pub fn image(&self, marks: &Path) -> Option<PathBuf> {
+        match &self.options.images {
+            Some(folder) => {
+                self.places(marks, folder).into_iter().find_map(|f| image_in(&f, &image_name(marks)))
+            }
+            None => image_beside(marks),
+        }
+    }
+
+    /// The file of detections that belongs to a file of marks, never that file itself.
+    pub fn detections(&self, marks: &Path, detected: &Detected) -> Option<PathBuf> {
+        let Detected::Folder { folder, .. } = detected else { return None };
+        let name = image_name(marks);
+        let own = marks.canonicalize().ok();
+        self.places(marks, folder)
+            .into_iter()
+            .flat_map(|f| [f.join(format!("{name}.csv")), f.join(format!("{name}_coords.csv"))])
+            .find(|path| path.is_file() && path.canonicalize().ok() != own)
+    }
+
+    /// The folder that lies below the one given as the marks lie below the reference, and the one given.
+    fn places(&self, marks: &Path, folder: &Path) -> [PathBuf; 2] {
+        let below = marks.parent().and_then(|p| p.strip_prefix(self.reference).ok()).unwrap_or(Path::new(""));
+        [folder.join(below), folder.to_owned()]
+    }
+}

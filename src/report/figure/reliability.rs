@@ -1,0 +1,89 @@
+use super::canvas::{Anchor, Area, Canvas, FRAME, Ranges, Style, round_above};
+use super::panels::{two_areas, two_panels};
+use crate::compare::{Reliability, ReliabilityBin};
+use crate::report::significant;
+
+const DESCRIPTION: &str = "Left: in every bin of the score the part of the detections that are hits, with its 95 % interval; \
+    on the diagonal the score is the probability of a hit; bars show how many detections a bin holds. Right: false alarms \
+    of every image, expected from the scores and observed.";
+
+const BARS: &str = "#d9d9d9";
+const DOTS: &str = "#0072B2";
+const DOT_OPACITY: f64 = 0.45;
+/// Height of the largest bar, as a part of the plot.
+const BAR_HEIGHT: f64 = 0.3;
+
+/// What the figure of reliability shows.
+#[derive(Clone, Copy, Debug)]
+pub struct ReliabilityFigure<'a> {
+    /// Above the panels.
+    pub title: &'a str,
+    /// Bins of the score.
+    pub reliability: &'a Reliability,
+    /// False alarms of every image: expected, and observed.
+    pub alarms: &'a [(f64, f64)],
+}
+
+/// Draws the reliability diagram (DeGroot & Fienberg 1983) and expected against observed false alarms, 180 mm wide, as a
+/// self-contained SVG.
+pub fn reliability_figure(figure: &ReliabilityFigure) -> String {
+    let mut canvas = two_panels(figure.title);
+    let [left, right] = two_areas();
+    diagram(&mut canvas, left, figure.reliability);
+    alarms(&mut canvas, right, figure.alarms);
+    canvas.into_svg(figure.title, DESCRIPTION)
+}
+
+fn diagram(canvas: &mut Canvas, area: Area, reliability: &Reliability) {
+    let unit = (0., 1.);
+    let place = canvas.axes(
+        area,
+        Ranges { x: unit, y: unit },
+        ("score", "part of the detections that are hits"),
+        0.2,
+    );
+    let most = reliability.bins.iter().map(|b| b.n).max().unwrap_or(0).max(1);
+    for bin in reliability.bins.iter().filter(|b| b.n > 0) {
+        let height = BAR_HEIGHT * bin.n as f64 / most as f64;
+        let ((left, top), (right, bottom)) = (place(bin.from, height), place(bin.to, 0.));
+        canvas.bar(Area { x: left, y: top, width: right - left, height: bottom - top }, BARS);
+    }
+    canvas.polyline(vec![place(0., 0.), place(1., 1.)], FRAME, 0.8, Some("4 3"));
+    for bin in &reliability.bins {
+        if let (Some(score), Some(hits), Some([low, high])) = (bin.mean_score, bin.hits, bin.hits_interval) {
+            canvas.line(place(score, low), place(score, high), DOTS, 1.2);
+            canvas.coloured_dots(&[place(score, hits)], 3., DOTS, None);
+        }
+    }
+    let notes = [
+        format!("calibration error {}", significant(reliability.expected_calibration_error, 2)),
+        format!("Brier score {}", significant(reliability.brier, 2)),
+        format!("largest bar: {most} of {}", reliability.n),
+    ];
+    // Dots of scores that are too low stand above the diagonal; then the notes go below it, over the bars.
+    let gap = |b: &ReliabilityBin| Some(b.n as f64 * (b.hits? - b.mean_score?));
+    let above = reliability.bins.iter().filter_map(gap).sum::<f64>() > 0.05 * reliability.n as f64;
+    let (x, y, anchor) = if above {
+        (area.right() - 6., area.y + 0.52 * area.height, Anchor::End)
+    } else {
+        (area.x + 6., area.y + 9., Anchor::Start)
+    };
+    for (k, note) in notes.iter().enumerate() {
+        canvas.text(x, y + 11. * k as f64, note, Style::Note, anchor);
+    }
+}
+
+fn alarms(canvas: &mut Canvas, area: Area, alarms: &[(f64, f64)]) {
+    let most = alarms.iter().flat_map(|a| [a.0, a.1]).filter(|v| v.is_finite()).fold(1., f64::max) * 1.06;
+    let ranges = Ranges { x: (0., most), y: (0., most) };
+    let labels = ("false alarms expected: Σ (1 − score)", "false alarms observed");
+    let place = canvas.axes(area, ranges, labels, round_above((most / 5.).max(1.)));
+    canvas.polyline(vec![place(0., 0.), place(most, most)], FRAME, 0.8, Some("4 3"));
+    let finite = alarms.iter().filter(|a| a.0.is_finite() && a.1.is_finite());
+    let centres: Vec<_> = finite.map(|a| place(a.0, a.1)).collect();
+    canvas.coloured_dots(&centres, 2.2, DOTS, Some(DOT_OPACITY));
+    let n = alarms.len().max(1) as f64;
+    let mean = |value: fn(&(f64, f64)) -> f64| significant(alarms.iter().map(value).sum::<f64>() / n, 3);
+    let note = format!("per image: {} expected, {} observed", mean(|a| a.0), mean(|a| a.1));
+    canvas.text(area.x + 6., area.y + 9., &note, Style::Note, Anchor::Start);
+}

@@ -1,0 +1,174 @@
+use super::{significant, table};
+use crate::compare::{
+    Agreement, Difference, Froc, GroupSummary, Interval, MeanOverGroups, Reliability, Summary,
+};
+use std::collections::BTreeMap;
+
+/// A table to be read, on a terminal or on a page. Units stand in its headers or first cells.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TextTable {
+    /// One a column.
+    pub header: Vec<String>,
+    /// As many cells as the header.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl TextTable {
+    fn new(header: &[&str], rows: Vec<Vec<String>>) -> Self {
+        Self { header: header.iter().map(|h| (*h).to_owned()).collect(), rows }
+    }
+
+    /// As plain text.
+    pub fn to_text(&self) -> String {
+        let header: Vec<&str> = self.header.iter().map(String::as_str).collect();
+        table(&header, &self.rows)
+    }
+}
+
+/// 95 % intervals by what they are of, as [`intervals`](crate::compare::intervals) names them.
+type Intervals = BTreeMap<&'static str, Interval>;
+
+const NONE: &str = "–";
+
+/// A rate: four decimals.
+fn rate(value: f64) -> String {
+    format!("{value:.4}")
+}
+
+fn three(value: f64) -> String {
+    significant(value, 3)
+}
+
+fn between(interval: Option<Interval>, number: fn(f64) -> String) -> String {
+    interval.map_or(NONE.into(), |[low, high]| format!("{} to {}", number(low), number(high)))
+}
+
+/// Sensitivity, false discovery rate, precision, Dice and localisation error.
+pub fn accuracy_table(summary: &Summary, intervals: &Intervals) -> TextTable {
+    let interval = |name: &str| intervals.get(name).copied();
+    let (mean, pooled) = (summary, &summary.pooled);
+    let mut rows: Vec<Vec<String>> = [
+        ("sensitivity (recall)", "sensitivity", mean.sensitivity, pooled.sensitivity),
+        ("FDR (false discovery rate)", "fdr", mean.fdr, pooled.fdr),
+        ("precision (1 − FDR)", "precision", mean.precision, pooled.precision),
+        ("Dice (= F1)", "dice", mean.dice, pooled.dice),
+    ]
+    .into_iter()
+    .map(|(label, name, mean, pooled)| {
+        let of_pooled = interval(&format!("pooled.{name}"));
+        vec![
+            label.to_owned(),
+            rate(mean),
+            between(interval(name), rate),
+            rate(pooled),
+            between(of_pooled, rate),
+        ]
+    })
+    .collect();
+    for (label, name, value) in [
+        ("localisation error, px", "localisation_px", summary.localisation_px),
+        ("localisation error, µm", "localisation_um", summary.localisation_um),
+        ("localisation error, cone spacings", "localisation_s", summary.localisation_s),
+    ] {
+        let Some(value) = value else { continue };
+        rows.push(vec![
+            label.to_owned(),
+            three(value),
+            between(interval(name), three),
+            String::new(),
+            String::new(),
+        ]);
+    }
+    TextTable::new(&["", "mean over images", "95 % interval", "all cones pooled", "95 % interval"], rows)
+}
+
+/// Bland–Altman statistics of count and density; `difference` says of what: “detections − marks”.
+pub fn agreement_table(difference: &str, summary: &Summary, intervals: &Intervals) -> TextTable {
+    let agreements = [("count", summary.count), ("density_percent", summary.density_percent)];
+    let row = |label: &str, of: &str, value: fn(&Agreement) -> Option<f64>| {
+        let cells = agreements.iter().flat_map(|(name, agreement)| {
+            let interval = intervals.get(&*format!("{name}.{of}")).copied();
+            [
+                agreement.as_ref().and_then(value).map_or(NONE.into(), three),
+                if of.is_empty() { String::new() } else { between(interval, three) },
+            ]
+        });
+        [label.to_owned()].into_iter().chain(cells).collect()
+    };
+    let rows = vec![
+        row("bias (mean)", "bias", |a| Some(a.bias)),
+        row("lower limit of agreement", "lower_limit", |a| Some(a.limits?[0])),
+        row("upper limit of agreement", "upper_limit", |a| Some(a.limits?[1])),
+        row("standard deviation", "", |a| a.sd),
+    ];
+    let header =
+        [difference, "count, cones per image", "95 % interval", "density, % of the mean", "95 % interval"];
+    TextTable::new(&header, rows)
+}
+
+/// One row a group, and the mean over groups.
+pub fn group_table(groups: &[GroupSummary], over: Option<&MeanOverGroups>) -> TextTable {
+    let sd = |value: Option<f64>| value.map_or(NONE.into(), rate);
+    let of_group = |g: &GroupSummary| {
+        let s = &g.summary;
+        let rates = [s.sensitivity, s.fdr, s.precision, s.dice].map(rate);
+        [vec![g.group.clone(), s.images.to_string()], rates.to_vec(), vec![sd(g.dice_sd)]].concat()
+    };
+    let of_all = |m: &MeanOverGroups| {
+        let rates = [m.sensitivity, m.fdr, m.precision, m.dice].map(rate);
+        let name = format!("mean over {} groups", m.groups);
+        [vec![name, String::new()], rates.to_vec(), vec![sd(m.dice_sd)]].concat()
+    };
+    let rows = groups.iter().map(of_group).chain(over.map(of_all)).collect();
+    TextTable::new(&["group", "images", "sensitivity", "FDR", "precision", "Dice", "SD of Dice"], rows)
+}
+
+/// What the score is good for: the threshold of the highest mean Dice, and the reliability of scores.
+pub fn threshold_table(
+    froc: &Froc,
+    reliability: Option<&Reliability>,
+    alarms: Option<(f64, f64)>,
+) -> TextTable {
+    let mut rows = Vec::new();
+    let mut add = |label: &str, value: String| rows.push(vec![label.to_owned(), value]);
+    if let Some(best) = froc.points.get(froc.best) {
+        add("threshold of the highest mean Dice (F1)", three(best.threshold));
+        add("  mean Dice there", rate(best.mean_dice));
+        add("  sensitivity there, pooled", rate(best.sensitivity));
+        add("  precision there, pooled", rate(best.precision));
+        add("  false alarms per image", three(best.false_alarms_per_image));
+        match (best.false_alarms_per_mm2, best.false_alarms_per_100_marks) {
+            (Some(alarms), _) => add("  false alarms per mm²", three(alarms)),
+            (None, Some(alarms)) => add("  false alarms per 100 marks", three(alarms)),
+            (None, None) => {}
+        }
+    }
+    if let Some(found) = reliability {
+        add("expected calibration error of the score", three(found.expected_calibration_error));
+        add("Brier score", three(found.brier));
+    }
+    if let Some((expected, observed)) = alarms {
+        add("false alarms per image expected, Σ (1 − score)", three(expected));
+        add("false alarms per image observed", three(observed));
+    }
+    TextTable::new(&["score of the detections", ""], rows)
+}
+
+/// Paired differences of two detectors or graders.
+pub fn comparison_table(first: &str, second: &str, differences: &[Difference]) -> TextTable {
+    let row = |d: &Difference| {
+        let (label, number): (_, fn(f64) -> String) = match d.measure {
+            "dice" => ("Dice", rate),
+            "sensitivity" => ("sensitivity", rate),
+            "fdr" => ("FDR", rate),
+            "count" => ("count, cones per image", three),
+            "density_per_mm2" => ("density, cones/mm²", three),
+            _ => ("density, cones/px²", three),
+        };
+        let values = [d.first, d.second, d.difference].map(number);
+        let p = d.p.map_or(NONE.into(), |p| significant(p, 2));
+        [vec![label.to_owned()], values.to_vec(), vec![between(d.interval, number), p]].concat()
+    };
+    let rows = differences.iter().map(row).collect();
+    TextTable::new(&["mean over images", first, second, "difference", "95 % interval", "p"], rows)
+}

@@ -1,0 +1,151 @@
+use super::page::{STYLE, in_url};
+use super::{MarkKind, TextTable, counted};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+/// The overlays of so many of the worst images stand on the page; the others are linked.
+const SHOWN: usize = 12;
+
+const MORE_STYLE: &str = "
+.overlays { display: grid; grid-template-columns: repeat(auto-fill, minmax(22rem, 1fr)); gap: 1rem; }
+.overlays img { image-rendering: auto; } figcaption { font-size: .8rem; overflow-wrap: anywhere; }
+.key { display: inline-block; width: .8em; height: .8em; border-radius: 50%; margin: 0 .3em 0 1em; vertical-align: -.05em; }
+";
+
+/// An image on the page.
+#[derive(Clone, Debug)]
+pub struct ScoredImage {
+    /// Its name.
+    pub name: String,
+    /// The cells of its row, behind the name.
+    pub cells: Vec<String>,
+    /// File of its overlay, beside the page.
+    pub overlay: Option<String>,
+}
+
+/// All that the page of a validation shows. Files are beside it.
+#[derive(Clone, Debug, Default)]
+pub struct ValidationPage<'a> {
+    /// Below the title.
+    pub lead: String,
+    /// What a reader must know, each a sentence.
+    pub notes: &'a [String],
+    /// Tables, each under its heading.
+    pub tables: &'a [(&'a str, TextTable)],
+    /// Figures: file and what it shows.
+    pub figures: &'a [(&'a str, String)],
+    /// Other files: name and what it holds.
+    pub files: &'a [(&'a str, &'a str)],
+    /// Headers of the table of images, behind that of the name.
+    pub header: &'a [&'a str],
+    /// The images, worst first.
+    pub images: &'a [ScoredImage],
+    /// Files of marks that could not be scored, and why.
+    pub failures: &'a [(&'a str, &'a str)],
+}
+
+/// The page of a validation: accuracy, agreement, curves, and the images from worst to best.
+pub fn validation_page(page: &ValidationPage) -> String {
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { "Validation of cone detections" }
+                style { (PreEscaped(STYLE)) (PreEscaped(MORE_STYLE)) }
+            }
+            body {
+                h1 { "Validation of cone detections" }
+                p.lead { (page.lead) }
+                @if !page.images.is_empty() { nav { a href="#images" { "Images, worst first" } } }
+                @for note in page.notes { p.warning { "⚠ " (note) } }
+                @if !page.failures.is_empty() {
+                    h2.warning { (counted(page.failures.len(), "file")) " of marks failed" }
+                    ul { @for (file, reason) in page.failures { li title=(file) { (reason) } } }
+                }
+                @for (heading, table) in page.tables { h2 { (heading) } div.scroll { (table_of(table)) } }
+                @for (file, words) in page.figures {
+                    figure { img src=(in_url(file)) alt=(words); figcaption { (words) } }
+                }
+                @if !page.images.is_empty() { (images(page)) }
+                p {
+                    "Files: "
+                    @for (k, (file, words)) in page.files.iter().enumerate() {
+                        @if k > 0 { "; " } a href=(in_url(file)) { (file) } ", " (words)
+                    }
+                    "."
+                }
+            }
+        }
+    }
+    .into_string()
+}
+
+fn table_of(table: &TextTable) -> Markup {
+    html! {
+        table {
+            thead { tr { @for cell in &table.header { th { (cell) } } } }
+            tbody { @for row in &table.rows { tr { @for cell in row { td { (cell) } } } } }
+        }
+    }
+}
+
+fn images(page: &ValidationPage) -> Markup {
+    let shown = page.images.iter().take(SHOWN).filter_map(|i| i.overlay.as_ref().map(|o| (i, o)));
+    let shown: Vec<_> = shown.collect();
+    html! {
+        h2 id="images" { "Images: what needs a human first" }
+        @if !shown.is_empty() {
+            p {
+                @for (kind, words) in [
+                    (MarkKind::Hit, "hit (ring)"),
+                    (MarkKind::Miss, "miss (plus)"),
+                    (MarkKind::FalseAlarm, "false alarm (cross)"),
+                    (MarkKind::Uncounted, "in the dark border, not counted"),
+                ] { span.key style=(format!("background:{}", hex(kind.colour()))) {} (words) }
+            }
+            div.overlays {
+                @for (image, overlay) in shown {
+                    figure {
+                        a href=(in_url(overlay)) { img loading="lazy" src=(in_url(overlay)) alt=(format!("Overlay of {}", image.name)); }
+                        figcaption { (image.name) }
+                    }
+                }
+            }
+        }
+        div.scroll {
+            table {
+                thead { tr { th { "image" } @for cell in page.header { th { (cell) } } } }
+                tbody { @for image in page.images { tr {
+                    td title=(image.name) {
+                        @if let Some(overlay) = &image.overlay { a href=(in_url(overlay)) { (image.name) } } @else { (image.name) }
+                    }
+                    @for cell in &image.cells { td { (cell) } }
+                } } }
+            }
+        }
+    }
+}
+
+fn hex([r, g, b]: [u8; 3]) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_of_others_are_text_and_not_markup() {
+        let images =
+            [ScoredImage { name: "<b>".into(), cells: vec!["1".into()], overlay: Some("a b#.png".into()) }];
+        let text = validation_page(&ValidationPage {
+            header: &["Dice"],
+            images: &images,
+            failures: &[("a", "it is <broken>")],
+            ..ValidationPage::default()
+        });
+        assert!(text.starts_with("<!DOCTYPE html>") && text.contains("it is &lt;broken&gt;"));
+        assert!(text.contains("&lt;b&gt;") && text.contains("a%20b%23.png"));
+    }
+}
