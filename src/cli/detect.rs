@@ -1,13 +1,14 @@
 use super::Done;
 use super::common::Common;
 use super::scale::ScaleArgs;
-use anyhow::Result;
+use anyhow::{Context, Result};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use conemosaic::batch::{DetectionExtras, detect_files, image_files};
-use conemosaic::detect::{DetectOptions, Detector, Modality, Polarity};
+use conemosaic::detect::{DetectOptions, Detector, Modality, Polarity, UserModel};
 use conemosaic::report::counted;
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 /// What may be fixed about detection; the defaults decide everything from the image.
 #[derive(Args)]
@@ -24,6 +25,31 @@ pub struct DetectArgs {
     /// Cone spacing in px (4–40) to start from [default: from Yellott's ring]
     #[arg(long, value_name = "PX")]
     spacing: Option<f64>,
+    /// A network of your own: .safetensors or .onnx (see `conemosaic detect --help`)
+    #[arg(long, value_name = "FILE")]
+    model: Option<PathBuf>,
+}
+
+/// What a user's own network must look like.
+const MODELS: &str = "\
+A network of your own (--model FILE), for images of the modality it was made for:
+  .safetensors  as scripts/train-detector writes it
+  .onnx         in programs built with `--features onnx`. Input: float32, 1×1×H×W, H and W left open
+                (they will be multiples of 32): the image resampled so that cones are 8 px apart, less its
+                Gaussian mean (σ 8 px), over its Gaussian contrast (σ 12 px), bright cones positive.
+                Output: float32, 1×1×H×W: how surely a cone's centre lies in each pixel.
+                Metadata, all optional (onnx.helper.set_model_props):
+                  spacing      px between cones in its input [8]
+                  output       probability or logit [probability]
+                  threshold    probability from which on a maximum is a cone [0.5]
+                  suppression  shortest distance of two cones, in spacings [0.5]
+                  modality     confocal, split or histology [every image]
+";
+
+fn read_model(path: &Path) -> Result<UserModel> {
+    let name = path.display().to_string();
+    let bytes = fs::read(path).with_context(|| format!("{name} cannot be read"))?;
+    UserModel::new(&name, &bytes).context(name)
 }
 
 fn or_auto<const N: usize>(names: [&'static str; N]) -> PossibleValuesParser {
@@ -45,6 +71,7 @@ impl DetectArgs {
                 .map_err(anyhow::Error::msg)?,
             detector: self.detector.parse::<Detector>().map_err(anyhow::Error::msg)?,
             spacing: self.spacing,
+            model: self.model.as_deref().map(read_model).transpose()?,
         };
         options.validate()?;
         Ok(options)
@@ -53,7 +80,7 @@ impl DetectArgs {
 
 /// Finds cones: images → coordinate CSVs
 #[derive(Args)]
-#[command(after_help = "\
+#[command(after_help = format!("\
 Example:
   conemosaic detect images --out cones --overlay
 
@@ -63,7 +90,9 @@ Writes to cones/:
                      probability, 0–1, that a person would mark a cone there
   NAME.overlay.png   with --overlay: the image with its cones marked
   NAME.rejected.csv  with --rejected: the same for candidates that were too faint
-  failures.csv       images that failed, if any; then the exit code is 2")]
+  failures.csv       images that failed, if any; then the exit code is 2
+
+{MODELS}"))]
 pub struct Detect {
     /// Images (PNG, TIFF; 8 or 16 bit, grey or colour) and folders of them
     #[arg(required = true)]

@@ -134,7 +134,7 @@ impl Validate {
             None if self.detections_origin != Origin::Zero => {
                 bail!("--detections-origin {}: there are no --detections", self.detections_origin)
             }
-            None => Detected::Detector(detect),
+            None => Detected::Detector(detect.clone()),
         };
         let versus = match (&self.versus, &self.versus_detector) {
             (Some(given), _) => Some(folder(given, self.versus_origin)),

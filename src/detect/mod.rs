@@ -16,7 +16,7 @@ mod types;
 
 pub use filter::{Criterion, RelativeThreshold, response};
 pub use flatten::flatten;
-pub use learned::{WeightsError, weights};
+pub use learned::{UserModel, WeightsError, weights};
 pub use maxima::local_maxima;
 pub use options::{DetectOptions, Detector};
 pub use spacing::{BORDER, RingEstimate, RingProfile, SPACING_RANGE, SpacingMap, refined};
@@ -69,6 +69,27 @@ pub enum DetectError {
     /// No network has been trained for this modality.
     #[error("there is no learned detector for {0} images: use classical or auto")]
     NotLearned(Modality),
+    /// A model that would not be used.
+    #[error("the classical detector uses no model: leave out the one or the other")]
+    Unused,
+    /// A model for other images than these.
+    #[error("{name} is a model of {own} images: it is not used on {given} ones")]
+    OtherModality {
+        /// The model, as it was given.
+        name: String,
+        /// What it was made for.
+        own: Modality,
+        /// What the images are said to be.
+        given: Modality,
+    },
+    /// The user's model fails.
+    #[error("{name}: {source}")]
+    Model {
+        /// As it was given.
+        name: String,
+        /// What is wrong with it.
+        source: WeightsError,
+    },
     /// The weights in the program are damaged.
     #[error("the learned detector of {modality} images cannot be read: {source}")]
     Weights {
@@ -108,21 +129,25 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
         modality::decide(rings.sample(), rings.whole(), options.modality, options.polarity);
     let ring = rings.whole().spacing(modality);
     let start = options.spacing.map_or_else(|| rings.map(modality), SpacingMap::constant);
-    let filtered = |part: &Plane, spacing: f64| filter::cones(part, modality, polarity, spacing);
-    let (mut found, mut map) = field.until_settled(&start, SETTLED, filtered);
+    let filtered = |part: &Plane, spacing: f64| Ok(filter::cones(part, modality, polarity, spacing));
+    let (mut found, mut map) = field.until_settled(&start, SETTLED, filtered)?;
     if options.spacing.is_none()
         && let Some(shown) = contradiction(&found.centres(), image.dim(), field.empty, start.typical())
     {
         // ring and density cannot both be right: the more regular mosaic is
-        let other = field.until_settled(&SpacingMap::constant(shown), SETTLED, filtered);
+        let other = field.until_settled(&SpacingMap::constant(shown), SETTLED, filtered)?;
         if other.0.regularity(image.dim()) > found.regularity(image.dim()) {
             (found, map) = other;
         }
     }
-    let model = model_for(options.detector, modality)?;
+    let model = model_for(options, modality)?;
     if let Some(model) = model {
-        (found, map) =
-            field.until_settled(&map, LEARNED_SETTLED, |part, spacing| model.cones(part, polarity, spacing));
+        (found, map) = field.until_settled(&map, LEARNED_SETTLED, |part, spacing| {
+            model.cones(part, polarity, spacing).map_err(|source| match &options.model {
+                Some(own) => DetectError::Model { name: own.name().to_owned(), source },
+                None => DetectError::Weights { modality, source },
+            })
+        })?;
     }
     Ok(Detections {
         cones: found.cones,
@@ -138,9 +163,12 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
 }
 
 /// The network to use, or none for the classical filters.
-fn model_for(detector: Detector, modality: Modality) -> Result<Option<&'static learned::Model>, DetectError> {
+fn model_for(options: &DetectOptions, modality: Modality) -> Result<Option<&learned::Model>, DetectError> {
+    if let Some(model) = options.model.as_ref().and_then(|m| m.for_modality(modality)) {
+        return Ok(Some(model));
+    }
     let model = || learned::model(modality).map_err(|source| DetectError::Weights { modality, source });
-    match detector {
+    match options.detector {
         Detector::Classical => Ok(None),
         Detector::Auto if !learned::is_better(modality) => Ok(None),
         Detector::Auto => model(),

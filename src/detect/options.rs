@@ -1,4 +1,4 @@
-use super::{DetectError, Modality, Polarity};
+use super::{DetectError, Modality, Polarity, UserModel};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -48,7 +48,7 @@ impl FromStr for Detector {
 }
 
 /// What a user may fix about detection; by default everything is decided from the image.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct DetectOptions {
     /// How the image was taken; `None`: decided from the image.
     pub modality: Option<Modality>,
@@ -58,12 +58,23 @@ pub struct DetectOptions {
     pub detector: Detector,
     /// Cone spacing in px (4–40) to start from instead of Yellott's ring; `None`: the ring.
     pub spacing: Option<f64>,
+    /// A network of the user's own, in place of the program's for the modality it was made for.
+    pub model: Option<UserModel>,
 }
 
 impl DetectOptions {
     /// # Errors
-    /// If the spacing is out of its range.
+    /// If the spacing is out of its range, or a model is given that these options do not use.
     pub fn validate(&self) -> Result<(), DetectError> {
+        if self.model.is_some() && self.detector == Detector::Classical {
+            return Err(DetectError::Unused);
+        }
+        if let (Some(model), Some(given)) = (&self.model, self.modality)
+            && let Some(own) = model.modality()
+            && own != given
+        {
+            return Err(DetectError::OtherModality { name: model.name().to_owned(), own, given });
+        }
         let (low, high) = super::SPACING_RANGE;
         match self.spacing {
             Some(s) if !(low..=high).contains(&s) => Err(DetectError::Spacing(s)),

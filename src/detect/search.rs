@@ -1,9 +1,9 @@
 //! Searches an image at a spacing that may vary from place to place, and again at the spacing that its own detections show.
 
-use super::Detection;
 use super::spacing::{SpacingMap, refined_map};
 use super::suppress::{by_score, suppress_sorted};
 use super::tiles::{Tile, tiles};
+use super::{DetectError, Detection};
 use crate::geometry::{Point, Window, nearest_neighbours};
 use crate::image::{EmptyPixels, Plane, crop};
 use rayon::prelude::*;
@@ -56,6 +56,11 @@ impl Found {
     }
 }
 
+/// Finds cones in a part of an image at a spacing, px.
+pub(super) trait Find: Fn(&Plane, f64) -> Result<Found, DetectError> {}
+
+impl<F: Fn(&Plane, f64) -> Result<Found, DetectError>> Find for F {}
+
 /// An image whose empty pixels are filled, and which those are.
 #[derive(Clone, Copy)]
 pub(super) struct Field<'a> {
@@ -65,29 +70,32 @@ pub(super) struct Field<'a> {
 
 impl Field<'_> {
     /// What `find(part, spacing)` finds in all tiles over which one spacing serves. Nothing lies where nothing was imaged.
-    fn search(&self, map: &SpacingMap, find: &(impl Fn(&Plane, f64) -> Found + Sync)) -> Found {
+    fn search(&self, map: &SpacingMap, find: &(impl Find + Sync)) -> Result<Found, DetectError> {
         let (height, width) = self.image.dim();
         let tiles = tiles(width, height, map);
         let mut found = match &tiles[..] {
-            [tile] => find(self.image, tile.spacing),
-            _ => merged(tiles.par_iter().map(|tile| self.search_tile(tile, find)).collect(), map),
+            [tile] => find(self.image, tile.spacing)?,
+            _ => {
+                let parts = tiles.par_iter().map(|tile| self.search_tile(tile, find));
+                merged(parts.collect::<Result<_, _>>()?, map)
+            }
         };
         if let Some(empty) = self.empty {
             found.retain(|d| !empty.contains((d.centre.x + 0.5) as usize, (d.centre.y + 0.5) as usize));
         }
-        found
+        Ok(found)
     }
 
-    fn search_tile(&self, tile: &Tile, find: &impl Fn(&Plane, f64) -> Found) -> Found {
+    fn search_tile(&self, tile: &Tile, find: &impl Find) -> Result<Found, DetectError> {
         let seen = tile.seen;
         let core = tile.core;
         if self.empty.is_some_and(|e| e.part(core.left, core.top, core.right, core.bottom) == 1.) {
-            return Found::default();
+            return Ok(Found::default());
         }
         let part = crop(self.image, seen.top, seen.left, seen.height(), seen.width());
-        let mut found = find(&part, tile.spacing).moved(seen.left, seen.top);
+        let mut found = find(&part, tile.spacing)?.moved(seen.left, seen.top);
         found.retain(|d| core.contains(d.centre, OVERLAP * tile.spacing));
-        found
+        Ok(found)
     }
 
     /// What is found at the spacing `start`, and again at the spacing that the density of what was found shows, until that changes
@@ -96,13 +104,13 @@ impl Field<'_> {
         &self,
         start: &SpacingMap,
         settled: f64,
-        find: impl Fn(&Plane, f64) -> Found + Sync,
-    ) -> (Found, SpacingMap) {
+        find: impl Find + Sync,
+    ) -> Result<(Found, SpacingMap), DetectError> {
         let (height, width) = self.image.dim();
         let mut map = start.clone();
         let mut found = Found::default();
         for _ in 0..PASSES {
-            found = self.search(&map, &find);
+            found = self.search(&map, &find)?;
             let next = refined_map(&found.centres(), width, height, self.empty, start);
             let settled = if next.is_constant() { settled } else { MAP_SETTLED };
             let done = next.change_from(&map) < settled;
@@ -111,7 +119,7 @@ impl Field<'_> {
                 break;
             }
         }
-        (found, map)
+        Ok((found, map))
     }
 }
 

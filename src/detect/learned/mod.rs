@@ -5,8 +5,12 @@ mod convolution;
 mod input;
 mod maps;
 mod network;
+#[cfg(feature = "onnx")]
+mod onnx;
+mod user;
 mod weights;
 
+pub use user::UserModel;
 pub use weights::WeightsError;
 
 use super::calibration::Logistic;
@@ -14,7 +18,7 @@ use super::search::Found;
 use super::{Detection, Modality, Polarity, local_maxima, suppress};
 use crate::geometry::Point;
 use crate::image::Plane;
-use network::Network;
+use std::ops::RangeInclusive;
 use std::sync::OnceLock;
 use weights::Weights;
 
@@ -26,6 +30,9 @@ pub const fn weights() -> [&'static [u8]; 2] {
     [CONFOCAL, SPLIT]
 }
 
+/// Spacings that a model can be made for, in px, and radii of suppression, in spacings.
+const SPACING: RangeInclusive<f64> = 2. ..=64.;
+const SUPPRESSION: RangeInclusive<f64> = 0.1..=2.;
 /// Logits below are never cones.
 const CANDIDATE: f32 = -4.5;
 /// The rank, among the stronger maxima, that an image-relative threshold is counted from.
@@ -40,6 +47,16 @@ pub(super) struct Model {
     threshold: Threshold,
     /// Of two maxima nearer to each other than this, in units of the spacing, the lower one goes.
     suppression: f64,
+    /// The images it is for; `None`: all.
+    modality: Option<Modality>,
+}
+
+/// What gives the logit of a cone's centre for every pixel.
+#[derive(Debug)]
+enum Network {
+    Own(network::Network),
+    #[cfg(feature = "onnx")]
+    Onnx(Box<onnx::Onnx>),
 }
 
 /// From which logit on a maximum is a cone.
@@ -89,25 +106,42 @@ impl Model {
             },
             _ => return Err(WeightsError::Metadata("rule".to_owned())),
         };
-        let spacing = weights.number("spacing")?;
-        if spacing < 1. {
-            return Err(WeightsError::Metadata("spacing".to_owned()));
-        }
+        let number = |key, range, expected| in_range(key, weights.word(key)?, range, expected);
+        let modality = weights.word("modality")?.parse();
         Ok(Self {
-            network: Network::new(&weights)?,
-            spacing,
+            network: Network::Own(network::Network::new(&weights)?),
+            spacing: number("spacing", SPACING, "2–64 px")?,
             threshold,
-            suppression: weights.number("suppression")?,
+            suppression: number("suppression", SUPPRESSION, "0.1–2 spacings")?,
+            modality: Some(modality.map_err(|_| WeightsError::Metadata("modality".to_owned()))?),
         })
     }
 
+    #[cfg(not(feature = "onnx"))]
+    fn onnx(_: &[u8]) -> Result<Self, WeightsError> {
+        Err(WeightsError::NoOnnx)
+    }
+
     /// The cones of an image whose cones are about `spacing` px apart, best first.
-    pub(super) fn cones(&self, image: &Plane, polarity: Polarity, spacing: f64) -> Found {
+    ///
+    /// # Errors
+    /// If a user's model fails.
+    pub(super) fn cones(
+        &self,
+        image: &Plane,
+        polarity: Polarity,
+        spacing: f64,
+    ) -> Result<Found, WeightsError> {
         let step = spacing / self.spacing;
         let seen = input::normalised(&input::resampled(image, step));
         let seen = if polarity == Polarity::Negative { -seen } else { seen };
         let (right, lower) = (image.ncols() as f64 - 0.5, image.nrows() as f64 - 0.5);
-        let maxima = local_maxima(&self.network.logits(&seen), CANDIDATE);
+        let logits = match &self.network {
+            Network::Own(network) => network.logits(&seen),
+            #[cfg(feature = "onnx")]
+            Network::Onnx(network) => network.logits(&seen)?,
+        };
+        let maxima = local_maxima(&logits, self.candidate());
         let threshold = self.threshold_for(&maxima);
         let (mut cones, mut rejected): (Vec<_>, Vec<_>) =
             suppress(maxima, self.suppression * self.spacing).into_iter().partition(|d| d.score > threshold);
@@ -117,7 +151,15 @@ impl Model {
                 Point::new(((x + 0.5) * step - 0.5).min(right), ((y + 0.5) * step - 0.5).min(lower));
             cone.score = Logistic { offset: 0., slope: 1. }.at(cone.score);
         }
-        Found { cones, rejected }
+        Ok(Found { cones, rejected })
+    }
+
+    /// The logit from which on a maximum is looked at.
+    fn candidate(&self) -> f32 {
+        match self.threshold {
+            Threshold::Absolute(logit) => CANDIDATE.min(logit as f32),
+            Threshold::Relative { .. } => CANDIDATE,
+        }
     }
 
     /// From which logit on a maximum is a cone.
@@ -132,6 +174,17 @@ impl Model {
             }
         }
     }
+}
+
+/// A number among a model's metadata.
+fn in_range(
+    key: &'static str,
+    text: &str,
+    range: RangeInclusive<f64>,
+    expected: &'static str,
+) -> Result<f64, WeightsError> {
+    let number = text.parse().ok().filter(|v| range.contains(v));
+    number.ok_or_else(|| WeightsError::value(key, text, expected))
 }
 
 /// The quantile of values in rising order, between two of them linearly; infinite if there are none.
@@ -167,7 +220,7 @@ mod tests {
                 |name, h, w| Plane::from_shape_vec((h, w), weights.tensor(name, &[h, w]).unwrap()).unwrap();
             let image = plane("example.image", 44, 40);
             let seen = input::normalised(&input::resampled(&image, 10. / 8.));
-            let logits = Model::read(file).unwrap().network.logits(&seen);
+            let logits = network::Network::new(&weights).unwrap().logits(&seen);
             let expected = plane("example.logits", 35, 32);
             let difference = logits.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0., f32::max);
             assert!(difference < 1e-4, "{difference}");
@@ -186,8 +239,8 @@ mod tests {
     fn the_reverse_of_an_image_has_the_same_cones_in_the_reverse_polarity() {
         let image = Plane::from_shape_fn((96, 96), |(y, x)| (0.7 * x as f32).sin() * (0.75 * y as f32).cos());
         let model = model(Modality::Confocal).unwrap().unwrap();
-        let found = model.cones(&image, Polarity::Positive, 9.);
+        let found = model.cones(&image, Polarity::Positive, 9.).unwrap();
         assert!(found.cones.len() > 20);
-        assert_eq!(model.cones(&-&image, Polarity::Negative, 9.), found);
+        assert_eq!(model.cones(&-&image, Polarity::Negative, 9.).unwrap(), found);
     }
 }

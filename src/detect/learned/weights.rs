@@ -8,6 +8,25 @@ pub enum WeightsError {
     /// Not in the safetensors format, or cut off.
     #[error("not a safetensors file: {0}")]
     Format(&'static str),
+    /// Neither of the formats that a model can have.
+    #[error("neither a safetensors file of scripts/train-detector nor an ONNX model")]
+    Kind,
+    /// An ONNX model for a program that can run none.
+    #[error("ONNX models need a program built with them: cargo install --path . --features onnx")]
+    NoOnnx,
+    /// The ONNX model cannot be run, or what it says is of no use.
+    #[error("the ONNX model cannot be used: {0}")]
+    Onnx(String),
+    /// A word about the network that is out of range.
+    #[error("its metadata {key} is “{value}”: expected {expected}")]
+    Value {
+        /// Which word.
+        key: &'static str,
+        /// What it says.
+        value: String,
+        /// What it may say.
+        expected: &'static str,
+    },
     /// A word about the network is missing from the header, or is not what it should be.
     #[error("the header's “{0}” is missing or cannot be read")]
     Metadata(String),
@@ -22,6 +41,12 @@ pub enum WeightsError {
         /// The expected shape.
         shape: Vec<usize>,
     },
+}
+
+impl WeightsError {
+    pub(super) fn value(key: &'static str, value: &str, expected: &'static str) -> Self {
+        Self::Value { key, value: value.to_owned(), expected }
+    }
 }
 
 /// A safetensors file: eight bytes of length, a JSON header of that length, then the tensors' bytes.

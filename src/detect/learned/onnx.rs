@@ -1,0 +1,214 @@
+//! ONNX models, run by rten.
+
+use super::{Model, Network, SPACING, SUPPRESSION, Threshold, WeightsError, in_range};
+use crate::detect::Modality;
+use crate::image::{Plane, crop, mirror};
+use rten::{Dimension, RunOptions, ThreadPool, Value};
+use std::fmt;
+use std::sync::Arc;
+
+/// Sides of what the model sees are multiples of this: as far as five halvings go.
+const UNIT: usize = 32;
+/// Probabilities are kept this far from 0 and 1, where the logit is infinite.
+const SURE: f32 = 1e-6;
+
+/// A model and how its answer is to be understood.
+pub(super) struct Onnx {
+    model: rten::Model,
+    options: RunOptions,
+    probability: bool,
+}
+
+impl fmt::Debug for Onnx {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Onnx").field("parameters", &self.model.total_params()).finish_non_exhaustive()
+    }
+}
+
+impl Model {
+    /// The ONNX model in `bytes`, with what its metadata say.
+    ///
+    /// # Errors
+    /// If it cannot be run, has another shape, or its metadata are out of range.
+    pub(super) fn onnx(bytes: &[u8]) -> Result<Self, WeightsError> {
+        let model = rten::Model::load(bytes.to_vec()).map_err(|e| WeightsError::Onnx(e.to_string()))?;
+        let word = |key| model.metadata().get(key);
+        let number = |key, default, range, expected| {
+            let given = word(key).unwrap_or(default);
+            in_range(key, given, range, expected)
+        };
+        let spacing = number("spacing", "8", SPACING, "2–64 px")?;
+        let suppression = number("suppression", "0.5", SUPPRESSION, "0.1–2 spacings")?;
+        let threshold = number("threshold", "0.5", 1e-6..=1. - 1e-6, "a probability between 0 and 1")?;
+        let probability = match word("output") {
+            None | Some("probability") => true,
+            Some("logit") => false,
+            Some(other) => return Err(WeightsError::value("output", other, "probability or logit")),
+        };
+        let modality = word("modality").map(|m| m.parse::<Modality>());
+        let modality = modality.transpose().map_err(|_| WeightsError::Metadata("modality".to_owned()))?;
+        let mut options = RunOptions::default();
+        let threads = rayon::current_num_threads();
+        options.thread_pool = Some(Arc::new(ThreadPool::with_num_threads(threads)));
+        let network = Onnx { model, options, probability };
+        network.check()?;
+        Ok(Self {
+            network: Network::Onnx(Box::new(network)),
+            spacing,
+            threshold: Threshold::Absolute((threshold / (1. - threshold)).ln()),
+            suppression,
+            modality,
+        })
+    }
+}
+
+impl Onnx {
+    /// Whether the model takes one plane of any size and gives one of the same.
+    fn check(&self) -> Result<(), WeightsError> {
+        let (inputs, outputs) = (self.model.input_ids().len(), self.model.output_ids().len());
+        if (inputs, outputs) != (1, 1) {
+            let found = format!("it has {inputs} inputs and {outputs} outputs, expected one of each");
+            return Err(WeightsError::Onnx(found));
+        }
+        if let Some(shape) = self.model.input_shape(0) {
+            let one = |d: &Dimension| !matches!(d, Dimension::Fixed(n) if *n != 1);
+            let free = |d: &Dimension| matches!(d, Dimension::Symbolic(_));
+            if !matches!(&shape[..], [n, c, h, w] if one(n) && one(c) && free(h) && free(w)) {
+                let found = format!("its input is {shape:?}, expected 1×1×H×W with H and W left open");
+                return Err(WeightsError::Onnx(found));
+            }
+        }
+        let waves = |(y, x): (usize, usize)| 2. * (0.7 * x as f32).sin() * (0.8 * y as f32).cos();
+        self.run(&Plane::from_shape_fn((UNIT, 2 * UNIT), waves)).map(|_| ())
+    }
+
+    /// The logit at every pixel of `seen`, whose borders are mirrored to fill the last unit.
+    ///
+    /// # Errors
+    /// If the model fails or what it says is no plane of logits or probabilities.
+    pub(super) fn logits(&self, seen: &Plane) -> Result<Plane, WeightsError> {
+        let (height, width) = seen.dim();
+        let padded =
+            Plane::from_shape_fn((height.next_multiple_of(UNIT), width.next_multiple_of(UNIT)), |(y, x)| {
+                seen[[mirror(y as isize, height), mirror(x as isize, width)]]
+            });
+        Ok(crop(&self.run(&padded)?, 0, 0, height, width))
+    }
+
+    /// The logits of a plane whose sides are multiples of the unit.
+    fn run(&self, seen: &Plane) -> Result<Plane, WeightsError> {
+        let (h, w) = seen.dim();
+        let refused = |e: &dyn fmt::Display| WeightsError::Onnx(e.to_string());
+        let input =
+            Value::from_shape([1, 1, h, w], seen.iter().copied().collect()).map_err(|e| refused(&e))?;
+        let output = self.model.run_one(input.into(), Some(self.options.clone())).map_err(|e| refused(&e))?;
+        let (shape, values) = output.into_shape_vec::<f32, 4>().map_err(|e| refused(&e))?;
+        if shape != [1, 1, h, w] {
+            let found =
+                format!("its output is {shape:?} for an input of [1, 1, {h}, {w}], expected the same");
+            return Err(WeightsError::Onnx(found));
+        }
+        let mut out = Plane::from_shape_vec((h, w), values).map_err(|e| refused(&e))?;
+        if let Some(value) = out.iter().find(|v| !v.is_finite()) {
+            return Err(WeightsError::Onnx(format!("its output has the value {value}")));
+        }
+        if self.probability {
+            if let Some(value) = out.iter().find(|v| !(0. ..=1.).contains(*v)) {
+                let remedy =
+                    "if it gives logits, set its metadata output=logit (onnx.helper.set_model_props)";
+                return Err(WeightsError::Onnx(format!("its output {value} is no probability: {remedy}")));
+            }
+            out.mapv_inplace(|p| {
+                let p = p.clamp(SURE, 1. - SURE);
+                (p / (1. - p)).ln()
+            });
+        }
+        Ok(out)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::detect::UserModel;
+
+    /// A field of a protocol buffer that holds bytes: a text, or another message.
+    fn field(number: u8, bytes: impl AsRef<[u8]>) -> Vec<u8> {
+        let bytes = bytes.as_ref();
+        assert!(bytes.len() < 1 << 14);
+        let length = [(bytes.len() & 127) as u8 | 128, (bytes.len() >> 7) as u8];
+        [&[number << 3 | 2][..], &length, bytes].concat()
+    }
+
+    fn integer(number: u8, value: u8) -> Vec<u8> {
+        vec![number << 3, value]
+    }
+
+    /// A value of 1 × 1 × `sides`.
+    fn plane(name: &str, sides: [Vec<u8>; 2]) -> Vec<u8> {
+        let one = field(1, integer(1, 1));
+        let [h, w] = sides.map(|side| field(1, side));
+        let kind = [integer(1, 1), field(2, [one.clone(), one, h, w].concat())].concat();
+        [field(1, name), field(2, field(1, kind))].concat()
+    }
+
+    /// A model of one operator, its input and output of 1 × 1 × `sides`.
+    fn model(operator: &str, sides: [Vec<u8>; 2], metadata: &[(&str, &str)]) -> Vec<u8> {
+        let node = [field(1, "seen"), field(2, "heat"), field(4, operator)].concat();
+        let (input, output) = (plane("seen", sides.clone()), plane("heat", sides));
+        let graph = [field(1, node), field(2, "g"), field(11, input), field(12, output)].concat();
+        let words = metadata.iter().flat_map(|(k, v)| field(14, [field(1, k), field(2, v)].concat()));
+        [integer(1, 8), field(7, graph), field(8, integer(2, 13)), words.collect()].concat()
+    }
+
+    fn open() -> [Vec<u8>; 2] {
+        ["h", "w"].map(|name| field(2, name))
+    }
+
+    fn textured() -> Plane {
+        Plane::from_shape_fn((45, 70), |(y, x)| (0.8 * x as f32).sin() * (0.7 * y as f32).cos())
+    }
+
+    fn difference(model: &Model) -> f32 {
+        let seen = textured();
+        let Network::Onnx(network) = &model.network else { panic!("another network") };
+        let logits = network.logits(&seen).unwrap();
+        assert_eq!(logits.dim(), seen.dim());
+        (logits - seen).iter().map(|v| v.abs()).fold(0., f32::max)
+    }
+
+    #[test]
+    fn logits_and_probabilities_mean_the_same() {
+        let logit = model("Identity", open(), &[("output", "logit")]);
+        assert_eq!(difference(&Model::onnx(&logit).unwrap()), 0.);
+        let probability = model("Sigmoid", open(), &[]);
+        assert!(difference(&Model::onnx(&probability).unwrap()) < 1e-5);
+    }
+
+    #[test]
+    fn metadata_replace_the_defaults() {
+        let words =
+            [("spacing", "10"), ("threshold", "0.2"), ("suppression", "0.7"), ("modality", "histology")];
+        let model = Model::onnx(&model("Sigmoid", open(), &words)).unwrap();
+        assert_eq!((model.spacing, model.suppression), (10., 0.7));
+        assert_eq!(model.modality, Some(Modality::Histology));
+        assert!(
+            matches!(model.threshold, Threshold::Absolute(logit) if (logit - (0.25f64).ln()).abs() < 1e-9)
+        );
+    }
+
+    #[test]
+    fn what_is_no_heat_map_is_refused_with_the_reason() {
+        let refused = |bytes: &[u8]| UserModel::new("own.onnx", bytes).unwrap_err().to_string();
+        assert!(refused(&model("Identity", open(), &[])).contains("output=logit"));
+        assert!(refused(&model("Sigmoid", [integer(1, 64), integer(1, 64)], &[])).contains("left open"));
+        assert!(refused(&model("Transpose", open(), &[])).contains("expected the same"));
+        assert!(refused(&model("NoSuchThing", open(), &[])).contains("NoSuchThing"));
+        for (key, value) in [("spacing", "x"), ("threshold", "1"), ("suppression", "-1"), ("output", "heat")]
+        {
+            assert!(refused(&model("Sigmoid", open(), &[(key, value)])).contains(key));
+        }
+        let whole = model("Sigmoid", open(), &[]);
+        (0..whole.len()).for_each(|end| drop(UserModel::new("cut off", &whole[..end])));
+    }
+}

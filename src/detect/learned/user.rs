@@ -1,0 +1,109 @@
+use super::{Model, WeightsError};
+use crate::detect::Modality;
+use serde::{Serialize, Serializer};
+use sha2::{Digest, Sha256};
+use std::sync::Arc;
+
+/// A network of the user's own. Cheap to clone; equal to every other of the same bytes.
+///
+/// Either weights as `scripts/train-detector` writes them (safetensors), or, with the feature `onnx`, an ONNX model from
+/// 1×1×H×W (the image resampled and normalised, bright cones positive; H and W multiples of 32) to 1×1×H×W, how surely a
+/// cone's centre lies in each pixel. Its metadata, all optional, are `spacing` (px between cones in what it sees, 8),
+/// `output` (`probability`, the default, or `logit`), `threshold` (probability, 0.5), `suppression` (in spacings, 0.5) and
+/// `modality` (default: every image).
+#[derive(Clone, Debug)]
+pub struct UserModel {
+    name: Arc<str>,
+    model: Arc<Model>,
+    sha256: Arc<str>,
+}
+
+impl UserModel {
+    /// The model in the bytes of a file. `name` stands for it in errors.
+    ///
+    /// # Errors
+    /// If it is neither kind, damaged, or its metadata are out of range.
+    pub fn new(name: &str, bytes: &[u8]) -> Result<Self, WeightsError> {
+        let model = match bytes {
+            // safetensors: the length of a JSON object, and the object
+            [_, _, _, _, _, _, _, _, b'{', ..] => Model::read(bytes)?,
+            // ONNX: a protocol buffer whose first field is the version, a number
+            [8, ..] => Model::onnx(bytes)?,
+            _ => return Err(WeightsError::Kind),
+        };
+        let sha256 = Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect::<String>();
+        Ok(Self { name: name.into(), model: Arc::new(model), sha256: sha256.into() })
+    }
+
+    /// As it was given.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The images it was made for; `None`: all.
+    pub fn modality(&self) -> Option<Modality> {
+        self.model.modality
+    }
+
+    /// The model, if it was made for images of that modality.
+    pub(in crate::detect) fn for_modality(&self, modality: Modality) -> Option<&Model> {
+        self.modality().is_none_or(|own| own == modality).then_some(&*self.model)
+    }
+}
+
+impl PartialEq for UserModel {
+    fn eq(&self, other: &Self) -> bool {
+        self.sha256 == other.sha256
+    }
+}
+
+/// As the hash of its bytes: what depends on the model depends on nothing else.
+impl Serialize for UserModel {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.sha256)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{CONFOCAL, SPLIT};
+    use super::*;
+
+    #[test]
+    fn weights_serve_the_modality_they_were_trained_for() {
+        let model = UserModel::new("own.safetensors", SPLIT).unwrap();
+        assert_eq!(model.modality(), Some(Modality::Split));
+        assert!(model.for_modality(Modality::Split).is_some());
+        assert!(model.for_modality(Modality::Confocal).is_none());
+    }
+
+    #[test]
+    fn models_are_what_their_bytes_are() {
+        let model = UserModel::new("a", SPLIT).unwrap();
+        assert_eq!(model, UserModel::new("b", SPLIT).unwrap());
+        let other = UserModel::new("a", CONFOCAL).unwrap();
+        assert_ne!(model, other);
+        let json = |m: &UserModel| serde_json::to_string(m).unwrap();
+        assert_eq!(json(&model).len(), 66);
+        assert_ne!(json(&model), json(&other));
+    }
+
+    #[test]
+    fn other_files_are_refused_with_the_reason() {
+        let error = |bytes: &[u8]| UserModel::new("file", bytes).unwrap_err();
+        assert_eq!(error(b""), WeightsError::Kind);
+        assert_eq!(error(b"\x89PNG\r\n\x1a\n, an image"), WeightsError::Kind);
+        assert!(matches!(error(&CONFOCAL[..2000]), WeightsError::Format(_) | WeightsError::Tensor { .. }));
+        let changed = |from: &str, to: &str| {
+            assert_eq!(from.len(), to.len());
+            let start = CONFOCAL.windows(from.len()).position(|w| w == from.as_bytes()).unwrap();
+            let mut bytes = CONFOCAL.to_vec();
+            bytes[start..start + to.len()].copy_from_slice(to.as_bytes());
+            error(&bytes).to_string()
+        };
+        assert!(changed(r#""suppression": "0.5""#, r#""suppression": "-.5""#).contains("suppression"));
+        assert!(changed(r#""spacing": "8""#, r#""spacing": "0""#).contains("spacing"));
+        assert!(changed(r#""modality": "confocal""#, r#""modality": "infrared""#).contains("modality"));
+        assert!(changed(r#""residual""#, r#""resident""#).contains("resident"));
+    }
+}
