@@ -11,60 +11,44 @@ pub(super) struct Kernel {
     pub bias: Vec<f32>,
 }
 
-/// What becomes of a sum before it is written.
-#[derive(Clone, Copy, PartialEq)]
-enum After {
-    Nothing,
-    /// Below zero it becomes zero.
-    Rectified,
-    /// The same; then the input at its place is added.
-    RectifiedAndAdded,
-}
-
 impl Maps {
-    /// What `kernel` makes of these maps: each output Σ weight · input + bias, taps `dilation` px apart, zeros outside.
-    pub(super) fn convolved(&self, kernel: &Kernel, dilation: usize) -> Self {
-        self.through(kernel, dilation, After::Nothing)
+    /// What `kernel` makes of these maps: each output Σ weight · input + bias, zeros outside.
+    pub(super) fn convolved(&self, kernel: &Kernel) -> Self {
+        self.through(kernel, false)
     }
 
     /// The same, and what is below zero becomes zero.
-    pub(super) fn layer(&self, kernel: &Kernel, dilation: usize) -> Self {
-        self.through(kernel, dilation, After::Rectified)
-    }
-
-    /// The same added to these maps; `kernel` has as many outputs as inputs.
-    pub(super) fn residual(&self, kernel: &Kernel, dilation: usize) -> Self {
-        self.through(kernel, dilation, After::RectifiedAndAdded)
+    pub(super) fn layer(&self, kernel: &Kernel) -> Self {
+        self.through(kernel, true)
     }
 
     /// By the widest registers that the processor has. So many sums are kept in them (outputs × registers along x) that
     /// their additions overlap, and so few that 16 registers hold them and their factors.
-    fn through(&self, kernel: &Kernel, dilation: usize, after: After) -> Self {
+    fn through(&self, kernel: &Kernel, rectified: bool) -> Self {
         let mut out = Self::framed(kernel.outputs, self.height, self.width);
         let pass = |together| Pass {
             input: self,
             kernel,
             blocks: kernel.blocks(together),
-            taps: self.offsets(kernel, dilation),
-            after,
+            taps: self.offsets(kernel),
+            rectified,
         };
         let level = Level::new();
         match kernel.outputs {
             1 => dispatch!(level, simd => pass(1).run::<_, 1, 4>(simd, &mut out)),
-            n if n.is_multiple_of(5) => dispatch!(level, simd => pass(5).run::<_, 5, 2>(simd, &mut out)),
             _ => dispatch!(level, simd => pass(4).run::<_, 4, 2>(simd, &mut out)),
         }
         out
     }
 
     /// How far before or after a pixel every tap reads, by input, row and column.
-    fn offsets(&self, kernel: &Kernel, dilation: usize) -> Vec<isize> {
+    fn offsets(&self, kernel: &Kernel) -> Vec<isize> {
         let half = (kernel.side / 2) as isize;
         let (stride, plane) = (self.stride as isize, self.plane() as isize);
         let mut offsets = Vec::with_capacity(kernel.inputs * kernel.side * kernel.side);
         for input in 0..kernel.inputs as isize {
             for j in -half..=half {
-                offsets.extend((-half..=half).map(|i| input * plane + (j * stride + i) * dilation as isize));
+                offsets.extend((-half..=half).map(|i| input * plane + j * stride + i));
             }
         }
         offsets
@@ -94,7 +78,7 @@ struct Pass<'a> {
     kernel: &'a Kernel,
     blocks: Vec<f32>,
     taps: Vec<isize>,
-    after: After,
+    rectified: bool,
 }
 
 impl Pass<'_> {
@@ -112,12 +96,12 @@ impl Pass<'_> {
                 while x + long <= width {
                     let sums =
                         self.sums::<S, TOGETHER, VECTORS>(simd, weights, bias, self.input.start(0, y) + x);
-                    self.write(simd, sums, (first, y, x), out);
+                    self.write::<S, TOGETHER, _>(sums, (first, y, x), out);
                     x += long;
                 }
                 while x < width {
                     let sums = self.sums::<S, TOGETHER, 1>(simd, weights, bias, self.input.start(0, y) + x);
-                    self.write(simd, sums, (first, y, x), out);
+                    self.write::<S, TOGETHER, _>(sums, (first, y, x), out);
                     x += S::f32s::LEN;
                 }
             }
@@ -154,7 +138,6 @@ impl Pass<'_> {
     #[inline(always)]
     fn write<S: Simd, const TOGETHER: usize, const VECTORS: usize>(
         &self,
-        simd: S,
         sums: [[S::f32s; VECTORS]; TOGETHER],
         (channel, y, x): (usize, usize, usize),
         out: &mut Maps,
@@ -163,11 +146,8 @@ impl Pass<'_> {
             let mut start = out.start(channel, y) + x;
             let end = start + out.width - x;
             for mut sum in sums {
-                if self.after != After::Nothing {
+                if self.rectified {
                     sum = sum.max(0.);
-                }
-                if self.after == After::RectifiedAndAdded {
-                    sum += S::f32s::from_slice(simd, &self.input.data[start..start + S::f32s::LEN]);
                 }
                 if start + S::f32s::LEN <= end {
                     sum.store_slice(&mut out.data[start..start + S::f32s::LEN]);
@@ -188,43 +168,34 @@ mod tests {
 
     #[test]
     fn a_convolution_equals_its_definition() {
-        for (inputs, outputs, side, dilation, width) in [
-            (1, 10, 7, 1, 13),
-            (3, 5, 3, 4, 8),
-            (2, 4, 3, 2, 17),
-            (6, 1, 1, 1, 5),
-            (3, 6, 5, 1, 131),
-            (8, 8, 3, 1, 1),
-        ] {
+        for (inputs, outputs, side, width) in
+            [(1, 10, 7, 13), (3, 5, 3, 8), (2, 4, 3, 17), (6, 1, 1, 5), (3, 6, 5, 131), (8, 8, 3, 1)]
+        {
             let weights: Vec<f32> =
                 (0..outputs * inputs * side * side).map(|k| ((k * 13) % 17) as f32 / 8. - 1.).collect();
             let bias: Vec<f32> = (0..outputs).map(|k| k as f32).collect();
             let kernel = Kernel { outputs, inputs, side, weights, bias };
             let maps = textured(inputs, 9, width);
-            let (out, rectified) = (maps.convolved(&kernel, dilation), maps.layer(&kernel, dilation));
-            let added = (inputs == outputs).then(|| maps.residual(&kernel, dilation));
+            let (out, rectified) = (maps.convolved(&kernel), maps.layer(&kernel));
             for o in 0..outputs {
                 for y in 0..9 {
                     for x in 0..width {
-                        let sum = defined(&maps, &kernel, dilation, (o, y, x));
+                        let sum = defined(&maps, &kernel, (o, y, x));
                         assert!((out.row(o, y)[x] - sum).abs() < 1e-3);
                         assert!((rectified.row(o, y)[x] - sum.max(0.)).abs() < 1e-3);
-                        if let Some(added) = &added {
-                            assert!((added.row(o, y)[x] - sum.max(0.) - maps.row(o, y)[x]).abs() < 1e-3);
-                        }
                     }
                 }
             }
         }
     }
 
-    fn defined(maps: &Maps, kernel: &Kernel, dilation: usize, (o, y, x): (usize, usize, usize)) -> f32 {
-        let (side, half) = (kernel.side, kernel.side / 2 * dilation);
+    fn defined(maps: &Maps, kernel: &Kernel, (o, y, x): (usize, usize, usize)) -> f32 {
+        let (side, half) = (kernel.side, kernel.side / 2);
         let mut sum = kernel.bias[o];
         for i in 0..kernel.inputs {
             let taps = &kernel.weights[(o * kernel.inputs + i) * side * side..][..side * side];
             for (tap, w) in taps.iter().enumerate() {
-                let (yy, xx) = (y + tap / side * dilation, x + tap % side * dilation);
+                let (yy, xx) = (y + tap / side, x + tap % side);
                 if (half..maps.height + half).contains(&yy) && (half..maps.width + half).contains(&xx) {
                     sum += w * maps.row(i, yy - half)[xx - half];
                 }

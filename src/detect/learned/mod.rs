@@ -49,6 +49,8 @@ pub(super) struct Model {
     suppression: f64,
     /// The images it is for; `None`: all.
     modality: Option<Modality>,
+    /// The probability of a cone by how far a logit is above the threshold.
+    calibration: Logistic,
 }
 
 /// What gives the logit of a cone's centre for every pixel.
@@ -114,6 +116,10 @@ impl Model {
             threshold,
             suppression: number("suppression", SUPPRESSION, "0.1–2 spacings")?,
             modality: Some(modality.map_err(|_| WeightsError::Metadata("modality".to_owned()))?),
+            calibration: Logistic {
+                offset: weights.number("calibration_offset")?,
+                slope: weights.number("calibration_slope")?,
+            },
         })
     }
 
@@ -149,7 +155,7 @@ impl Model {
             let Point { x, y } = cone.centre;
             cone.centre =
                 Point::new(((x + 0.5) * step - 0.5).min(right), ((y + 0.5) * step - 0.5).min(lower));
-            cone.score = Logistic { offset: 0., slope: 1. }.at(cone.score);
+            cone.score = self.calibration.at(cone.score - threshold);
         }
         Ok(Found { cones, rejected })
     }

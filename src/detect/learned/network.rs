@@ -1,30 +1,15 @@
 use super::convolution::Kernel;
-use super::maps::{MARGIN, Maps, for_all};
+use super::maps::{Maps, for_all};
 use super::weights::{Weights, WeightsError};
 use crate::image::{Plane, mirror};
 
 /// Longest side of a piece that is looked at in one go; larger planes are cut so that all cores work and memory is bounded.
 const PIECE: usize = 256;
 
-/// A convolutional network from an even plane, in which cones are 8 px apart, to the logit of a cone's centre at every pixel.
+/// A convolutional network from an even plane, in which cones are 8 px apart, to the logit of a cone's centre at every pixel:
+/// a U-Net of two halvings and back. Its widths are those of the tensors in the file.
 #[derive(Debug)]
-pub(super) enum Network {
-    /// 7×7, then four residual 3×3 of dilation 2, 4, 2, 1, ten channels (4,151 weights).
-    Residual {
-        /// 7×7, 1→10.
-        first: Kernel,
-        /// The residual layers.
-        layers: Box<[Kernel; 4]>,
-        /// 1×1, 10→1.
-        last: Kernel,
-    },
-    /// Two halvings and back, widths 12, 24, 32 (33,257 weights).
-    UNet(Box<UNet>),
-}
-
-/// The layers in the order in which they work.
-#[derive(Debug)]
-pub(super) struct UNet {
+pub(super) struct Network {
     first: Kernel,
     top: Kernel,
     down: Kernel,
@@ -36,54 +21,54 @@ pub(super) struct UNet {
     lift: Kernel,
     merge: Kernel,
     last: Kernel,
+    views: Views,
 }
 
-const DILATIONS: [usize; 4] = [2, 4, 2, 1];
+/// As what an image is looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Views {
+    /// Only as it is.
+    One,
+    /// Mirrored along x, along y and along both as well, and the logits averaged. Mirrored along x the image has `sign`: a split
+    /// detector then has the other polarity.
+    Mirrored { sign: f32 },
+}
+
+/// Sides must be multiples of this.
+const UNIT: usize = 4;
+/// How far, in px, an input can act; a multiple of the unit.
+const REACH: usize = 24;
 
 impl Network {
     /// # Errors
     /// If the architecture is unknown or a tensor is missing or of another shape.
     pub(super) fn new(weights: &Weights) -> Result<Self, WeightsError> {
         match weights.word("architecture")? {
-            "residual" => {
-                let layer = |name| weights.kernel(name, 10, 10, 3);
-                Ok(Self::Residual {
-                    first: weights.kernel("first", 10, 1, 7)?,
-                    layers: Box::new([layer("a")?, layer("b")?, layer("c")?, layer("d")?]),
-                    last: weights.kernel("last", 1, 10, 1)?,
-                })
-            }
-            "unet" => Ok(Self::UNet(Box::new(UNet {
-                first: weights.kernel("first", 12, 1, 5)?,
-                top: weights.kernel("top", 12, 12, 3)?,
-                down: weights.kernel("down", 24, 12, 3)?,
-                middle: weights.kernel("middle", 24, 24, 3)?,
-                deep: weights.kernel("deep", 32, 24, 3)?,
-                bottom: weights.kernel("bottom", 32, 32, 3)?,
-                rise: weights.kernel("rise", 24, 32, 1)?,
-                join: weights.kernel("join", 24, 24, 3)?,
-                lift: weights.kernel("lift", 12, 24, 1)?,
-                merge: weights.kernel("merge", 12, 12, 3)?,
-                last: weights.kernel("last", 1, 12, 1)?,
-            }))),
-            other => Err(WeightsError::Architecture(other.to_owned())),
+            "unet" => {}
+            other => return Err(WeightsError::Architecture(other.to_owned())),
         }
-    }
-
-    /// Sides must be multiples of this.
-    fn unit(&self) -> usize {
-        match self {
-            Self::Residual { .. } => 1,
-            Self::UNet(_) => 4,
-        }
-    }
-
-    /// How far, in px, an input can act; a multiple of the unit.
-    fn reach(&self) -> usize {
-        match self {
-            Self::Residual { .. } => 12,
-            Self::UNet(_) => 24,
-        }
+        let views = match weights.word("flips")? {
+            "none" => Views::One,
+            "even" => Views::Mirrored { sign: 1. },
+            "odd" => Views::Mirrored { sign: -1. },
+            _ => return Err(WeightsError::Metadata("flips".to_owned())),
+        };
+        let [full, half, quarter] =
+            [weights.outputs("first")?, weights.outputs("down")?, weights.outputs("deep")?];
+        Ok(Self {
+            first: weights.kernel("first", full, 1, 5)?,
+            top: weights.kernel("top", full, full, 3)?,
+            down: weights.kernel("down", half, full, 3)?,
+            middle: weights.kernel("middle", half, half, 3)?,
+            deep: weights.kernel("deep", quarter, half, 3)?,
+            bottom: weights.kernel("bottom", quarter, quarter, 3)?,
+            rise: weights.kernel("rise", half, quarter, 1)?,
+            join: weights.kernel("join", half, half, 3)?,
+            lift: weights.kernel("lift", full, half, 1)?,
+            merge: weights.kernel("merge", full, full, 3)?,
+            last: weights.kernel("last", 1, full, 1)?,
+            views,
+        })
     }
 
     /// The logit at every pixel of `seen`.
@@ -93,10 +78,10 @@ impl Network {
 
     fn logits_by_pieces(&self, seen: &Plane, piece: usize) -> Plane {
         let (h, w) = seen.dim();
-        let (height, width) = (h.next_multiple_of(self.unit()), w.next_multiple_of(self.unit()));
+        let (height, width) = (h.next_multiple_of(UNIT), w.next_multiple_of(UNIT));
         let columns: Vec<usize> = (0..width).map(|x| mirror(x as isize, w)).collect();
-        let rows = pieces(height, piece, self.reach());
-        let across = pieces(width, piece, self.reach());
+        let rows = pieces(height, piece, REACH);
+        let across = pieces(width, piece, REACH);
         let corners: Vec<_> = rows.iter().flat_map(|r| across.iter().map(move |c| (r, c))).collect();
         let parts = for_all(&corners, |(r, c)| {
             let mut maps = Maps::zeros(1, r.to - r.from, c.to - c.from);
@@ -105,7 +90,7 @@ impl Network {
                 let row = maps.row_mut(0, y - r.from);
                 row.iter_mut().zip(&columns[c.from..c.to]).for_each(|(v, &x)| *v = source[x]);
             }
-            self.apply(&maps)
+            self.viewed(maps)
         });
         let mut out = Plane::zeros((h, w));
         for ((r, c), part) in corners.iter().zip(&parts) {
@@ -119,31 +104,48 @@ impl Network {
         out
     }
 
-    fn apply(&self, seen: &Maps) -> Maps {
-        match self {
-            Self::Residual { first, layers, last } => {
-                let mut maps = seen.layer(first, 1);
-                for (layer, dilation) in layers.iter().zip(DILATIONS) {
-                    maps = maps.residual(layer, dilation);
-                }
-                maps.convolved(last, 1)
-            }
-            Self::UNet(net) => {
-                let layer = |maps: &Maps, kernel: &Kernel| maps.layer(kernel, 1);
-                let top = layer(&layer(seen, &net.first), &net.top);
-                let middle = layer(&layer(&top.halved(), &net.down), &net.middle);
-                let bottom = layer(&layer(&middle.halved(), &net.deep), &net.bottom);
-                let risen = bottom.convolved(&net.rise, 1).doubled_onto(&middle);
-                let joined = layer(&risen, &net.join);
-                let lifted = joined.convolved(&net.lift, 1).doubled_onto(&top);
-                layer(&lifted, &net.merge).convolved(&net.last, 1)
-            }
+    /// The mean over the views of a piece.
+    fn viewed(&self, seen: Maps) -> Maps {
+        let Views::Mirrored { sign } = self.views else { return self.apply(&seen) };
+        let mut sum = self.apply(&seen);
+        let mut view = seen;
+        // along y, then x, then y again: every view once, the piece itself first
+        for (along_x, factor) in [(false, 1.), (true, sign), (false, 1.)] {
+            view = mirrored(&view, along_x, factor, None);
+            sum = mirrored(&sum, along_x, 1., Some(&self.apply(&view)));
         }
+        mirrored(&sum, true, 0.25, None)
+    }
+
+    fn apply(&self, seen: &Maps) -> Maps {
+        let layer = Maps::layer;
+        let top = layer(&layer(seen, &self.first), &self.top);
+        let middle = layer(&layer(&top.halved(), &self.down), &self.middle);
+        let bottom = layer(&layer(&middle.halved(), &self.deep), &self.bottom);
+        let risen = bottom.convolved(&self.rise).doubled_onto(&middle);
+        let joined = layer(&risen, &self.join);
+        let lifted = joined.convolved(&self.lift).doubled_onto(&top);
+        layer(&lifted, &self.merge).convolved(&self.last)
     }
 }
 
-// the widest kernel and the largest dilation stay inside the zeros
-const _: () = assert!(MARGIN >= 7 / 2 && MARGIN >= DILATIONS[1]);
+/// One map mirrored along x or along y and multiplied, `others` added.
+fn mirrored(maps: &Maps, along_x: bool, factor: f32, others: Option<&Maps>) -> Maps {
+    let mut out = Maps::framed(1, maps.height, maps.width);
+    for y in 0..maps.height {
+        let source = maps.row(0, if along_x { y } else { maps.height - 1 - y });
+        let row = out.row_mut(0, y);
+        row.copy_from_slice(source);
+        if along_x {
+            row.reverse();
+        }
+        row.iter_mut().for_each(|v| *v *= factor);
+        if let Some(others) = others {
+            row.iter_mut().zip(others.row(0, y)).for_each(|(v, o)| *v += o);
+        }
+    }
+    out
+}
 
 /// A stretch `first..end` of a side that is answered for, and the stretch `from..to` that has to be looked at.
 struct Piece {

@@ -52,12 +52,15 @@ impl Model {
         options.thread_pool = Some(Arc::new(ThreadPool::with_num_threads(threads)));
         let network = Onnx { model, options, probability };
         network.check()?;
+        let logit = (threshold / (1. - threshold)).ln();
         Ok(Self {
             network: Network::Onnx(Box::new(network)),
             spacing,
-            threshold: Threshold::Absolute((threshold / (1. - threshold)).ln()),
+            threshold: Threshold::Absolute(logit),
             suppression,
             modality,
+            // nothing is known of its errors: the score is the network's own probability
+            calibration: Logistic { offset: logit, slope: 1. },
         })
     }
 }

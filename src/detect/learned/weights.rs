@@ -31,7 +31,7 @@ pub enum WeightsError {
     #[error("the header's “{0}” is missing or cannot be read")]
     Metadata(String),
     /// A network this program cannot run.
-    #[error("unknown architecture “{0}”: expected residual or unet")]
+    #[error("unknown architecture “{0}”: expected unet")]
     Architecture(String),
     /// A tensor is missing, or of another shape or type.
     #[error("tensor “{name}” is missing or is not F32 of shape {shape:?}")]
@@ -48,6 +48,9 @@ impl WeightsError {
         Self::Value { key, value: value.to_owned(), expected }
     }
 }
+
+/// More channels than this are a damaged header.
+const WIDEST: u64 = 1024;
 
 /// A safetensors file: eight bytes of length, a JSON header of that length, then the tensors' bytes.
 pub(super) struct Weights<'a> {
@@ -94,6 +97,15 @@ impl<'a> Weights<'a> {
         Ok(Kernel { outputs, inputs, side, weights, bias })
     }
 
+    /// How many channels come out of the convolution `name`.
+    pub(super) fn outputs(&self, name: &str) -> Result<usize, WeightsError> {
+        let name = format!("{name}.bias");
+        let shape = self.header.get(&name).and_then(|entry| entry.get("shape"));
+        let outputs =
+            shape.and_then(|s| s.get(0)).and_then(Value::as_u64).filter(|n| (1..=WIDEST).contains(n));
+        outputs.map(|n| n as usize).ok_or(WeightsError::Tensor { name, shape: vec![] })
+    }
+
     /// The values of a tensor, row by row.
     pub(super) fn tensor(&self, name: &str, shape: &[usize]) -> Result<Vec<f32>, WeightsError> {
         let find = || {
@@ -136,6 +148,7 @@ mod tests {
         assert_eq!((weights.word("rule"), weights.number("threshold")), (Ok("absolute"), Ok(-0.5)));
         let kernel = weights.kernel("a", 1, 1, 1).unwrap();
         assert_eq!((kernel.weights, kernel.bias), (vec![2.5], vec![-1.]));
+        assert_eq!((weights.outputs("a"), weights.outputs("b").is_err()), (Ok(1), true));
         assert!(weights.kernel("a", 2, 1, 1).is_err());
         assert!(weights.kernel("b", 1, 1, 1).is_err());
         assert!(weights.number("rule").is_err());

@@ -1,0 +1,134 @@
+"""Marked images, and what is drawn from them for training."""
+import math
+import os
+
+import cv2
+import numpy as np
+from PIL import Image
+
+from .plane import SPACING, gaussian, normalise, resample
+
+BORDER = 7   # px: the scoring rule of Cunefare et al. 2017 leaves this frame out
+KNOWN = 3    # so far around the marks, in px of the network, it is known what is a cone and what is not
+GRID = 24    # steps an octave that spacings are rounded to, so that few matrices have to be made
+cv2.setNumThreads(0)
+
+
+class Sample:
+    def __init__(self, path, origin):
+        self.name = os.path.basename(path)[:-4]
+        self.subject = '_'.join(self.name.split('_')[:2])
+        self.image = np.asarray(Image.open(path).convert('L'), np.float32) / 255
+        marks = np.genfromtxt(path[:-4] + '_coords.csv', delimiter=',')[:, :2]
+        self.marks = marks[~np.isnan(marks).any(1)] - origin
+        self.true = density_spacing(self.marks, self.image.shape)
+        self.start = self.true  # until the program has said where it would start
+        self.classical = self.marks[:0]
+
+
+def density_spacing(points, shape):
+    h, w = shape
+    inside = ((points > BORDER - 0.5) & (points < [w - BORDER - 0.5, h - BORDER - 0.5])).all(1)
+    return math.sqrt(2 * (w - 2 * BORDER) * (h - 2 * BORDER) / (math.sqrt(3) * max(1, inside.sum())))
+
+
+def rounded(step):
+    return 2 ** (round(GRID * math.log2(step)) / GRID)
+
+
+def disturbed(image, spacing, recipe, rng):
+    """Another camera's view of the image, and by how much it is smaller."""
+    factor = 1.0
+    if rng.random() < 0.7:
+        image = np.clip(image, 0, 1) ** math.exp(rng.uniform(-0.9, 0.9))
+    if rng.random() < recipe.soft:  # fewer pixels
+        factor = rounded(max(1.0, spacing / rng.uniform(4.5, 8)))
+        image = resample(image, factor)
+    if rng.random() < 0.5:
+        noise = rng.standard_normal(image.shape, np.float32)
+        kind = rng.random()
+        if kind < 0.2:
+            noise = gaussian(noise, rng.uniform(0.4, 1))
+            noise /= noise.std()
+        elif kind < 0.45:  # of counted photons
+            noise *= np.sqrt(np.maximum(image, 0) / max(image.mean(), 1e-6))
+        image = image + rng.uniform(0, 0.35) * image.std() * noise
+    if rng.random() < 0.15:  # uneven illumination
+        drift = cv2.resize(rng.standard_normal((4, 4)).astype(np.float32), image.shape[::-1], interpolation=cv2.INTER_CUBIC)
+        image = image * np.exp(0.3 * drift)
+    return np.ascontiguousarray(image, np.float32), factor
+
+
+def resampled(image, marks, step, recipe, rng):
+    """The image at about every `step` px, its marks there, and where they are known; now and then turned and sheared."""
+    stretch = math.exp(rng.uniform(-0.06, 0.06))
+    known = np.zeros(image.shape, np.float32)
+    if rng.random() < 0.4:
+        angle, shear = rng.uniform(-recipe.angle, recipe.angle), rng.uniform(-0.06, 0.06)
+        turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+        to_image = turn @ np.array([[1, shear], [0, 1]]) @ np.diag([stretch * step, step / stretch])
+        h, w = image.shape
+        size = max(1, round(w / step)), max(1, round(h / step))
+        origin = np.array([w - 1, h - 1]) / 2 - to_image @ (np.array(size) - 1) / 2
+        matrix = np.c_[to_image, origin]
+        blurred = gaussian(image, 0.5 * math.sqrt(step * step - 1)) if step > 1 else image
+        plane = cv2.warpAffine(blurred, matrix, size, flags=cv2.INTER_CUBIC | cv2.WARP_INVERSE_MAP,
+                               borderMode=cv2.BORDER_REFLECT)
+        inside(known, marks, KNOWN * step)
+        known = cv2.warpAffine(known, matrix, size, flags=cv2.INTER_NEAREST | cv2.WARP_INVERSE_MAP, borderValue=0)
+        return plane, np.linalg.solve(to_image, (marks - origin).T).T, known
+    step_x, step_y = rounded(step * stretch), rounded(step / stretch)
+    plane = resample(image, step_y, step_x)
+    marks = (marks + 0.5) / [step_x, step_y] - 0.5
+    known = np.zeros(plane.shape, np.float32)
+    inside(known, marks, KNOWN)
+    return plane, marks, known
+
+
+def inside(known, marks, around):
+    low, high = marks.min(0) - around, marks.max(0) + around
+    rows, columns = (slice(max(0, math.ceil(low[k])), max(0, math.floor(high[k]) + 1)) for k in (1, 0))
+    known[rows, columns] = 1
+
+
+def bumps(marks, shape):
+    """The maximum of unit Gaussians at the marks."""
+    h, w = shape
+    target = np.zeros((h + 16, w + 16), np.float32)
+    near = marks[((marks > -5) & (marks < [w + 5, h + 5])).all(1)]
+    offsets = np.arange(-5, 6)
+    middle = np.rint(near).astype(int)
+    ys, xs = middle[:, 1, None, None] + offsets[:, None], middle[:, 0, None, None] + offsets
+    height = np.exp(-0.5 * ((ys - near[:, 1, None, None]) ** 2 + (xs - near[:, 0, None, None]) ** 2))
+    np.maximum.at(target, (np.clip(ys, -8, h + 7) + 8, np.clip(xs, -8, w + 7) + 8), height.astype(np.float32))
+    return target[8:-8, 8:-8]
+
+
+def draw(sample, recipe, rng):
+    """Four planes: what the network sees, what it should say, where that is known, and where there is an image. The image
+    lies anywhere on the canvas, its borders in sight as they are in use."""
+    image, factor = disturbed(sample.image, sample.true, recipe, rng)
+    step = sample.true / factor * math.exp(rng.uniform(-0.15, 0.15)) / SPACING
+    plane, marks, known = resampled(image, (sample.marks + 0.5) / factor - 0.5, step, recipe, rng)
+    if rng.random() < 0.3:
+        plane = gaussian(plane, rng.uniform(0.3, 1))
+    planes = normalise(plane), bumps(marks, plane.shape), known, np.ones_like(known)
+    side = recipe.side
+    out = np.zeros((len(planes), side, side), np.float32)
+    source, target = [], []
+    for n in plane.shape:
+        first = int(rng.integers(0, side - n + 1)) if n <= side else 0
+        cut = int(np.clip(rng.integers(-8, n - side + 9), 0, n - side)) if n > side else 0
+        source.append(slice(cut, cut + side))
+        target.append(slice(first, first + n))
+    for canvas, values in zip(out, planes):
+        canvas[tuple(target)] = values[tuple(source)]
+    if rng.random() < 0.5:
+        out = out[:, :, ::-1].copy()
+        if recipe.modality == 'split':  # a mirrored split detector has the other polarity
+            out[0] *= -1
+    if rng.random() < 0.5:
+        out = out[:, ::-1]
+    if recipe.modality == 'confocal' and rng.random() < 0.5:
+        out = out.transpose(0, 2, 1)
+    return np.ascontiguousarray(out)

@@ -1,0 +1,205 @@
+"""Detection as src/detect/learned does it, and how well it agrees with marks."""
+import math
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from .draw import BORDER, density_spacing
+from .network import see
+from .plane import SPACING
+
+FRACTION = 0.75        # of the median distance of neighbours: how far a cone may be from its mark (Cunefare et al. 2017)
+CANDIDATE = -4.5       # logits below are never cones
+RELATIVE_FLOOR, RELATIVE_RADIUS = -2.5, 0.45  # candidates that the image-relative threshold is counted from
+RADII = (0.45, 0.5, 0.55)
+GRIDS = {'absolute': np.arange(-2.4, -0.39, 0.1), 'relative': np.arange(0.8, 2.41, 0.1)}
+RULES = {'confocal': 'absolute', 'split': 'relative'}
+START = {'absolute': -1.2, 'relative': 1.6}  # while the constants are not yet chosen
+
+
+def candidates(z, lowest):
+    """Maxima of 3 × 3 px moved to the top of a parabola: x, y, logit, best first."""
+    h, w = z.shape
+    padded = np.pad(z.astype(np.float64), 1, constant_values=-np.inf)
+    around = [padded[1 + j:1 + j + h, 1 + i:1 + i + w] for j in (-1, 0, 1) for i in (-1, 0, 1)]
+    top = (z > lowest) & np.logical_and.reduce([z >= a for a in around])
+    y, x = np.nonzero(top)
+
+    def offset(a, b, c, inside):
+        with np.errstate(invalid='ignore'):
+            curvature = a - 2 * b + c
+            good = inside & (curvature < 0)
+            return np.where(good, np.clip(0.5 * (a - c) / np.where(good, curvature, 1), -0.5, 0.5), 0)
+
+    dx = offset(padded[y + 1, x], z[y, x], padded[y + 1, x + 2], (x > 0) & (x < w - 1))
+    dy = offset(padded[y, x + 1], z[y, x], padded[y + 2, x + 1], (y > 0) & (y < h - 1))
+    found = np.stack([x + dx, y + dy, z[y, x]], 1)
+    return found[np.argsort(-found[:, 2], kind='stable')]
+
+
+def suppress(found, radius):
+    if len(found) == 0:
+        return found
+    keep = np.ones(len(found), bool)
+    pairs = cKDTree(found[:, :2]).query_pairs(radius, output_type='ndarray')
+    for i, j in pairs[np.lexsort(pairs.T[::-1])]:
+        if keep[i]:
+            keep[j] = False
+    return found[keep]
+
+
+def threshold_of(found, rule, constant):
+    if rule == 'absolute':
+        return constant
+    strong = suppress(found[found[:, 2] > RELATIVE_FLOOR], RELATIVE_RADIUS * SPACING)
+    return np.percentile(strong[:, 2], 75) - constant if len(strong) else np.inf
+
+
+def places(found, spacing):
+    """Px of the network → px of the image."""
+    return (found[:, :2] + 0.5) * spacing / SPACING - 0.5
+
+
+def look(image, start, network, rule, sign, passes=3):
+    """All maxima, at the spacing that the network arrives at from `start`."""
+    following = start
+    for _ in range(passes):
+        spacing = following
+        found = candidates(see(image, spacing, network, sign), CANDIDATE)
+        cones = suppress(found[found[:, 2] > threshold_of(found, rule, START[rule])], 0.5 * SPACING)
+        following = density_spacing(places(cones, spacing), image.shape)
+        low, high = (start * math.exp(side) for side in (-0.35, 0.35))
+        following = min(max(following, low, 4), high, 40)
+        if abs(following / spacing - 1) < 0.03:
+            break
+    return found, spacing
+
+
+def matched(found, marks, shape):
+    """Which marks and which cones have a partner by the rule of Cunefare et al. 2017, and which are counted at all."""
+    h, w = shape
+    near = lambda p: ((p < BORDER - 0.5) | (p >= np.array([w, h]) - BORDER - 0.5)).any(1)
+    if len(found) == 0:
+        return np.zeros(len(marks), bool), np.zeros(0, bool), ~near(marks), np.zeros(0, bool)
+    limit = FRACTION * np.median(cKDTree(marks).query(marks, k=2)[0][:, 1])
+    distance, at = cKDTree(found).query(marks)
+    at[distance > limit] = -1
+    order = np.lexsort((distance, at))
+    order = order[at[order] >= 0]
+    first = order[np.unique(at[order], return_index=True)[1]]
+    got, hit = np.zeros(len(marks), bool), np.zeros(len(found), bool)
+    got[first] = True
+    hit[at[first]] = True
+    marks_counted, found_counted = ~near(marks), ~near(found)
+    both = marks_counted[first] & found_counted[at[first]]
+    marks_counted[first] = both
+    found_counted[at[first]] = both
+    return got, hit, marks_counted, found_counted
+
+
+def dice(found, marks, shape):
+    got, hit, marks_counted, found_counted = matched(found, marks, shape)
+    tp, fn, fp = (hit & found_counted).sum(), (~got & marks_counted).sum(), (~hit & found_counted).sum()
+    return 2 * tp / max(1, 2 * tp + fn + fp)
+
+
+def judge(seen, samples, rule, constants, radius):
+    """Dice coefficients: constants × samples. What a threshold takes away would not have suppressed anything that stays."""
+    out = np.zeros((len(constants), len(samples)))
+    for column, sample in enumerate(samples):
+        found, spacing = seen[sample.name]
+        kept = suppress(found, radius * SPACING)
+        where = places(kept, spacing)
+        zero = threshold_of(found, rule, 0)
+        for row, constant in enumerate(constants):
+            threshold = constant if rule == 'absolute' else zero - constant
+            out[row, column] = dice(where[kept[:, 2] > threshold], sample.marks, sample.image.shape)
+    return out
+
+
+def calibration(seen, samples, rule, constant, radius):
+    """P(a maximum is a marked cone) = 1/(1 + exp(−(offset + slope · x))), x = logit − the image's threshold, of maxima left
+    out of training that are at most 1 below the threshold; and how reliable the accepted ones' probabilities are."""
+    x, hit = [], []
+    for sample in samples:
+        found, spacing = seen[sample.name]
+        threshold = threshold_of(found, rule, constant)
+        kept = suppress(found, radius * SPACING)
+        kept = kept[kept[:, 2] > threshold - 1]
+        _, right, _, counted = matched(places(kept, spacing), sample.marks, sample.image.shape)
+        x.append((kept[:, 2] - threshold)[counted])
+        hit.append(right[counted])
+    x, hit = np.concatenate(x), np.concatenate(hit).astype(float)
+    offset, slope = logistic(x, hit)
+    p = 1 / (1 + np.exp(-(offset + slope * x)))
+    edges = np.quantile(p, np.linspace(0, 1, 11))
+    bins = np.clip(np.searchsorted(edges, p, side='right') - 1, 0, 9)
+    table = [(int((bins == b).sum()), float(p[bins == b].mean()), float(hit[bins == b].mean())) for b in range(10)
+             if (bins == b).any()]
+    error = sum(n * abs(said - was) for n, said, was in table) / len(p)
+    accepted = x > 0
+    return {'calibration_offset': offset, 'calibration_slope': slope, 'calibration_of': 'logit minus threshold'}, {
+        'expected_calibration_error': error, 'reliability': table,
+        'accepted_said': float(p[accepted].mean()), 'accepted_was': float(hit[accepted].mean())}
+
+
+def logistic(x, hit):
+    """Offset and slope of largest likelihood, by Newton's method."""
+    design = np.stack([np.ones_like(x), x], 1)
+    beta = np.zeros(2)
+    for _ in range(50):
+        p = 1 / (1 + np.exp(-(design @ beta)))
+        step = np.linalg.solve((design * (p * (1 - p))[:, None]).T @ design, design.T @ (hit - p))
+        beta += step
+        if abs(step).max() < 1e-9:
+            break
+    return float(beta[0]), float(beta[1])
+
+
+def summary(seen, disturbed, samples, folds, rule):
+    """Scores of all seeds, and the words of the weights' header: the constants best over all seeds, the best seed.
+    `disturbed`: of the first seed, by the name of an image and of a disturbance."""
+    choices = [(round(float(c), 3), r) for r in RADII for c in GRIDS[rule]]
+    scores = np.array([np.concatenate([judge(part, samples, rule, GRIDS[rule], r) for r in RADII]) for part in seen])
+    member = np.array([[s.subject in fold for s in samples] for fold in folds])
+    by_fold = lambda values: np.stack([values[..., m].mean(-1) for m in member], -1)
+    folded = by_fold(scores)  # seeds × choices × folds
+    mean = folded.mean(0)
+    pick = int(mean.mean(1).argmax())
+    constant, radius = choices[pick]
+    # constants for a fold are chosen on the other folds
+    others = [int(np.delete(mean, k, 1).mean(1).argmax()) for k in range(len(folds))]
+    nested = np.array([[folded[s, others[k], k] for k in range(len(folds))] for s in range(len(seen))])
+    seed = int(folded[:, pick].mean(1).argmax())
+    baseline = np.array([dice(s.classical, s.marks, s.image.shape) for s in samples])
+    subjects = sorted({s.subject for s in samples})
+    of = {u: np.array([s.subject == u for s in samples]) for u in subjects}
+    error = np.log([[part[s.name][1] / s.true for s in samples] for part in seen])
+    start = np.log([s.start / s.true for s in samples])
+    rms = lambda values: float(np.sqrt((values ** 2).mean()))
+    words, reliable = calibration(seen[seed], samples, rule, constant, radius)
+    losses = {}
+    by_name = {s.name: s for s in samples}
+    for (name, change), (found, spacing, shape, factor) in disturbed.items():
+        sample = by_name[name]
+        score = lambda f, s, marks, shape: dice(
+            places(suppress(f[f[:, 2] > threshold_of(f, rule, constant)], radius * SPACING), s), marks, shape)
+        losses.setdefault(change, []).append(
+            score(found, spacing, (sample.marks + 0.5) * factor - 0.5, shape)
+            - score(*seen[0][name], sample.marks, sample.image.shape))
+    result = {
+        'dice_by_seed': folded[:, pick].mean(1).tolist(), 'nested_by_seed': nested.mean(1).tolist(),
+        'nested_by_fold': nested.mean(0).tolist(), 'by_fold': mean[pick].tolist(),
+        'by_subject': {u: float(scores[:, pick][:, m].mean()) for u, m in of.items()},
+        'mean_over_images': float(scores[:, pick].mean()),
+        'best_threshold_of_every_image': float(by_fold(scores.max(1)).mean()),
+        'classical_by_fold': by_fold(baseline).tolist(),
+        'classical_by_subject': {u: float(baseline[m].mean()) for u, m in of.items()},
+        'classical_mean_over_images': float(baseline.mean()),
+        'change_when_disturbed': {k: float(np.mean(v)) for k, v in losses.items()},
+        'spacing_rms': rms(error), 'start_rms': rms(start), 'off_by_15': float((abs(error) > 0.15).mean()),
+        'folds': folds,
+    } | reliable
+    return result, {
+        'threshold': constant, 'suppression': radius, 'relative_floor': RELATIVE_FLOOR, 'relative_radius': RELATIVE_RADIUS,
+        'seed': seed + 1, 'dice': f'{nested.mean():.4f}', 'classical_dice': f'{by_fold(baseline).mean():.4f}'} | words

@@ -1,0 +1,66 @@
+"""Image → what a network sees, as src/detect/learned/input.rs does it."""
+import functools
+import math
+
+import cv2
+import numpy as np
+
+SPACING = 8              # px between cones in what the network sees
+DRIFT, CONTRAST = 8, 12  # Gaussians of the normalisation, px there
+
+
+def mirror(index, n):
+    index = np.mod(index, 2 * n)
+    return np.where(index < n, index, 2 * n - 1 - index)
+
+
+def gaussian(plane, sigma):
+    """Cut at ⌈4σ⌉, reflected at the border."""
+    radius = math.ceil(4 * sigma)
+    if min(plane.shape) > radius:
+        return cv2.GaussianBlur(plane, (2 * radius + 1, 2 * radius + 1), sigma, borderType=cv2.BORDER_REFLECT)
+    return gaussian_matrix(plane.shape[0], sigma) @ plane @ gaussian_matrix(plane.shape[1], sigma).T
+
+
+@functools.lru_cache(8192)
+def gaussian_matrix(n, sigma):
+    radius = math.ceil(4 * sigma)
+    k = np.arange(-radius, radius + 1)
+    weights = np.exp(-0.5 * (k / sigma) ** 2)
+    matrix = np.zeros((n, n))
+    for weight, offset in zip(weights / weights.sum(), k):
+        np.add.at(matrix, (np.arange(n), mirror(np.arange(n) + offset, n)), weight)
+    return matrix.astype(np.float32)
+
+
+@functools.lru_cache(4096)
+def resampling_matrix(n, step):
+    """Every `step` px by cubics (Catmull and Rom), after a Gaussian that takes off what the wider grid cannot hold."""
+    count = max(1, math.floor(n / step + 0.5))
+    place = (np.arange(count) + 0.5) * step - 0.5
+    first = np.floor(place).astype(int)
+    t = place - first
+    weights = (0.5 * t * (-1 + t * (2 - t)), 1 + 0.5 * t * t * (-5 + 3 * t),
+               0.5 * t * (1 + t * (4 - 3 * t)), 0.5 * t * t * (t - 1))
+    matrix = np.zeros((count, n))
+    for k, weight in enumerate(weights):
+        np.add.at(matrix, (np.arange(count), mirror(first + k - 1, n)), weight)
+    if step > 1:
+        matrix = matrix @ gaussian_matrix(n, 0.5 * math.sqrt(step * step - 1))
+    return matrix.astype(np.float32)
+
+
+def resample(image, step, step_x=None):
+    return resampling_matrix(image.shape[0], step) @ image @ resampling_matrix(image.shape[1], step_x or step).T
+
+
+def normalise(plane):
+    level = plane - gaussian(plane, DRIFT)
+    deviation = np.sqrt(np.maximum(gaussian(level * level, CONTRAST), 0))
+    return level / (deviation + 0.1 * deviation.mean() + 1e-12)
+
+
+def framed(plane, unit):
+    """Mirrored at right and bottom to whole multiples of `unit`."""
+    rows, columns = (mirror(np.arange(-(-n // unit) * unit), n) for n in plane.shape)
+    return plane[np.ix_(rows, columns)]
