@@ -17,7 +17,7 @@ import numpy as np
 
 BORDER = cv2.BORDER_REFLECT
 # threshold of a maximum, radius of suppression in spacings
-CRITERIA = {'confocal': (0.0, 0.55), 'split': (0.6, 0.5), 'histology': (0.3, 0.55)}
+CRITERIA = {'confocal': (0.0, 0.55), 'split': (0.6, 0.5), 'histology': (0.65, 0.45)}
 # slope and offset of the threshold that follows the upper quartile of the maxima
 RELATIVE = {'split': (0.75, -0.7)}
 

@@ -231,11 +231,47 @@ fn render_takes_cones_from_a_file_or_a_sampler() {
     let size = ["--width", "64", "--height", "64", "--truth", "truth.csv", "-q"];
     place
         .ok(&[&["render", "--points", "three.csv", "--spacing", "10", "--out", "a.png"][..], &size].concat());
-    assert_eq!(place.read("truth.csv"), place.read("three.csv"));
+    let places = |file: &str| -> Vec<(f64, f64)> {
+        place.table(file).iter().map(|row| (number(row, "x_px"), number(row, "y_px"))).collect()
+    };
+    assert_eq!(places("truth.csv"), places("three.csv"));
+    assert!(place.table("truth.csv").iter().all(|row| row["class"] == "cone" || row["class"] == "dim"));
     let sampler = ["render", "--mosaic", "jittered", "--spacing", "8", "--out", "b.png"];
     place.ok(&[&sampler[..], &size].concat());
     let cones = place.table("truth.csv").len() as f64;
     assert!((cones / (64. * 64. / (8. * 8. * 3f64.sqrt() / 2.)) - 1.).abs() < 0.15, "{cones}");
+}
+
+#[test]
+fn render_makes_many_images_and_says_what_each_is_made_from() {
+    let place = Place::new();
+    let size = ["--width", "64", "--height", "60", "-q"];
+    let set =
+        ["render", "--preset", "parafovea", "--count", "3", "--noise", "0.01..0.05", "--out", "sim.png"];
+    let files = ["--truth", "sim.csv", "--truth-of", "seen", "--um-per-px", "0.5", "--manifest", "all.csv"];
+    place.ok(&[&set[..], &files, &size].concat());
+    let rows = place.table("all.csv");
+    assert_eq!(rows.len(), 3);
+    for (k, row) in rows.iter().enumerate() {
+        assert_eq!(row["image"], format!("sim_00{}.png", k + 1));
+        assert_eq!(row["psf"], "airy");
+        let truth = place.table(&row["truth"]);
+        assert_eq!(truth.len() as f64, number(row, "cones"));
+        assert!(truth.iter().all(|cone| cone["class"] == "cone"));
+        assert_eq!(number(&truth[0], "x_um"), 0.5 * number(&truth[0], "x_px"));
+        assert!((0.01..0.05).contains(&number(row, "noise")));
+    }
+    assert_ne!(rows[0]["noise"], rows[1]["noise"]);
+    // any of them again from its seed
+    let again =
+        ["render", "--preset", "parafovea", "--noise", "0.01..0.05", "--seed", "2", "--out", "again.png"];
+    place.ok(&[&again[..], &size].concat());
+    assert_eq!(
+        std::fs::read(place.path("again.png")).unwrap(),
+        std::fs::read(place.path("sim_002.png")).unwrap()
+    );
+    let error = place.refused(&["render", "--modality", "split", "--outline", "1", "--out", "b.png"]);
+    assert!(error.contains("--outline does not exist in split images"), "{error}");
 }
 
 #[test]

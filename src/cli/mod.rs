@@ -48,7 +48,7 @@ enum Command {
     Compare(compare::Compare),
     Validate(validate::Validate),
     Sample(sample::Sample),
-    Render(render::Render),
+    Render(Box<render::Render>),
     Completions(completions::Completions),
 }
 

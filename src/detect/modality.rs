@@ -1,114 +1,222 @@
 //! How an image was taken and which way round its contrast runs, decided from the image.
+//!
+//! Each decision is a sum of evidence whose sign decides: weights are those of a logistic regression, fitted on hand-marked and on
+//! simulated images, as they are and with gamma ½ and 2, noise, blur, as negatives and as crops. So evidence is in logits.
 
-use super::spacing::RingProfile;
-use super::{Detection, Modality, Polarity, filter, local_maxima, suppress};
-use crate::geometry::{Window, nearest_neighbours};
-use crate::image::Plane;
+use super::spacing::{AROUND as AROUND_RING, RingProfile};
+use super::{Modality, Polarity, filter, flatten::normalise, local_maxima, suppress};
+use crate::image::{Plane, gaussian};
 
-/// Anisotropy of the ring above which an image shows a derivative along x. Hand-marked images: confocal at most .06,
-/// split at least .24, whatever gamma, noise or polarity is applied to them; simulated discs reach .17.
-const DIRECTED: f64 = 0.2;
-/// With fewer cones than this, the spectrum's own scatter passes for a direction: then it takes more.
-const ENOUGH_CONES: f64 = 100.;
-
-/// Scatter of the cones' heights, as a coefficient of variation, above which they are waveguides seen end-on (confocal)
-/// rather than cut discs (histology). Hand-marked confocal images: at least .43, with gamma 0.5 still .35; simulated
-/// histology: at most .35, its median .23.
-const WAVEGUIDES: f64 = 0.35;
+/// Widths of Gaussians, in spacings: of slopes, fine and coarse, and of grey values that noise must not blur.
+const FINE: f64 = 0.1;
+const COARSE: f64 = 0.2;
+const GREY: f64 = 0.08;
+/// Neighbourhood, in spacings, in which grey values are compared.
+const AROUND: f64 = 1.5;
 /// Maxima lower than this part of their median are not cones.
 const CONE: f64 = 0.3;
 
-/// Weight of the difference in regularity beside the skewness in the polarity of a split-detector image.
-const REGULARITY_WEIGHT: f64 = 0.1;
-/// Dark on the left is how instruments are set up: it takes this much evidence to believe in the reverse.
-const REVERSED: f64 = -0.05;
+/// Pixels from which on an image may be larger than its flattened part.
+const LARGE: usize = 512 * 512;
+/// Dark on the left is how instruments are set up: odds of two to one, in logits.
+const USUAL: f64 = 0.7;
 
-/// The modality and polarity of a flattened image; what the user gave stays as given.
+/// Weights, per unit, of the spectrum around the ring ([`RingProfile::around`]) as evidence of waveguides: round soft spots have
+/// little power above the ring, and an uneven brightness much below it; discs have edges.
+const SPOTS_SPECTRUM: [f64; AROUND_RING] =
+    [-1.52, 1.62, 0.28, 0.33, 0.61, 1.15, -0.6, -1.13, -0.72, -0.53, -0.96, -0.17, 0.65, 0.44, -0.3];
+
+/// The modality and polarity of a flattened image, or of a part that stands for all of it; what the user gave stays as given.
 pub(super) fn decide(
     flat: &Plane,
     ring: &RingProfile,
     modality: Option<Modality>,
     polarity: Option<Polarity>,
 ) -> (Modality, Polarity) {
-    let modality = modality.unwrap_or_else(|| decide_modality(flat, ring));
+    if let (Some(modality), Some(polarity)) = (modality, polarity) {
+        return (modality, polarity);
+    }
+    // of a large image this is but a part: where cones are not equally dense everywhere, its ring is its own
+    let own = (flat.len() >= LARGE).then(|| RingProfile::of(flat));
+    let features = Features::of(flat, own.as_ref().unwrap_or(ring));
+    let modality = modality.unwrap_or_else(|| features.modality());
+    let evidence = || match modality {
+        Modality::Split => features.dark_left(flat),
+        // cones make high maxima, what lies between them shallow minima
+        Modality::Confocal | Modality::Histology => features.blobs_skewness,
+    };
     let polarity =
-        polarity.unwrap_or_else(|| decide_polarity(flat, modality, ring.spacing(modality).spacing));
+        polarity.unwrap_or_else(|| if evidence() >= 0. { Polarity::Positive } else { Polarity::Negative });
     (modality, polarity)
 }
 
-fn decide_modality(flat: &Plane, ring: &RingProfile) -> Modality {
-    let spacing = ring.spacing(Modality::Split).spacing;
-    let cones = flat.len() as f64 / (0.75f64.sqrt() * spacing * spacing);
-    if ring.anisotropy(spacing) > DIRECTED * (ENOUGH_CONES / cones).sqrt().max(1.) {
-        return Modality::Split;
-    }
-    let spacing = ring.spacing(Modality::Histology).spacing;
-    if scatter_of_heights(flat, spacing) > WAVEGUIDES { Modality::Confocal } else { Modality::Histology }
+/// What tells images apart.
+struct Features {
+    /// Spacings under the assumption of a split detector and of discs, px.
+    split_spacing: f64,
+    disc_spacing: f64,
+    /// Response of a filter as wide as a cone, and its skewness.
+    blobs: Plane,
+    blobs_skewness: f64,
+    /// Logarithm of the variance of slopes along x over that along y: a split detector shows the derivative along x.
+    directed: f64,
+    /// Skewness of the slopes along x, fine and coarse: a cone between its dark and its bright side is steeper than what lies
+    /// between cones.
+    fine_slopes: f64,
+    coarse_slopes: f64,
+    /// The spectrum around the ring of discs.
+    spectrum: [f64; AROUND_RING],
+    /// Of local grey values, the brighter side that of the cones.
+    greys: Greys,
 }
 
-/// Coefficient of variation of the cones' heights: the maxima of a filter as wide as a cone.
-fn scatter_of_heights(flat: &Plane, spacing: f64) -> f64 {
-    let (mut blobs, suppression) = filter::blobs(flat, spacing);
-    if skewness(&filter::evened(&blobs, spacing)) < 0. {
-        blobs.mapv_inplace(|v| -v);
-    }
-    let maxima = suppress(local_maxima(&blobs, 0.), suppression * spacing);
-    let median = maxima.get(maxima.len() / 2).map_or(0., |d| d.score);
-    let heights: Vec<f64> = maxima.iter().map(|d| d.score).filter(|h| *h > CONE * median).collect();
-    let (mean, sd) = mean_and_deviation(&heights);
-    if mean > 0. { sd / mean } else { 0. }
-}
-
-/// Cones make high, well-spaced maxima of the filter; what lies between them makes shallow minima. So the response is
-/// skewed towards the cones, and its extrema on their side are the more regular ones.
-fn decide_polarity(flat: &Plane, modality: Modality, spacing: f64) -> Polarity {
-    let (response, criterion) = filter::response(flat, modality, Polarity::Positive, spacing);
-    let skewness = skewness(&response);
-    let evidence = match modality {
-        Modality::Confocal | Modality::Histology => skewness,
-        Modality::Split => {
-            let regularity = |response: &Plane| {
-                let maxima = suppress(local_maxima(response, 0.), criterion.suppression * spacing);
-                regularity_index(&maxima, response.dim())
-            };
-            let difference = regularity(&response) - regularity(&response.mapv(|v| -v));
-            skewness + REGULARITY_WEIGHT * difference - REVERSED
+impl Features {
+    fn of(flat: &Plane, ring: &RingProfile) -> Self {
+        let split_spacing = ring.spacing(Modality::Split).spacing;
+        let disc_spacing = ring.spacing(Modality::Histology).spacing;
+        let blobs = filter::blobs(flat, disc_spacing);
+        let blobs_skewness = Moments::of(blobs.iter()).skewness();
+        let fine = Slopes::of(&gaussian(flat, FINE * split_spacing));
+        let coarse = Slopes::of(&gaussian(flat, COARSE * split_spacing));
+        let directed = (fine.along_x.variance() / fine.along_y.variance().max(f64::MIN_POSITIVE)).ln();
+        Self {
+            split_spacing,
+            disc_spacing,
+            spectrum: ring.around(disc_spacing),
+            greys: Greys::of(flat, disc_spacing, blobs_skewness < 0.),
+            blobs,
+            blobs_skewness,
+            directed,
+            fine_slopes: fine.along_x.skewness(),
+            coarse_slopes: coarse.along_x.skewness(),
         }
-    };
-    if evidence >= 0. { Polarity::Positive } else { Polarity::Negative }
-}
-
-/// Mean over standard deviation of the maxima's nearest-neighbour distances; 0 where it is not defined.
-fn regularity_index(maxima: &[Detection], (height, width): (usize, usize)) -> f64 {
-    let points: Vec<_> = maxima.iter().map(|d| d.centre).collect();
-    let Ok(window) = Window::of_image(width, height) else { return 0. };
-    let (mean, sd) = mean_and_deviation(&nearest_neighbours(&points, &window).distances);
-    if sd > 0. { mean / sd } else { 0. }
-}
-
-/// Mean and sample standard deviation; 0 where they are not defined.
-fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
-    if values.len() < 2 {
-        return (values.first().copied().unwrap_or(0.), 0.);
     }
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    let variance = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.);
-    (mean, variance.sqrt())
+
+    fn modality(&self) -> Modality {
+        let split =
+            11.32 * self.directed - 5.87 * self.greys.skewness + 10.8 * self.coarse_slopes.abs() - 2.35;
+        if split > 0. {
+            Modality::Split
+        } else if self.waveguides() > 0. {
+            Modality::Confocal
+        } else {
+            Modality::Histology
+        }
+    }
+
+    /// Evidence that cones are waveguides seen end-on rather than cut discs.
+    fn waveguides(&self) -> f64 {
+        let spectrum: f64 = SPOTS_SPECTRUM.iter().zip(&self.spectrum).map(|(w, p)| w * p).sum();
+        6.98 * self.greys.kurtosis.ln() - 13.3 * self.greys.boxiness + 2.53 * self.greys.skewness
+            - 12.39 * self.greys.asymmetry
+            + 8.8 * self.scatter_of_heights()
+            + spectrum
+            - 6.
+    }
+
+    /// Coefficient of variation of the cones' heights: waveguides scatter more than cut discs.
+    fn scatter_of_heights(&self) -> f64 {
+        let upright = if self.blobs_skewness < 0. { self.blobs.mapv(|v| -v) } else { self.blobs.clone() };
+        let maxima = suppress(local_maxima(&upright, 0.), 0.55 * self.disc_spacing);
+        let median = maxima.get(maxima.len() / 2).map_or(0., |d| d.score);
+        let heights: Vec<f32> =
+            maxima.iter().map(|d| d.score).filter(|h| *h > CONE * median).map(|h| h as f32).collect();
+        let moments = Moments::of(heights.iter());
+        if moments.mean > 0. { moments.variance().sqrt() / moments.mean } else { 0. }
+    }
+
+    /// Evidence that a split detector shows cones dark on the left.
+    fn dark_left(&self, flat: &Plane) -> f64 {
+        let (response, _) = filter::response(flat, Modality::Split, Polarity::Positive, self.split_spacing);
+        let response = Moments::of(response.iter()).skewness();
+        26.8 * response + 3. * self.coarse_slopes - 10. * self.fine_slopes + 4.6 * self.blobs_skewness + USUAL
+    }
 }
 
-/// Third standardised moment.
-fn skewness(plane: &Plane) -> f64 {
-    let n = plane.len().max(1) as f64;
-    let mean = plane.iter().map(|&v| f64::from(v)).sum::<f64>() / n;
-    let (mut second, mut third) = (0., 0.);
-    for &v in plane {
-        let d = f64::from(v) - mean;
-        second += d * d;
-        third += d * d * d;
+/// Differences of neighbouring pixels.
+struct Slopes {
+    along_x: Moments,
+    along_y: Moments,
+}
+
+impl Slopes {
+    fn of(plane: &Plane) -> Self {
+        let (width, plane) = (plane.ncols(), plane.as_standard_layout());
+        let data = plane.as_slice().unwrap_or_default();
+        let along_x: Vec<f32> =
+            data.chunks_exact(width.max(1)).flat_map(|row| row.windows(2).map(|p| p[1] - p[0])).collect();
+        let along_y: Vec<f32> = data.iter().skip(width).zip(data).map(|(below, here)| below - here).collect();
+        Self { along_x: Moments::of(along_x.iter()), along_y: Moments::of(along_y.iter()) }
     }
-    let variance = (second / n).max(f64::MIN_POSITIVE);
-    third / n / variance.powf(1.5)
+}
+
+/// How grey values are distributed around their local mean, in local standard deviations.
+struct Greys {
+    skewness: f64,
+    kurtosis: f64,
+    /// Interquartile range over the range from 5 % to 95 %: large where most pixels are either disc or ground.
+    boxiness: f64,
+    /// How much further the bright end lies from the median than the dark end, in parts of the range from 5 % to 95 %.
+    asymmetry: f64,
+}
+
+impl Greys {
+    fn of(flat: &Plane, spacing: f64, negative: bool) -> Self {
+        let smooth = gaussian(flat, GREY * spacing);
+        let local = normalise(&(&smooth - &gaussian(&smooth, AROUND * spacing)), AROUND * spacing);
+        let moments = Moments::of(local.iter());
+        let mut values: Vec<f32> = local.into_iter().collect();
+        let mut quantile = |part: f64| {
+            let rank = (part * (values.len() - 1) as f64) as usize;
+            f64::from(*values.select_nth_unstable_by(rank, f32::total_cmp).1)
+        };
+        let [low, lower, median, upper, high] = [0.05, 0.25, 0.5, 0.75, 0.95].map(&mut quantile);
+        let range = (high - low).max(f64::MIN_POSITIVE);
+        let sign = if negative { -1. } else { 1. };
+        Self {
+            skewness: sign * moments.skewness(),
+            kurtosis: moments.kurtosis(),
+            boxiness: (upper - lower) / range,
+            asymmetry: sign * (high + low - 2. * median) / range,
+        }
+    }
+}
+
+/// Mean and central moments, per value.
+struct Moments {
+    mean: f64,
+    second: f64,
+    third: f64,
+    fourth: f64,
+}
+
+impl Moments {
+    fn of<'a>(values: impl ExactSizeIterator<Item = &'a f32> + Clone) -> Self {
+        let n = values.len().max(1) as f64;
+        let mean = values.clone().map(|&v| f64::from(v)).sum::<f64>() / n;
+        let (mut second, mut third, mut fourth) = (0., 0., 0.);
+        for &v in values {
+            let d = f64::from(v) - mean;
+            second += d * d;
+            third += d * d * d;
+            fourth += d * d * d * d;
+        }
+        Self { mean, second: second / n, third: third / n, fourth: fourth / n }
+    }
+
+    const fn variance(&self) -> f64 {
+        self.second
+    }
+
+    /// Third standardised moment; 0 for a constant.
+    fn skewness(&self) -> f64 {
+        self.third / self.second.max(f64::MIN_POSITIVE).powf(1.5)
+    }
+
+    /// Fourth standardised moment; at least 1.
+    fn kurtosis(&self) -> f64 {
+        (self.fourth / self.second.max(f64::MIN_POSITIVE).powi(2)).max(1.)
+    }
 }
 
 #[cfg(test)]
@@ -117,9 +225,18 @@ mod tests {
 
     #[test]
     fn a_coin_is_symmetric_and_rare_heights_are_not() {
-        let coin = Plane::from_shape_fn((10, 10), |(y, _)| if y < 5 { -1. } else { 1. });
-        assert!(skewness(&coin).abs() < 1e-12);
-        let rare = Plane::from_shape_fn((10, 10), |(y, x)| if (y, x) == (5, 5) { 1. } else { 0. });
-        assert!(skewness(&rare) > 9.);
+        let coin = Moments::of([-1., 1., -1., 1.].iter());
+        assert_eq!((coin.skewness(), coin.kurtosis()), (0., 1.));
+        let rare: Vec<f32> = (0..100).map(|i| if i == 5 { 1. } else { 0. }).collect();
+        let rare = Moments::of(rare.iter());
+        assert!(rare.skewness() > 9. && rare.kurtosis() > 90.);
+    }
+
+    #[test]
+    fn slopes_along_x_outweigh_those_along_y_in_stripes() {
+        let stripes =
+            Plane::from_shape_fn((40, 50), |(y, x)| (0.7 * x as f32).sin() + (0.1 * y as f32).sin());
+        let slopes = Slopes::of(&stripes);
+        assert!(slopes.along_x.variance() > 20. * slopes.along_y.variance());
     }
 }

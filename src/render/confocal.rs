@@ -1,10 +1,13 @@
-use super::RenderOptions;
-use super::field::{SlowField, normal, smooth, texture};
+use super::field::{normal, smooth, texture};
+use super::psf::{AIRY_CUT, airy_amplitude};
+use super::rods::Rod;
 use super::spacing::CellSizes;
+use super::{PointSpread, RenderOptions};
 use crate::geometry::Point;
 use crate::image::Plane;
 use rand::{Rng, RngExt};
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// Part of the light of neighbouring cones that interferes; the rest adds up.
 const COHERENCE: f64 = 0.35;
@@ -12,48 +15,40 @@ const COHERENCE: f64 = 0.35;
 const WIDTH_PER_SIGMA: f64 = 2.354_820_045;
 /// Where a spot is cut off, in standard deviations of its intensity.
 const CUT: f64 = 4.;
+/// Width of a rod's spot, in distances of the rods.
+const ROD: f64 = 0.6;
+/// Width of the small peaks of a multimodal cone, and how far they lie from its centre, in widths of its spot.
+const PEAK: f64 = 0.45;
+const PEAK_OFFSET: f64 = 0.4;
 
-/// Cones as waveguides that send light back through a point-spread function: Gaussian spots whose centre is the cone and
-/// whose mean height is 1. Light of neighbours interferes in part, with random phases, which joins or parts their spots.
+/// Cones and rods as waveguides that send light back through a point-spread function: spots whose centre is the cone and whose
+/// mean height is 1. Light of neighbours interferes in part, with random phases, which joins or parts their spots.
 pub(super) fn signal(
     points: &[Point],
     cells: &CellSizes,
+    heights: &[f64],
+    rods: &[Rod],
     options: &RenderOptions,
     rng: &mut dyn Rng,
 ) -> Plane {
-    let (width, height) = (options.width, options.height);
-    let heights = spot_heights(points, cells, options, rng);
-    let mut intensity = Plane::zeros((height, width));
-    let mut real = Plane::zeros((height, width));
-    let mut imaginary = Plane::zeros((height, width));
-    for ((&p, &spacing), peak) in points.iter().zip(&cells.spacing).zip(heights) {
-        let sigma = options.diameter * spacing / WIDTH_PER_SIGMA * (1. + 0.06 * normal(rng)).clamp(0.7, 1.3);
-        let (sin, cos) = rng.random_range(0. ..TAU).sin_cos();
-        let amplitude = peak.sqrt();
-        let (Some(columns), Some(rows)) = (span(p.x, CUT * sigma, width), span(p.y, CUT * sigma, height))
-        else {
-            continue;
-        };
-        // The amplitude of a spot is the square root of its intensity: twice its variance.
-        let profile = |range: std::ops::Range<usize>, centre: f64| -> Vec<f64> {
-            range.map(|i| (-((i as f64 - centre) / sigma).powi(2) / 4.).exp()).collect()
-        };
-        let (across, down) = (profile(columns.clone(), p.x), profile(rows.clone(), p.y));
-        for (y, v) in rows.zip(&down) {
-            for (x, u) in columns.clone().zip(&across) {
-                let a = amplitude * u * v;
-                intensity[[y, x]] += (a * a) as f32;
-                real[[y, x]] += (a * cos) as f32;
-                imaginary[[y, x]] += (a * sin) as f32;
-            }
+    let mut light = Light::dark(options);
+    for ((&p, &spacing), &peak) in points.iter().zip(&cells.spacing).zip(heights) {
+        let cv = options.size_scatter;
+        let scatter = (1. + cv * normal(rng)).clamp((1. - 5. * cv).max(0.3), 1. + 5. * cv);
+        let width = options.diameter * spacing * scatter;
+        let phase = rng.random_range(0. ..TAU);
+        if options.multimodal > 0. && rng.random::<f64>() < options.multimodal {
+            light.add_peaks(p, width, peak, rng);
+        } else {
+            light.add_spot(p, width, peak, phase);
         }
     }
-    let coherence = COHERENCE as f32;
-    ndarray::Zip::from(&mut intensity).and(&real).and(&imaginary).for_each(|sum, &re, &im| {
-        *sum = (1. - coherence) * *sum + coherence * (re * re + im * im);
-    });
+    for rod in rods {
+        light.add_spot(rod.centre, ROD * rod.pitch, rod.height, rng.random_range(0. ..TAU));
+    }
+    let mut intensity = light.seen();
     if options.texture > 0. {
-        let haze = texture(width, height, 0.2 * cells.typical, rng);
+        let haze = texture(options.width, options.height, 0.2 * cells.typical, rng);
         let haze = smooth(&haze.mapv(|v| v * v), 0.15 * cells.typical);
         let strength = options.texture as f32;
         intensity.zip_mut_with(&haze, |sum, &v| *sum += strength * v);
@@ -61,27 +56,89 @@ pub(super) fn signal(
     intensity
 }
 
-/// Log-normal, mean 1. Of the variance of the logarithm three quarters are the cone's own, one its neighbours share.
-pub(super) fn spot_heights(
-    points: &[Point],
-    cells: &CellSizes,
-    options: &RenderOptions,
-    rng: &mut dyn Rng,
-) -> Vec<f64> {
-    let sd = (1. + options.scatter * options.scatter).ln().sqrt();
-    let shared = SlowField::new(options.width, options.height, 2. * cells.typical, rng);
-    points
-        .iter()
-        .map(|p| {
-            let log = sd * (0.75f64.sqrt() * normal(rng) + 0.5 * shared.at(p.x, p.y)) - sd * sd / 2.;
-            let dim = if rng.random::<f64>() < options.dim { rng.random_range(0. ..0.3) } else { 1. };
-            dim * log.exp()
-        })
-        .collect()
+/// Light of many spots: its summed intensity, and its summed amplitude.
+struct Light {
+    psf: PointSpread,
+    intensity: Plane,
+    real: Plane,
+    imaginary: Plane,
+}
+
+impl Light {
+    fn dark(options: &RenderOptions) -> Self {
+        let plane = || Plane::zeros((options.height, options.width));
+        Self { psf: options.psf, intensity: plane(), real: plane(), imaginary: plane() }
+    }
+
+    /// A spot of the given full width at half maximum, px, and intensity.
+    fn add_spot(&mut self, p: Point, width: f64, peak: f64, phase: f64) {
+        let (sin, cos) = phase.sin_cos();
+        let amplitude = peak.sqrt();
+        let reach = match self.psf {
+            PointSpread::Gaussian => CUT * width / WIDTH_PER_SIGMA,
+            PointSpread::Airy => AIRY_CUT * width,
+        };
+        let (rows_in_all, columns_in_all) = self.intensity.dim();
+        let (Some(columns), Some(rows)) = (span(p.x, reach, columns_in_all), span(p.y, reach, rows_in_all))
+        else {
+            return;
+        };
+        let mut add = |y: usize, x: usize, a: f64| {
+            self.intensity[[y, x]] += (a * a) as f32;
+            self.real[[y, x]] += (a * cos) as f32;
+            self.imaginary[[y, x]] += (a * sin) as f32;
+        };
+        match self.psf {
+            PointSpread::Gaussian => {
+                let sigma = width / WIDTH_PER_SIGMA;
+                // The amplitude of a spot is the square root of its intensity: twice its variance.
+                let profile = |range: Range<usize>, centre: f64| -> Vec<f64> {
+                    range.map(|i| (-((i as f64 - centre) / sigma).powi(2) / 4.).exp()).collect()
+                };
+                let (across, down) = (profile(columns.clone(), p.x), profile(rows.clone(), p.y));
+                for (y, v) in rows.zip(&down) {
+                    for (x, u) in columns.clone().zip(&across) {
+                        add(y, x, amplitude * u * v);
+                    }
+                }
+            }
+            PointSpread::Airy => {
+                for y in rows {
+                    for x in columns.clone() {
+                        let distance = (x as f64 - p.x).hypot(y as f64 - p.y) / width;
+                        add(y, x, amplitude * airy_amplitude(distance));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Two to four peaks within a cone, as wide cones guide several modes.
+    fn add_peaks(&mut self, p: Point, width: f64, peak: f64, rng: &mut dyn Rng) {
+        let count = rng.random_range(2..=4);
+        let turn = rng.random_range(0. ..TAU);
+        for k in 0..count {
+            let angle = turn + TAU * f64::from(k) / f64::from(count) + 0.3 * normal(rng);
+            let offset = PEAK_OFFSET * width * rng.random_range(0.6..1.2);
+            let at = Point::new(p.x + offset * angle.cos(), p.y + offset * angle.sin());
+            let part = rng.random_range(0.4..1.2);
+            self.add_spot(at, PEAK * width, part * peak, rng.random_range(0. ..TAU));
+        }
+    }
+
+    /// What a detector sees of it.
+    fn seen(mut self) -> Plane {
+        let coherence = COHERENCE as f32;
+        let (real, imaginary) = (&self.real, &self.imaginary);
+        ndarray::Zip::from(&mut self.intensity).and(real).and(imaginary).for_each(|sum, &re, &im| {
+            *sum = (1. - coherence) * *sum + coherence * (re * re + im * im);
+        });
+        self.intensity
+    }
 }
 
 /// Pixels of a side within `reach` of `centre`; `None` if there are none.
-pub(super) fn span(centre: f64, reach: f64, side: usize) -> Option<std::ops::Range<usize>> {
+pub(super) fn span(centre: f64, reach: f64, side: usize) -> Option<Range<usize>> {
     let first = (centre - reach).ceil().max(0.);
     let last = (centre + reach).floor().min(side as f64 - 1.);
     (first <= last).then(|| first as usize..last as usize + 1)

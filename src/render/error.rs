@@ -1,3 +1,4 @@
+use crate::geometry::WindowError;
 use thiserror::Error;
 
 /// A picture that cannot be made.
@@ -45,6 +46,9 @@ pub enum RenderError {
         /// What the spatial index says.
         reason: String,
     },
+    /// The image has no area.
+    #[error(transparent)]
+    Window(#[from] WindowError),
     /// Too few points to tell how large a cone is.
     #[error(
         "the size of a cone follows from its neighbours, and {found} points are too few: give at least 4, or the spacing"

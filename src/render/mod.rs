@@ -8,23 +8,33 @@
 //! Simulated cones with known places, to judge detectors, follow Mariotti & Devaney (2015).
 
 mod confocal;
+mod density;
 mod error;
 mod field;
 mod histology;
+mod montage;
 mod mosaic;
 mod noise;
 mod options;
+mod presets;
+mod psf;
+mod rods;
 mod spacing;
 mod split;
+mod vessels;
+mod visibility;
 
 pub use error::RenderError;
-pub use mosaic::{MosaicOptions, cone_mosaic};
-pub use options::RenderOptions;
+pub use mosaic::{GradientShape, MosaicOptions, Pattern, cone_mosaic};
+pub use options::{PointSpread, RenderOptions};
+pub use presets::{PRESETS, Preset};
+pub use visibility::{ConeClass, Visibility};
 
 use crate::detect::{Modality, Polarity};
 use crate::geometry::Point;
 use crate::image::Plane;
 use field::SlowField;
+use montage::Montage;
 use rand::Rng;
 use spacing::CellSizes;
 
@@ -33,8 +43,10 @@ use spacing::CellSizes;
 pub struct Simulation {
     /// Grey values in [0, 1].
     pub image: Plane,
-    /// The cones whose centre lies in the image, in px, whether or not they can be seen.
+    /// The cones whose centre lies on a pixel that was imaged, in px, whether or not they can be seen.
     pub cones: Vec<Point>,
+    /// For each of them, how well it can be seen.
+    pub visibility: Vec<Visibility>,
 }
 
 /// A mosaic made by [`cone_mosaic`], and its picture. Cones beyond the border shine into the picture, as they do in a
@@ -68,16 +80,14 @@ pub fn simulate(
     image.validate()?;
     let sized = MosaicOptions { width: image.width, height: image.height, ..mosaic.clone() };
     let around = mosaic::with_surroundings(&sized, rng)?;
-    let picture = render(&around, image, rng)?;
-    let cones = around.into_iter().filter(|&p| mosaic::in_image(p, image.width, image.height)).collect();
-    Ok(Simulation { image: picture, cones })
+    picture(&around, image, rng)
 }
 
 /// The picture of cones at `points` (px, pixel (0, 0) is the centre of the top-left pixel), in [0, 1].
 ///
-/// Steps: the size of each cone from its neighbours → the signal of the modality → contrast and brightness → uneven
-/// illumination → blur → noise → cut to [0, 1]. Points beyond the border are welcome: what they shine into the picture
-/// is drawn.
+/// Steps: the size of each cone from its neighbours → its height → the signal of the modality → contrast and brightness →
+/// uneven illumination and vessels → blur → noise → montage → cut to [0, 1]. Points beyond the border are welcome: what they shine
+/// into the picture is drawn.
 ///
 /// # Errors
 /// If an option is out of its range, a coordinate is not finite, or there are fewer than four points and the
@@ -96,25 +106,80 @@ pub fn simulate(
 /// # Ok::<(), conemosaic::render::RenderError>(())
 /// ```
 pub fn render(points: &[Point], options: &RenderOptions, rng: &mut dyn Rng) -> Result<Plane, RenderError> {
+    Ok(picture(points, options, rng)?.image)
+}
+
+/// As [`render`], with those of the points that lie on an imaged pixel, and how well each can be seen.
+///
+/// # Errors
+/// As [`render`].
+pub fn picture(
+    points: &[Point],
+    options: &RenderOptions,
+    rng: &mut dyn Rng,
+) -> Result<Simulation, RenderError> {
     options.validate()?;
     if let Some((index, p)) = points.iter().enumerate().find(|(_, p)| !p.is_finite()) {
         return Err(RenderError::NotFinite { index, x: p.x, y: p.y });
     }
     let cells = CellSizes::of(points, options)?;
+    let heights = visibility::heights(points, &cells, options, rng);
+    let rods = rods::between(points, &cells, options, rng);
+    let mut contrasts = heights.clone();
     let signal = match options.modality {
-        Modality::Confocal => confocal::signal(points, &cells, options, rng),
-        Modality::Split => split::signal(points, &cells, options, rng),
-        Modality::Histology => histology::signal(points, &cells, options, rng),
+        Modality::Confocal => confocal::signal(points, &cells, &heights, &rods, options, rng),
+        Modality::Split => split::signal(points, &cells, &heights, &rods, options, rng),
+        Modality::Histology => {
+            let sizes = histology::section(points.len(), options, rng);
+            contrasts.iter_mut().zip(&sizes).for_each(|(c, size)| *c *= size);
+            histology::signal(points, &cells, &heights, &sizes, &rods, options, rng)
+        }
     };
+    let vessels = (options.vessels > 0).then(|| vessels::depth(options, cells.typical, rng));
+    let mut image = expose(signal, vessels.as_ref(), &cells, options, rng);
+    noise::add(&mut image, options, rng);
+    image.mapv_inplace(|v| v.clamp(0., 1.));
+    let montage = (options.montage > 1).then(|| Montage::new(options, rng));
+    if let Some(montage) = &montage {
+        image = montage.applied(&image);
+    }
+    let imaged = |p: Point| {
+        mosaic::in_image(p, options.width, options.height)
+            && montage.as_ref().is_none_or(|m| m.covers(p.x, p.y))
+    };
+    let light = |p: Point| {
+        let pixel = |v: f64, side: usize| (v.round().max(0.) as usize).min(side - 1);
+        let at = [pixel(p.y, options.height), pixel(p.x, options.width)];
+        vessels.as_ref().map_or(1., |v| 1. - options.vessel_depth * f64::from(v[at]))
+    };
+    let seen = points.iter().zip(contrasts).filter(|(p, _)| imaged(**p));
+    let (cones, visibility) = seen.map(|(&p, c)| (p, Visibility::of(c * light(p)))).unzip();
+    Ok(Simulation { image, cones, visibility })
+}
+
+/// The signal as grey values, unevenly lit, behind vessels, blurred, and turned round where the polarity is negative.
+fn expose(
+    mut signal: Plane,
+    vessels: Option<&Plane>,
+    cells: &CellSizes,
+    options: &RenderOptions,
+    rng: &mut dyn Rng,
+) -> Plane {
+    let relief = options.modality == Modality::Split;
+    if let Some(vessels) = vessels.filter(|_| relief) {
+        split::cover(&mut signal, vessels, options, cells.typical);
+    }
     let mut image = signal.mapv_into(|v| options.brightness as f32 + options.contrast as f32 * v);
     illuminate(&mut image, options, cells.typical, rng);
+    if let Some(vessels) = vessels.filter(|_| !relief) {
+        let depth = options.vessel_depth as f32;
+        image.zip_mut_with(vessels, |v, inside| *v *= 1. - depth * inside);
+    }
     let mut image = field::smooth(&image, options.blur * cells.typical);
     if options.polarity == Polarity::Negative {
         image.mapv_inplace(|v| 1. - v);
     }
-    noise::add(&mut image, options, rng);
-    image.mapv_inplace(|v| v.clamp(0., 1.));
-    Ok(image)
+    image
 }
 
 /// Multiplies by 1 + drift: half its variance spans the picture (vignetting, tilt), half a few cones (vessels and

@@ -1,10 +1,12 @@
 use super::RenderError;
+use super::density::{Density, Rectangle};
 use super::error::check;
 use super::field::normal;
 use super::options::validate_size;
-use crate::geometry::Point;
-use rand::{Rng, RngExt};
+use crate::geometry::{Point, Window};
+use rand::Rng;
 use rayon::prelude::*;
+use serde::Serialize;
 
 /// Relaxation steps. More make larger crystals and a higher regularity.
 const STEPS: usize = 30;
@@ -12,22 +14,44 @@ const STEPS: usize = 30;
 const REACH: f64 = 1.25;
 /// How far a cone moves in a step for a unit of push, in spacings.
 const STIFFNESS: f64 = 0.3;
+/// Standard deviation, in spacings, by which even points are displaced at the start, until their own order is forgotten.
+const FORGET: f64 = 0.3;
 /// How far beyond the image cones are made, in spacings, so that the walls that hold them in are not felt inside.
 const MARGIN: f64 = 4.;
 /// How far beyond the image a cone still shines into it, in spacings.
 const SURROUNDINGS: f64 = 2.;
 
+/// How the density of a mosaic falls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GradientShape {
+    /// From the left edge to the right edge: its logarithm is linear in x.
+    #[default]
+    Linear,
+    /// From the middle of the image outwards, as around the fovea: the spacing grows in proportion to the distance up to half the
+    /// longer side, and stays from there on.
+    Radial,
+}
+
 /// A mosaic as regular as a real one.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MosaicOptions {
     /// Width of the image, 1 to 16384 px.
+    #[serde(skip)]
     pub width: usize,
     /// Height of the image, 1 to 16384 px.
+    #[serde(skip)]
     pub height: usize,
-    /// Hexagonal spacing of the mean density, 2 to 1000 px.
+    /// Hexagonal spacing, 2 to 1000 px: of the mean density; with a radial gradient, in the middle.
     pub spacing: f64,
-    /// Density at the left edge over that at the right edge, 1/20 to 20; 1 is uniform. Its logarithm is linear in x.
+    /// Density at the left edge over that at the right edge, or in the middle over that half the longer side away from it,
+    /// 1/20 to 20; 1 is uniform.
     pub gradient: f64,
+    /// Which of the two.
+    #[serde(rename = "gradient_shape")]
+    pub shape: GradientShape,
+    /// Spacing along y over spacing along x at the same density, 0.5 to 2.
+    pub anisotropy: f64,
     /// Standard deviation of the final displacement in x and in y, 0 to 0.5 local spacings. 0.085 gives the regularity index of
     /// real mosaics.
     pub jitter: f64,
@@ -35,7 +59,15 @@ pub struct MosaicOptions {
 
 impl Default for MosaicOptions {
     fn default() -> Self {
-        Self { width: 150, height: 150, spacing: 9., gradient: 1., jitter: 0.085 }
+        Self {
+            width: 150,
+            height: 150,
+            spacing: 9.,
+            gradient: 1.,
+            shape: GradientShape::Linear,
+            anisotropy: 1.,
+            jitter: 0.085,
+        }
     }
 }
 
@@ -47,26 +79,9 @@ impl MosaicOptions {
     pub fn validate(&self) -> Result<(), RenderError> {
         validate_size(self.width, self.height)?;
         check("spacing", self.spacing, (2., 1000.), "px")?;
-        check("gradient", self.gradient, (0.05, 20.), "(density left over right)")?;
+        check("gradient", self.gradient, (0.05, 20.), "(density left over right, or middle over surround)")?;
+        check("anisotropy", self.anisotropy, (0.5, 2.), "(spacing along y over spacing along x)")?;
         check("jitter", self.jitter, (0., 0.5), "spacings")
-    }
-
-    /// Density at x relative to the mean of the image; beyond the image, that of its edge.
-    fn relative_density(&self, x: f64) -> f64 {
-        let log = self.gradient.ln();
-        let t = ((x + 0.5) / self.width as f64).clamp(0., 1.);
-        // ∫₀¹ exp(log (½ − t)) dt = 2 sinh(log/2) / log
-        let mean = if log.abs() < 1e-9 { 1. } else { 2. * (log / 2.).sinh() / log };
-        (log * (0.5 - t)).exp() / mean
-    }
-
-    fn local_spacing(&self, x: f64) -> f64 {
-        self.spacing / self.relative_density(x).sqrt()
-    }
-
-    /// Widest spacing of the image.
-    fn widest(&self) -> f64 {
-        self.local_spacing(0.).max(self.local_spacing(self.width as f64))
     }
 }
 
@@ -97,16 +112,18 @@ pub(super) fn with_surroundings(
     rng: &mut dyn Rng,
 ) -> Result<Vec<Point>, RenderError> {
     options.validate()?;
-    let field = Field::around(options);
-    let mut points = field.evenly_spread(options, rng);
-    for _ in 0..STEPS {
-        points = field.repelled(&points, options);
-    }
+    let density = Density::of(options);
+    let field = Field::around(&density);
+    let mut points = density.evenly_spread(&field.bounds, rng);
     for p in &mut points {
-        let sd = options.jitter * options.local_spacing(p.x);
-        *p = Point::new(p.x + sd * normal(rng), p.y + sd * normal(rng));
+        let sd = FORGET * density.spacing_at(*p);
+        *p = field.held(Point::new(p.x + sd * normal(rng), p.y + sd * normal(rng)));
     }
-    let reach = SURROUNDINGS * options.widest();
+    for _ in 0..STEPS {
+        points = field.repelled(&points, &density);
+    }
+    jitter(&mut points, &density, options, rng);
+    let reach = SURROUNDINGS * density.widest();
     points.retain(|p| {
         let near = |v: f64, side: usize| v > -reach && v < side as f64 + reach;
         near(p.x, options.width) && near(p.y, options.height)
@@ -114,67 +131,88 @@ pub(super) fn with_surroundings(
     Ok(points)
 }
 
+/// Displaces cones, and takes them from the isotropic frame to the image.
+fn jitter(points: &mut [Point], density: &Density, options: &MosaicOptions, rng: &mut dyn Rng) {
+    for p in points {
+        if options.jitter > 0. {
+            let sd = options.jitter * density.spacing_at(*p);
+            *p = Point::new(p.x + sd * normal(rng), p.y + sd * normal(rng));
+        }
+        *p = density.stretched(*p);
+    }
+}
+
+/// A pattern of uniform density, such as a sampler's, bent into the mosaic that options describe.
+pub struct Pattern {
+    density: Density,
+    options: MosaicOptions,
+    window: Window,
+    count: usize,
+}
+
+impl Pattern {
+    /// What pattern such a mosaic needs.
+    ///
+    /// # Errors
+    /// If an option is out of its range.
+    pub fn new(options: &MosaicOptions) -> Result<Self, RenderError> {
+        options.validate()?;
+        let density = Density::of(options);
+        let (sides, count) = density.flat();
+        let window = Window::rectangle(sides.x0, sides.y0, sides.x1, sides.y1)?;
+        Ok(Self { density, options: options.clone(), window, count })
+    }
+
+    /// How many points it needs.
+    pub const fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Where it needs them.
+    pub const fn window(&self) -> &Window {
+        &self.window
+    }
+
+    /// The points in the image that the pattern becomes, px. A gradient stretches cells along itself.
+    pub fn bent(&self, points: &[Point], rng: &mut dyn Rng) -> Vec<Point> {
+        let mut points = self.density.bent(points);
+        jitter(&mut points, &self.density, &self.options, rng);
+        points.retain(|p| in_image(*p, self.options.width, self.options.height));
+        points
+    }
+}
+
 /// The image with a margin around it.
 struct Field {
-    x0: f64,
-    y0: f64,
-    x1: f64,
-    y1: f64,
+    bounds: Rectangle,
     /// Side of the squares in which neighbours are sought, px.
     cell: f64,
 }
 
 impl Field {
-    fn around(options: &MosaicOptions) -> Self {
-        let widest = options.widest();
+    fn around(density: &Density) -> Self {
+        let widest = density.widest();
         let margin = MARGIN * widest;
-        Self {
+        let bounds = Rectangle {
             x0: -0.5 - margin,
             y0: -0.5 - margin,
-            x1: options.width as f64 - 0.5 + margin,
-            y1: options.height as f64 - 0.5 + margin,
-            cell: REACH * widest,
-        }
-    }
-
-    /// A low-discrepancy sequence (Roberts 2018, the plane's analogue of the golden ratio) from a random start, bent to
-    /// the density wanted and displaced until its own order is forgotten.
-    fn evenly_spread(&self, options: &MosaicOptions, rng: &mut dyn Rng) -> Vec<Point> {
-        const RATIO: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
-        const COLUMNS: usize = 2048;
-        let width = self.x1 - self.x0;
-        let mut cumulative = vec![0.; COLUMNS + 1];
-        for i in 0..COLUMNS {
-            let x = self.x0 + width * (i as f64 + 0.5) / COLUMNS as f64;
-            cumulative[i + 1] = cumulative[i] + options.relative_density(x) / COLUMNS as f64;
-        }
-        let total = cumulative[COLUMNS];
-        let cell_area = 0.75f64.sqrt() * options.spacing * options.spacing;
-        let n = (total * width * (self.y1 - self.y0) / cell_area).round() as usize;
-        let start: [f64; 2] = [rng.random(), rng.random()];
-        (0..n)
-            .map(|i| {
-                let u = (start[0] + i as f64 * RATIO[0]).fract() * total;
-                let column = cumulative.partition_point(|&c| c <= u).clamp(1, COLUMNS) - 1;
-                let within = (u - cumulative[column]) / (cumulative[column + 1] - cumulative[column]);
-                let x = self.x0 + width * (column as f64 + within) / COLUMNS as f64;
-                let y = self.y0 + (self.y1 - self.y0) * (start[1] + i as f64 * RATIO[1]).fract();
-                let sd = 0.3 * options.local_spacing(x);
-                self.held(Point::new(x + sd * normal(rng), y + sd * normal(rng)))
-            })
-            .collect()
+            x1: density.width - 0.5 + margin,
+            y1: density.height - 0.5 + margin,
+        };
+        Self { bounds, cell: REACH * widest }
     }
 
     fn held(&self, p: Point) -> Point {
-        Point::new(p.x.clamp(self.x0, self.x1), p.y.clamp(self.y0, self.y1))
+        let Rectangle { x0, y0, x1, y1 } = self.bounds;
+        Point::new(p.x.clamp(x0, x1), p.y.clamp(y0, y1))
     }
 
     /// Every point moved away from those within `REACH`, all at once.
-    fn repelled(&self, points: &[Point], options: &MosaicOptions) -> Vec<Point> {
-        let columns = ((self.x1 - self.x0) / self.cell) as usize + 1;
-        let rows = ((self.y1 - self.y0) / self.cell) as usize + 1;
-        let place =
-            |p: Point| (((p.x - self.x0) / self.cell) as usize, ((p.y - self.y0) / self.cell) as usize);
+    fn repelled(&self, points: &[Point], density: &Density) -> Vec<Point> {
+        let Rectangle { x0, y0, x1, y1 } = self.bounds;
+        let columns = ((x1 - x0) / self.cell) as usize + 1;
+        let rows = ((y1 - y0) / self.cell) as usize + 1;
+        let place = |p: Point| (((p.x - x0) / self.cell) as usize, ((p.y - y0) / self.cell) as usize);
         // Counting sort: the points of cell c are order[first[c]..first[c + 1]].
         let mut first = vec![0usize; columns * rows + 1];
         for &p in points {
@@ -192,7 +230,7 @@ impl Field {
             order[*slot] = index;
             *slot += 1;
         }
-        let spacing: Vec<f64> = points.iter().map(|p| options.local_spacing(p.x)).collect();
+        let spacing: Vec<f64> = points.iter().map(|p| density.spacing_at(*p)).collect();
         let moved = |index: usize| {
             let (p, own) = (points[index], spacing[index]);
             let (i, j) = place(p);

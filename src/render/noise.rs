@@ -9,17 +9,18 @@ const MANY_PHOTONS: f64 = 100.;
 
 /// Photon and detector noise, then the smoothing that registration does to them.
 ///
-/// At mid-grey each of the two has variance noise²/2: white is 1/noise² photons, so a pixel of grey value v gets
-/// Poisson(v/noise²) · noise², of variance v noise².
+/// At mid-grey photons have a part q of the variance noise²: a photon makes 2 q noise² of the full range of grey, so a pixel of
+/// grey value v gets Poisson(v / 2 q noise²) · 2 q noise², of variance 2 q v noise².
 pub(super) fn add(image: &mut Plane, options: &RenderOptions, rng: &mut dyn Rng) {
     if options.noise == 0. {
         return;
     }
-    let photon = options.noise * options.noise;
-    let detector = options.noise * 0.5f64.sqrt();
+    let photon = 2. * options.photons * options.noise * options.noise;
+    let detector = options.noise * (1. - options.photons).sqrt();
     let noise = image.mapv(|value| {
         let value = f64::from(value).max(0.);
-        (photon * deviation_of_photons(value / photon, rng) + detector * normal(rng)) as f32
+        let photons = if photon > 0. { photon * deviation_of_photons(value / photon, rng) } else { 0. };
+        (photons + detector * normal(rng)) as f32
     });
     let noise = smooth(&noise, options.grain);
     let gain = 1. / smoothed_deviation(options.grain) as f32;

@@ -1,17 +1,28 @@
 use super::RenderError;
 use super::error::check;
 use crate::detect::{Modality, Polarity};
+use serde::Serialize;
 
 /// Longest side of a simulated image, px.
 const MAX_SIDE: usize = 16_384;
 /// Most pixels of a simulated image: 2²⁶, about 1 GB while it is being made.
 const MAX_PIXELS: usize = 1 << 26;
 
+/// Shape of the spot that a cone's light makes, both of the same full width at half maximum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PointSpread {
+    /// What aberrations and registration leave of it.
+    Gaussian,
+    /// Airy's pattern of a clear round pupil, with its rings.
+    Airy,
+}
+
 /// How a mosaic is to be pictured. The unit s is the local hexagonal spacing of the cones.
 ///
 /// [`RenderOptions::new`] gives values for each modality that look like real images of it;
 /// [`Default`] is those of the confocal one.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RenderOptions {
     /// What kind of image.
     pub modality: Modality,
@@ -23,29 +34,69 @@ pub struct RenderOptions {
     pub height: usize,
     /// Spacing taken for every cone, 2 to 1000 px; `None`: each cone's own, from its neighbours.
     pub spacing: Option<f64>,
+    /// Shape of a confocal spot; other modalities have none.
+    pub psf: PointSpread,
     /// Size of a cone, 0.1 to 1.5 s. Confocal: full width at half maximum of its spot; split detector and histology:
     /// diameter of its inner segment.
     pub diameter: f64,
+    /// Coefficient of variation of the cones' sizes beyond what their distances explain, 0 to 0.5.
+    pub size_scatter: f64,
     /// Grey value where there is no cone, 0 to 1.
     pub brightness: f64,
     /// How far the average cone rises from its surround, 0 to 1 of the full range of grey.
     pub contrast: f64,
     /// Coefficient of variation of the cones' contrast (log-normal), 0 to 2.
     pub scatter: f64,
-    /// Fraction of cones nearly without contrast, 0 to 1.
+    /// Fraction of cones nearly without contrast (0 to 0.3 of a cone's), 0 to 1.
     pub dim: f64,
+    /// Fraction of cones that are not seen at all, 0 to 1.
+    pub missing: f64,
+    /// Fraction of confocal cones that show several small peaks instead of one spot, 0 to 1.
+    pub multimodal: f64,
+    /// Rods per cone, 0 to 30, in what room the cones leave.
+    pub rods: f64,
+    /// Contrast of a rod relative to that of a cone, 0 to 2.
+    pub rod_contrast: f64,
+    /// Direction of light and shade, -360 to 360 degrees clockwise from x: split detector, from the dark to the bright side of
+    /// a cone; histology, towards the bright side.
+    pub orientation: f64,
+    /// Split detector: how much brighter than its surround the middle of an average cone is, -2 to 2 contrasts.
+    pub lean: f64,
+    /// Split detector: length of a cone across the direction of light and shade over that along it, 0.5 to 2.
+    pub elongation: f64,
+    /// Histology: rise and fall of a disc from one side to the other relative to its height, 0 to 2; much of it is Nomarski
+    /// contrast.
+    pub shading: f64,
+    /// Histology: depth of the dark outline, 0 to 3 contrasts.
+    pub outline: f64,
+    /// Histology: grain within the discs (mitochondria in an electron micrograph), standard deviation, 0 to 2 contrasts.
+    pub granules: f64,
+    /// Histology: height of the section above the widest place of the inner segments, taken as ellipsoids, 0 to 0.95 of their
+    /// half axis. Above 0 cells are cut at different heights and differ in size.
+    pub section: f64,
     /// Structure that is not a cone (haze, rods, grain of the tissue): its standard deviation, 0 to 2 times the contrast.
     pub texture: f64,
     /// Standard deviation of the illumination relative to its mean, 0 to 1.
     pub drift: f64,
+    /// Blood vessels that enter the image from its border and branch, 0 to 50: shadows; relief in a split detector.
+    pub vessels: usize,
+    /// Width of a vessel's trunk, 0.5 to 50 s.
+    pub vessel_width: f64,
+    /// Part of the light that a vessel's middle takes, 0 to 1.
+    pub vessel_depth: f64,
     /// Standard deviation of an additional Gaussian blur (defocus, motion), 0 to 1 s.
     pub blur: f64,
-    /// Standard deviation of the noise of a pixel at mid-grey, 0 to 0.5 of the full range of grey. Half its variance is that
-    /// of photons (proportional to the grey value), half that of the detector (the same everywhere).
+    /// Standard deviation of the noise of a pixel at mid-grey, 0 to 0.5 of the full range of grey.
     pub noise: f64,
+    /// Part of that noise's variance at mid-grey that is photons', 0 to 1: Poisson, its variance in proportion to the grey value.
+    /// The rest is the detector's: Gaussian, the same everywhere.
+    pub photons: f64,
     /// Standard deviation of the Gaussian that correlates the noise of neighbouring pixels, 0 to 4 px: averaging registered
     /// frames resamples them. 0 is white noise. The noise of a pixel stays what `noise` says.
     pub grain: f64,
+    /// Tiles along the longer side of a montage, 0 to 64: overlapping, turned by up to 5°, each of its own brightness; pixels
+    /// outside of all are 0, all others at least 1/255. 0 and 1: a single frame.
+    pub montage: usize,
 }
 
 impl RenderOptions {
@@ -57,21 +108,40 @@ impl RenderOptions {
             width: 150,
             height: 150,
             spacing: None,
+            psf: PointSpread::Gaussian,
             diameter: 0.55,
+            size_scatter: 0.06,
             brightness: 0.045,
             contrast: 0.27,
             scatter: 0.65,
             dim: 0.03,
+            missing: 0.,
+            multimodal: 0.,
+            rods: 0.,
+            rod_contrast: 0.4,
+            orientation: 0.,
+            lean: 0.,
+            elongation: 1.12,
+            shading: 0.12,
+            outline: 0.45,
+            granules: 0.,
+            section: 0.,
             texture: 0.07,
             drift: 0.12,
+            vessels: 0,
+            vessel_width: 3.,
+            vessel_depth: 0.6,
             blur: 0.05,
             noise: 0.01,
+            photons: 0.5,
             grain: 0.8,
+            montage: 0,
         };
         match modality {
             Modality::Confocal => common,
             Modality::Split => Self {
                 diameter: 0.8,
+                size_scatter: 0.08,
                 brightness: 0.5,
                 contrast: 0.2,
                 scatter: 0.35,
@@ -85,6 +155,8 @@ impl RenderOptions {
             },
             Modality::Histology => Self {
                 diameter: 0.8,
+                size_scatter: 0.05,
+                orientation: 45.,
                 brightness: 0.3,
                 contrast: 0.35,
                 scatter: 0.15,
@@ -107,15 +179,40 @@ impl RenderOptions {
         if let Some(spacing) = self.spacing {
             check("spacing", spacing, (2., 1000.), "px")?;
         }
-        check("diameter", self.diameter, (0.1, 1.5), "s")?;
-        check("brightness", self.brightness, (0., 1.), "of the full range of grey")?;
-        check("contrast", self.contrast, (0., 1.), "of the full range of grey")?;
-        check("scatter", self.scatter, (0., 2.), "(coefficient of variation)")?;
-        check("dim", self.dim, (0., 1.), "(fraction of the cones)")?;
-        check("texture", self.texture, (0., 2.), "times the contrast")?;
-        check("drift", self.drift, (0., 1.), "of the mean illumination")?;
-        check("blur", self.blur, (0., 1.), "s")?;
-        check("noise", self.noise, (0., 0.5), "of the full range of grey")?;
+        const GREY: &str = "of the full range of grey";
+        const OF_CONES: &str = "(fraction of the cones)";
+        const CONTRASTS: &str = "times the contrast";
+        let ranges = [
+            ("diameter", self.diameter, (0.1, 1.5), "s"),
+            ("size_scatter", self.size_scatter, (0., 0.5), "(coefficient of variation)"),
+            ("brightness", self.brightness, (0., 1.), GREY),
+            ("contrast", self.contrast, (0., 1.), GREY),
+            ("scatter", self.scatter, (0., 2.), "(coefficient of variation)"),
+            ("dim", self.dim, (0., 1.), OF_CONES),
+            ("missing", self.missing, (0., 1.), OF_CONES),
+            ("multimodal", self.multimodal, (0., 1.), OF_CONES),
+            ("rods", self.rods, (0., 30.), "rods per cone"),
+            ("rod_contrast", self.rod_contrast, (0., 2.), CONTRASTS),
+            ("orientation", self.orientation, (-360., 360.), "degrees"),
+            ("lean", self.lean, (-2., 2.), CONTRASTS),
+            ("elongation", self.elongation, (0.5, 2.), "(length across over along)"),
+            ("shading", self.shading, (0., 2.), "times the height of a disc"),
+            ("outline", self.outline, (0., 3.), CONTRASTS),
+            ("granules", self.granules, (0., 2.), CONTRASTS),
+            ("section", self.section, (0., 0.95), "half axes"),
+            ("texture", self.texture, (0., 2.), CONTRASTS),
+            ("drift", self.drift, (0., 1.), "of the mean illumination"),
+            ("vessels", self.vessels as f64, (0., 50.), "(number of vessels)"),
+            ("vessel_width", self.vessel_width, (0.5, 50.), "s"),
+            ("vessel_depth", self.vessel_depth, (0., 1.), "of the light"),
+            ("blur", self.blur, (0., 1.), "s"),
+            ("noise", self.noise, (0., 0.5), GREY),
+            ("photons", self.photons, (0., 1.), "of the noise's variance"),
+            ("montage", self.montage as f64, (0., 64.), "tiles along the longer side"),
+        ];
+        for (option, value, range, unit) in ranges {
+            check(option, value, range, unit)?;
+        }
         check("grain", self.grain, (0., 4.), "px")
     }
 }

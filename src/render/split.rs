@@ -1,56 +1,105 @@
 use super::RenderOptions;
-use super::confocal::{span, spot_heights};
+use super::confocal::span;
 use super::field::{normal, smooth, texture};
+use super::rods::Rod;
 use super::spacing::CellSizes;
 use crate::geometry::Point;
 use crate::image::Plane;
 use rand::Rng;
 
-/// Inner segments as domes (1 − ρ²)^1.5, seen by their slope along x: dark on the left, bright on the right, the
-/// average cone from −1 to 1. Between them the slope of a finer relief, that of rods.
+/// Diameter of a rod's dome, in distances of the rods.
+const ROD: f64 = 0.9;
+/// Relief of a vessel: how steep its flanks look, in contrasts.
+const VESSEL_RELIEF: f64 = 0.4;
+
+/// Inner segments as domes (1 − ρ²)^1.5, seen by their slope along the direction of detection: dark on one side, bright on
+/// the other, the average cone from −1 to 1. Between them rods, smaller domes, and the slope of a finer relief.
 pub(super) fn signal(
     points: &[Point],
     cells: &CellSizes,
+    heights: &[f64],
+    rods: &[Rod],
     options: &RenderOptions,
     rng: &mut dyn Rng,
 ) -> Plane {
     let (width, height) = (options.width, options.height);
-    let heights = spot_heights(points, cells, options, rng);
-    let mut plane = Plane::zeros((height, width));
-    for ((&p, &spacing), peak) in points.iter().zip(&cells.spacing).zip(heights) {
-        let radius = 0.5 * options.diameter * spacing * (1. + 0.08 * normal(rng)).clamp(0.7, 1.3);
+    let (sin, cos) = options.orientation.to_radians().sin_cos();
+    let mut relief = Relief { plane: Plane::zeros((height, width)), sin, cos };
+    let cv = options.size_scatter;
+    for ((&p, &spacing), &peak) in points.iter().zip(&cells.spacing).zip(heights) {
+        let scatter = (1. + cv * normal(rng)).clamp((1. - 3.75 * cv).max(0.3), 1. + 3.75 * cv);
+        let radius = 0.5 * options.diameter * spacing * scatter;
         // Segments stand slightly askew: seen longer across the direction of detection, brighter or darker on the whole.
-        let longer = (1.12 + 0.08 * normal(rng)).clamp(0.9, 1.4);
-        let lean = 0.25 * normal(rng);
-        let (Some(columns), Some(rows)) = (span(p.x, radius, width), span(p.y, radius * longer, height))
-        else {
-            continue;
-        };
-        for y in rows {
-            for x in columns.clone() {
-                let u = (x as f64 - p.x) / radius;
-                let v = (y as f64 - p.y) / (radius * longer);
-                let inside = 1. - u * u - v * v;
-                if inside > 0. {
-                    // √(1 − ρ²) falls off where the slope is steep: u √(1 − u²) is largest, ½, at u = 1/√2.
-                    let slope = 2. * u * inside.sqrt();
-                    plane[[y, x]] += (peak * (slope + lean * inside * inside)) as f32;
-                }
-            }
-        }
+        let longer = (options.elongation + 0.08 * normal(rng)).clamp(0.5, 2.);
+        let lean = options.lean + 0.25 * normal(rng);
+        relief.add_dome(p, radius, longer, peak, lean);
     }
+    for rod in rods {
+        relief.add_dome(rod.centre, 0.5 * ROD * rod.pitch, 1., rod.height, 0.25 * normal(rng));
+    }
+    let mut plane = relief.plane;
     if options.texture > 0. {
-        let relief = texture(width, height, 0.11 * cells.typical, rng);
-        let mut slope = Plane::zeros((height, width));
-        for (from, mut to) in relief.outer_iter().zip(slope.outer_iter_mut()) {
-            for x in 1..width {
-                to[x] = from[x] - from[x - 1];
-            }
-        }
+        let slope = slope(&texture(width, height, 0.11 * cells.typical, rng), sin, cos);
         let strength = options.texture as f32 / deviation(&slope).max(1e-6);
         plane.zip_mut_with(&slope, |sum, &v| *sum += strength * v);
     }
     smooth(&plane, 0.05 * cells.typical)
+}
+
+/// The flanks of vessels, and less of what lies behind them.
+pub(super) fn cover(plane: &mut Plane, vessels: &Plane, options: &RenderOptions, spacing: f64) {
+    let (sin, cos) = options.orientation.to_radians().sin_cos();
+    let soft = smooth(vessels, 0.15 * options.vessel_width * spacing);
+    let steepness = (VESSEL_RELIEF * options.vessel_width * spacing * options.vessel_depth) as f32;
+    let shade = options.vessel_depth as f32;
+    let flanks = slope(&soft, sin, cos);
+    ndarray::Zip::from(plane)
+        .and(vessels)
+        .and(&flanks)
+        .for_each(|v, depth, flank| *v = *v * (1. - shade * depth) - steepness * flank);
+}
+
+struct Relief {
+    plane: Plane,
+    sin: f64,
+    cos: f64,
+}
+
+impl Relief {
+    fn add_dome(&mut self, p: Point, radius: f64, longer: f64, peak: f64, lean: f64) {
+        let (height, width) = self.plane.dim();
+        let (sin, cos) = (self.sin, self.cos);
+        let reach = |along: f64, across: f64| radius * (along.powi(2) + (longer * across).powi(2)).sqrt();
+        let (columns, rows) = (span(p.x, reach(cos, sin), width), span(p.y, reach(sin, cos), height));
+        let (Some(columns), Some(rows)) = (columns, rows) else { return };
+        for y in rows {
+            for x in columns.clone() {
+                let (dx, dy) = (x as f64 - p.x, y as f64 - p.y);
+                let u = (dx * cos + dy * sin) / radius;
+                let v = (dy * cos - dx * sin) / (radius * longer);
+                let inside = 1. - u * u - v * v;
+                if inside > 0. {
+                    // √(1 − ρ²) falls off where the slope is steep: u √(1 − u²) is largest, ½, at u = 1/√2.
+                    let slope = 2. * u * inside.sqrt();
+                    self.plane[[y, x]] += (peak * (slope + lean * inside * inside)) as f32;
+                }
+            }
+        }
+    }
+}
+
+/// The slope of a relief along a direction, per px.
+fn slope(relief: &Plane, sin: f64, cos: f64) -> Plane {
+    let (along_x, along_y) = (cos as f32, sin as f32);
+    let (height, width) = relief.dim();
+    Plane::from_shape_fn((height, width), |(y, x)| {
+        if x == 0 || (y == 0 && along_y != 0.) {
+            return 0.;
+        }
+        let here = relief[[y, x]];
+        let down = if along_y == 0. { 0. } else { along_y * (here - relief[[y - 1, x]]) };
+        along_x * (here - relief[[y, x - 1]]) + down
+    })
 }
 
 fn deviation(plane: &Plane) -> f32 {

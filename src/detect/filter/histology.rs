@@ -7,20 +7,17 @@ const SIGMA: f64 = 0.22;
 /// Neighbourhood, in spacings, in which the response is made even.
 const CONTRAST: f64 = 2.;
 
-const CRITERION: Criterion = Criterion { threshold: 0.3, suppression: 0.55, relative: None };
+/// Rods and the gaps between outlined discs make maxima too, but lower ones; discs of different size touch at less than the mean
+/// distance. On 300 simulated images of every look, many harsh, Dice .962; with .3 and .55 s it was .949.
+const CRITERION: Criterion = Criterion { threshold: 0.65, suppression: 0.45, relative: None };
 
 /// An inner segment is a disc, brighter than what surrounds it: −∇² of G(.22 s)∗I, divided by its local root mean
 /// square (σ = 2 s).
 pub(super) fn response(image: &Plane, spacing: f64) -> (Plane, Criterion) {
-    (evened(&blobs(image, spacing).0, spacing), CRITERION)
+    (normalise(&blobs(image, spacing), CONTRAST * spacing), CRITERION)
 }
 
-/// The response before it is made even, and the suppression radius of its maxima in spacings.
-pub(in crate::detect) fn blobs(image: &Plane, spacing: f64) -> (Plane, f64) {
-    (negative_laplacian(&gaussian(image, SIGMA * spacing)), CRITERION.suppression)
-}
-
-/// Responses divided by their local root mean square.
-pub(in crate::detect) fn evened(blobs: &Plane, spacing: f64) -> Plane {
-    normalise(blobs, CONTRAST * spacing)
+/// The response before it is made even.
+pub(in crate::detect) fn blobs(image: &Plane, spacing: f64) -> Plane {
+    negative_laplacian(&gaussian(image, SIGMA * spacing))
 }

@@ -4,7 +4,7 @@ mod confocal;
 mod histology;
 mod split;
 
-pub(super) use histology::{blobs, evened};
+pub(super) use histology::blobs;
 
 use crate::detect::calibration;
 use crate::detect::search::Found;

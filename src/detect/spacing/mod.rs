@@ -10,6 +10,7 @@ mod rings;
 pub use map::SpacingMap;
 pub use refine::{BORDER, refined};
 pub(super) use refine::{contradiction, refined_map};
+pub(in crate::detect) use ring::AROUND;
 pub use ring::{RingEstimate, RingProfile};
 pub(super) use rings::Rings;
 

@@ -14,8 +14,8 @@ const LONGEST_PERIOD: f64 = 64.;
 const BINS: usize = 121;
 /// A ring of fewer periods than this across the image cannot be told from uneven illumination.
 const PERIODS: f64 = 5.;
-/// Half an octave times 1.5: how far around the ring directions are compared.
-const ANISOTROPY_REACH: usize = 18;
+/// Places around the ring at which spectra are compared.
+pub(in crate::detect) const AROUND: usize = 15;
 
 /// Logarithm of an image's radially averaged power over log-frequency (24 bins per octave, 1/64 to 1/2 cycles per px).
 /// Cones that keep their distance put a ring into the spectrum (Yellott 1983), here a peak at the frequency
@@ -200,14 +200,17 @@ impl RingProfile {
         RingEstimate { spacing: spacing_of(peak as f64 + offset), strength: response[peak] }
     }
 
-    /// Mean logarithm of the power along x over the power across x, around the ring of the given spacing: 0 without a
-    /// preferred direction, near 1 for a split detector, which shows the derivative along x.
-    pub fn anisotropy(&self, spacing: f64) -> f64 {
-        let bin =
-            (PER_OCTAVE * (LONGEST_PERIOD / spacing).log2()).round().clamp(0., (BINS - 1) as f64) as usize;
-        let range = bin.saturating_sub(ANISOTROPY_REACH)..(bin + ANISOTROPY_REACH + 1).min(BINS);
-        let count = range.len() as f64;
-        range.map(|b| f64::from(self.along_x[b] - self.across_x[b])).sum::<f64>() / count
+    /// Logarithm of the power around the ring of the given spacing, above the mean of all: from 1.5 octaves below to two
+    /// above in steps of a quarter octave, each the mean of five bins.
+    pub fn around(&self, spacing: f64) -> [f64; AROUND] {
+        const STEP: f64 = PER_OCTAVE / 4.;
+        let ring = PER_OCTAVE * (LONGEST_PERIOD / spacing).log2();
+        let at = |bin: f64| f64::from(self.all[bin.clamp(0., (BINS - 1) as f64) as usize]);
+        let mean = self.all.iter().map(|p| f64::from(*p)).sum::<f64>() / BINS as f64;
+        std::array::from_fn(|k| {
+            let middle = (ring + STEP * (k as f64 - 6.)).round();
+            (-2..=2).map(|j| at(middle + f64::from(j))).sum::<f64>() / 5. - mean
+        })
     }
 }
 

@@ -1,0 +1,69 @@
+use anyhow::{Context, Result};
+use conemosaic::files::write_atomically;
+use conemosaic::render::{ConeClass, MosaicOptions, RenderOptions, Simulation};
+use serde::Serialize;
+use std::io::Write;
+use std::path::Path;
+
+/// What one image is and what it was made from.
+#[derive(Serialize)]
+pub struct Entry {
+    image: String,
+    truth: String,
+    seed: u64,
+    /// Cones of the truth: all, and those of class dim and missing.
+    cones: usize,
+    dim_cones: usize,
+    missing_cones: usize,
+    um_per_px: Option<f64>,
+    mosaic: String,
+}
+
+impl Entry {
+    pub fn new(
+        (image, truth): (&Path, Option<&Path>),
+        seed: u64,
+        made: &Simulation,
+        um_per_px: Option<f64>,
+        mosaic: String,
+    ) -> Self {
+        let of = |class| made.visibility.iter().filter(|v| v.class == class).count();
+        Self {
+            image: image.display().to_string(),
+            truth: truth.map(|t| t.display().to_string()).unwrap_or_default(),
+            seed,
+            cones: made.cones.len(),
+            dim_cones: of(ConeClass::Dim),
+            missing_cones: of(ConeClass::Missing),
+            um_per_px,
+            mosaic,
+        }
+    }
+}
+
+/// A row an image: what it is, its mosaic, its appearance.
+pub type Row = (Entry, MosaicOptions, RenderOptions);
+
+/// Writes the manifest as CSV, whole or not at all.
+pub fn write(path: &Path, rows: &[Row]) -> Result<()> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        table.serialize(row).context("the manifest cannot be written")?;
+    }
+    let bytes = table.into_inner().context("the manifest cannot be written")?;
+    write_atomically(path, |writer| writer.write_all(&bytes)).with_context(|| format!("{}", path.display()))
+}
+
+/// The text of the truth: every cone with its contrast and class, in µm too if the scale is known.
+pub fn truth(made: &Simulation, um_per_px: Option<f64>) -> String {
+    let mut text = String::from("x_px,y_px,contrast,class");
+    text.push_str(if um_per_px.is_some() { ",x_um,y_um\n" } else { "\n" });
+    for (p, v) in made.cones.iter().zip(&made.visibility) {
+        text.push_str(&format!("{},{},{:.3},{}", p.x, p.y, v.contrast, v.class.name()));
+        if let Some(um) = um_per_px {
+            text.push_str(&format!(",{},{}", p.x * um, p.y * um));
+        }
+        text.push('\n');
+    }
+    text
+}

@@ -1,0 +1,208 @@
+use super::{GradientShape, MosaicOptions};
+use crate::geometry::Point;
+use rand::{Rng, RngExt};
+use std::f64::consts::{PI, TAU};
+
+/// Area of a cell, in squared spacings.
+const CELL: f64 = 0.866_025_403_784_438_6;
+/// Samples of a cumulative density.
+const SAMPLES: usize = 2048;
+/// Angle between one point of Vogel's (1979) spiral and the next: the circle divided by the golden ratio.
+const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
+
+/// An upright rectangle, px.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rectangle {
+    pub(super) x0: f64,
+    pub(super) y0: f64,
+    pub(super) x1: f64,
+    pub(super) y1: f64,
+}
+
+/// How dense a mosaic is where. Places are those of the isotropic frame: the image, with its pixels stretched until the
+/// mosaic has the same spacing along x and y.
+pub(super) struct Density {
+    /// Sides of that frame.
+    pub(super) width: f64,
+    pub(super) height: f64,
+    /// Factor from x of the image to x of the frame; y is divided by it.
+    stretch: f64,
+    spacing: f64,
+    gradient: f64,
+    shape: GradientShape,
+}
+
+impl Density {
+    pub(super) fn of(options: &MosaicOptions) -> Self {
+        let stretch = options.anisotropy.sqrt();
+        Self {
+            width: options.width as f64 * stretch,
+            height: options.height as f64 / stretch,
+            stretch,
+            spacing: options.spacing,
+            gradient: options.gradient,
+            shape: options.shape,
+        }
+    }
+
+    /// From the isotropic frame to the image. Both have pixel (0, 0) half a pixel from their corner.
+    pub(super) fn stretched(&self, p: Point) -> Point {
+        if self.stretch == 1. {
+            return p;
+        }
+        Point::new((p.x + 0.5) / self.stretch - 0.5, (p.y + 0.5) * self.stretch - 0.5)
+    }
+
+    /// Local hexagonal spacing, px.
+    pub(super) fn spacing_at(&self, p: Point) -> f64 {
+        match self.shape {
+            GradientShape::Linear => self.spacing / self.relative_density(p.x).sqrt(),
+            GradientShape::Radial => self.spacing_at_radius(p.distance(self.middle())),
+        }
+    }
+
+    /// Widest spacing of the image.
+    pub(super) fn widest(&self) -> f64 {
+        match self.shape {
+            GradientShape::Linear => {
+                let at = |x: f64| self.spacing_at(Point::new(x, 0.));
+                at(0.).max(at(self.width))
+            }
+            GradientShape::Radial => self.spacing * self.gradient.sqrt().max(1.),
+        }
+    }
+
+    /// Of a linear gradient, the density at x relative to the mean of the image; beyond the image, that of its edge.
+    fn relative_density(&self, x: f64) -> f64 {
+        let log = self.gradient.ln();
+        let t = ((x + 0.5) / self.width).clamp(0., 1.);
+        // ∫₀¹ exp(log (½ − t)) dt = 2 sinh(log/2) / log
+        let mean = if log.abs() < 1e-9 { 1. } else { 2. * (log / 2.).sinh() / log };
+        (log * (0.5 - t)).exp() / mean
+    }
+
+    fn middle(&self) -> Point {
+        Point::new(0.5 * self.width - 0.5, 0.5 * self.height - 0.5)
+    }
+
+    /// Of a radial gradient, the spacing at a distance from the middle.
+    fn spacing_at_radius(&self, radius: f64) -> f64 {
+        let reach = 0.5 * self.width.max(self.height);
+        self.spacing * (1. + (self.gradient.sqrt() - 1.) * (radius / reach).min(1.))
+    }
+
+    /// Points of this density over a rectangle, each cell with its share. A linear gradient bends a low-discrepancy
+    /// sequence (Roberts 2018, the plane's analogue of the golden ratio) from a random start; a radial one
+    /// spaces Vogel's spiral.
+    pub(super) fn evenly_spread(&self, bounds: &Rectangle, rng: &mut dyn Rng) -> Vec<Point> {
+        const RATIO: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
+        let start: [f64; 2] = [rng.random(), rng.random()];
+        let Rectangle { x0, y0, x1, y1 } = *bounds;
+        match self.shape {
+            GradientShape::Linear => {
+                let (width, height) = (x1 - x0, y1 - y0);
+                let share = Cumulative::new(1., |t| self.relative_density(x0 + width * t));
+                let total = share.total();
+                let n = (total * width * height / (CELL * self.spacing * self.spacing)).round() as usize;
+                (0..n)
+                    .map(|i| {
+                        let u = (start[0] + i as f64 * RATIO[0]).fract() * total;
+                        let y = y0 + height * (start[1] + i as f64 * RATIO[1]).fract();
+                        Point::new(x0 + width * share.place(u), y)
+                    })
+                    .collect()
+            }
+            GradientShape::Radial => {
+                let middle = self.middle();
+                let farthest = middle.distance(Point::new(x0, y0));
+                let within = self.within_radius(farthest);
+                (0..within.total() as usize)
+                    .map(|i| {
+                        let radius = within.place(i as f64 + start[0]);
+                        let (sin, cos) = (TAU * start[1] + i as f64 * GOLDEN_ANGLE).sin_cos();
+                        Point::new(middle.x + radius * cos, middle.y + radius * sin)
+                    })
+                    .filter(|p| p.x >= x0 && p.x <= x1 && p.y >= y0 && p.y <= y1)
+                    .collect()
+            }
+        }
+    }
+
+    /// Number of cones within a distance of the middle.
+    fn within_radius(&self, farthest: f64) -> Cumulative {
+        Cumulative::new(farthest, |r| TAU * r / (CELL * self.spacing_at_radius(r).powi(2)))
+    }
+
+    /// The rectangle that a pattern of uniform density must fill to become this one, and with how many points.
+    pub(super) fn flat(&self) -> (Rectangle, usize) {
+        let cell = CELL * self.spacing * self.spacing;
+        match self.shape {
+            GradientShape::Linear => {
+                let (x1, y1) = (self.width - 0.5, self.height - 0.5);
+                (Rectangle { x0: -0.5, y0: -0.5, x1, y1 }, (self.width * self.height / cell).round() as usize)
+            }
+            GradientShape::Radial => {
+                // a square around a disc that is as dense as the middle everywhere
+                let half = (cell * self.within_radius(self.corner()).total() / PI).sqrt();
+                let square = Rectangle { x0: -half, y0: -half, x1: half, y1: half };
+                (square, (4. * half * half / cell).round() as usize)
+            }
+        }
+    }
+
+    fn corner(&self) -> f64 {
+        0.5 * self.width.hypot(self.height)
+    }
+
+    /// Where the points of the uniform pattern go, without those that leave the frame.
+    pub(super) fn bent(&self, points: &[Point]) -> Vec<Point> {
+        match self.shape {
+            GradientShape::Linear if self.gradient == 1. => points.to_vec(),
+            GradientShape::Linear => {
+                let share = Cumulative::new(1., |t| self.relative_density(self.width * t - 0.5));
+                let x = |x: f64| self.width * share.place((x + 0.5) / self.width * share.total()) - 0.5;
+                points.iter().map(|p| Point::new(x(p.x), p.y)).collect()
+            }
+            GradientShape::Radial => {
+                let within = self.within_radius(self.corner());
+                let middle = self.middle();
+                let bent = |p: &Point| {
+                    let flat = p.x.hypot(p.y);
+                    let count = PI * flat * flat / (CELL * self.spacing * self.spacing);
+                    let scale = if flat > 0. { within.place(count) / flat } else { 0. };
+                    (count <= within.total())
+                        .then(|| Point::new(middle.x + scale * p.x, middle.y + scale * p.y))
+                };
+                points.iter().filter_map(bent).collect()
+            }
+        }
+    }
+}
+
+/// The integral of a density from 0, in equal steps.
+struct Cumulative {
+    length: f64,
+    sums: Vec<f64>,
+}
+
+impl Cumulative {
+    fn new(length: f64, density: impl Fn(f64) -> f64) -> Self {
+        let mut sums = vec![0.; SAMPLES + 1];
+        for i in 0..SAMPLES {
+            let at = length * (i as f64 + 0.5) / SAMPLES as f64;
+            sums[i + 1] = sums[i] + density(at) * (length / SAMPLES as f64);
+        }
+        Self { length, sums }
+    }
+
+    fn total(&self) -> f64 {
+        self.sums[SAMPLES]
+    }
+
+    /// Where the integral reaches `sum`.
+    fn place(&self, sum: f64) -> f64 {
+        let i = self.sums.partition_point(|&c| c <= sum).clamp(1, SAMPLES) - 1;
+        let within = (sum - self.sums[i]) / (self.sums[i + 1] - self.sums[i]);
+        self.length * (i as f64 + within) / SAMPLES as f64
+    }
+}

@@ -1,0 +1,115 @@
+use super::RenderOptions;
+use super::field::normal;
+use crate::image::{Plane, fill_rows};
+use rand::{Rng, RngExt};
+
+/// Side of a tile over the pitch of the tiles.
+const OVERLAP: f64 = 1.3;
+/// How far a tile strays from its place, standard deviation in pitches.
+const STRAY: f64 = 0.06;
+/// Largest turn of a tile, radians.
+const TURN: f64 = 0.087;
+/// Standard deviation of the logarithm of a tile's brightness.
+const GAIN: f64 = 0.08;
+/// How often a place at the border of the montage has no tile.
+const GAPS: f64 = 0.3;
+/// What was imaged is never quite black, so that black means not imaged: one grey of an 8-bit file.
+const DARKEST: f32 = 1. / 255.;
+
+/// An overlapping frame of a montage.
+struct Tile {
+    x: f64,
+    y: f64,
+    cos: f64,
+    sin: f64,
+    /// Half of its side, px.
+    half: f64,
+    gain: f32,
+}
+
+impl Tile {
+    fn covers(&self, x: f64, y: f64) -> bool {
+        let (dx, dy) = (x - self.x, y - self.y);
+        (self.cos * dx + self.sin * dy).abs() <= self.half
+            && (self.cos * dy - self.sin * dx).abs() <= self.half
+    }
+}
+
+/// The tiles of a montage, the uppermost last.
+pub(super) struct Montage {
+    tiles: Vec<Tile>,
+    /// Centre of the first place of the grid, and the distance of places, px.
+    x0: f64,
+    y0: f64,
+    pitch: f64,
+    columns: usize,
+    rows: usize,
+    /// For every place of the grid its tile.
+    at: Vec<Option<usize>>,
+}
+
+impl Montage {
+    /// Tiles on a grid that fills the image, some of the outermost left out.
+    pub(super) fn new(options: &RenderOptions, rng: &mut dyn Rng) -> Self {
+        let (w, h) = (options.width as f64, options.height as f64);
+        // the outermost tiles stand back from the border by what they overlap and stray
+        let pitch = w.max(h) / (options.montage as f64 + OVERLAP - 1.);
+        let count = |side: f64| ((side / pitch - OVERLAP + 1.).round() as usize).max(1);
+        let (columns, rows) = (count(w), count(h));
+        let first = |side: f64, count: usize| 0.5 * side - 0.5 * pitch * (count - 1) as f64 - 0.5;
+        let (x0, y0) = (first(w, columns), first(h, rows));
+        let mut at = vec![None; columns * rows];
+        let mut tiles = Vec::new();
+        for (k, place) in at.iter_mut().enumerate() {
+            let (i, j) = (k % columns, k / columns);
+            let outermost = |i: usize, count: usize| count > 2 && (i == 0 || i + 1 == count);
+            let (across, down) = (outermost(i, columns), outermost(j, rows));
+            // every other place of a side stays, so that the montage holds together
+            let may_miss = (across && (down || j % 2 == 1)) || (down && i % 2 == 1);
+            let missing = rng.random::<f64>() < GAPS;
+            let (stray_x, stray_y) = (STRAY * normal(rng), STRAY * normal(rng));
+            let (sin, cos) = rng.random_range(-TURN..TURN).sin_cos();
+            let gain = (GAIN * normal(rng)).exp() as f32;
+            if may_miss && missing {
+                continue;
+            }
+            *place = Some(tiles.len());
+            let (x, y) = (x0 + pitch * (i as f64 + stray_x), y0 + pitch * (j as f64 + stray_y));
+            tiles.push(Tile { x, y, cos, sin, half: 0.5 * OVERLAP * pitch, gain });
+        }
+        Self { tiles, x0, y0, pitch, columns, rows, at }
+    }
+
+    /// The uppermost tile at a place.
+    fn tile(&self, x: f64, y: f64) -> Option<&Tile> {
+        // tiles within two places of the grid can reach here
+        let near = |v: f64, from: f64, count: usize| {
+            let place = (v - from) / self.pitch;
+            let low = (place - 2.).floor().clamp(0., count as f64) as usize;
+            let high = (place + 3.).ceil().clamp(0., count as f64) as usize;
+            low..high.max(low)
+        };
+        let columns = near(x, self.x0, self.columns);
+        near(y, self.y0, self.rows)
+            .rev()
+            .flat_map(|j| columns.clone().rev().map(move |i| (i, j)))
+            .filter_map(|(i, j)| self.at[j * self.columns + i].and_then(|t| self.tiles.get(t)))
+            .find(|tile| tile.covers(x, y))
+    }
+
+    /// Whether anything was imaged at a place, px.
+    pub(super) fn covers(&self, x: f64, y: f64) -> bool {
+        self.tile(x.round(), y.round()).is_some()
+    }
+
+    /// What the montage shows of a picture.
+    pub(super) fn applied(&self, image: &Plane) -> Plane {
+        let (height, width) = image.dim();
+        fill_rows(height, width, |y, row| {
+            for (x, out) in row.iter_mut().enumerate() {
+                let tile = self.tile(x as f64, y as f64);
+                *out = tile.map_or(0., |t| (t.gain * image[[y, x]]).clamp(DARKEST, 1.));
+            }
+        })
+    }
+}

@@ -1,0 +1,162 @@
+use super::{GradientShape, MosaicOptions, PointSpread, RenderOptions};
+use crate::detect::Modality;
+
+/// A kind of retinal image, as a starting point.
+#[derive(Clone, Copy, Debug)]
+pub struct Preset {
+    /// The name users type.
+    pub name: &'static str,
+    /// One line: what it shows.
+    pub about: &'static str,
+    make: fn() -> (MosaicOptions, RenderOptions),
+}
+
+impl Preset {
+    /// The preset of that name.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        PRESETS.iter().find(|p| p.name == name)
+    }
+
+    /// The mosaic, of the size of the image, and what it is pictured with.
+    pub fn options(&self) -> (MosaicOptions, RenderOptions) {
+        let (mosaic, image) = (self.make)();
+        (MosaicOptions { width: image.width, height: image.height, ..mosaic }, image)
+    }
+}
+
+/// Every preset.
+pub const PRESETS: [Preset; 8] = [
+    Preset {
+        name: "fovea",
+        about: "confocal, foveal centre: 5 px in the middle, density falling 3:1",
+        make: fovea,
+    },
+    Preset {
+        name: "parafovea",
+        about: "confocal, 9 px, with multimodal, dim and missing cones",
+        make: parafovea,
+    },
+    Preset { name: "periphery", about: "confocal, 20 px: wide multimodal cones among rods", make: periphery },
+    Preset { name: "split", about: "split detector, 14 px, without rods", make: split },
+    Preset {
+        name: "split-periphery",
+        about: "split detector, 24 px: cones among rods",
+        make: split_periphery,
+    },
+    Preset { name: "histology", about: "bright discs with a thin outline, of varying size", make: histology },
+    Preset {
+        name: "nomarski",
+        about: "discs in interference contrast, lit from a side, among rods",
+        make: nomarski,
+    },
+    Preset { name: "electron", about: "dark membranes around grainy cells, sharp", make: electron },
+];
+
+fn of(modality: Modality, side: usize) -> RenderOptions {
+    RenderOptions { width: side, height: side, ..RenderOptions::new(modality) }
+}
+
+fn fovea() -> (MosaicOptions, RenderOptions) {
+    let mosaic =
+        MosaicOptions { spacing: 5., gradient: 3., shape: GradientShape::Radial, ..MosaicOptions::default() };
+    // the point-spread function is as wide as the cones are apart
+    let image = RenderOptions { diameter: 0.6, texture: 0.1, noise: 0.012, ..of(Modality::Confocal, 256) };
+    (mosaic, image)
+}
+
+fn parafovea() -> (MosaicOptions, RenderOptions) {
+    let image = RenderOptions {
+        psf: PointSpread::Airy,
+        diameter: 0.58,
+        missing: 0.01,
+        multimodal: 0.03,
+        texture: 0.08,
+        ..of(Modality::Confocal, 150)
+    };
+    (MosaicOptions::default(), image)
+}
+
+fn periphery() -> (MosaicOptions, RenderOptions) {
+    let image = RenderOptions {
+        diameter: 0.38,
+        brightness: 0.08,
+        contrast: 0.4,
+        size_scatter: 0.12,
+        missing: 0.02,
+        multimodal: 0.3,
+        rods: 9.,
+        rod_contrast: 0.35,
+        texture: 0.03,
+        ..of(Modality::Confocal, 240)
+    };
+    (MosaicOptions { spacing: 20., jitter: 0.11, ..MosaicOptions::default() }, image)
+}
+
+fn split() -> (MosaicOptions, RenderOptions) {
+    let image = RenderOptions {
+        diameter: 1.05,
+        contrast: 0.13,
+        lean: 0.4,
+        elongation: 1.,
+        texture: 0.25,
+        drift: 0.18,
+        blur: 0.07,
+        ..of(Modality::Split, 200)
+    };
+    (MosaicOptions { spacing: 14., jitter: 0.11, ..MosaicOptions::default() }, image)
+}
+
+fn split_periphery() -> (MosaicOptions, RenderOptions) {
+    let image = RenderOptions {
+        diameter: 0.6,
+        elongation: 1.05,
+        size_scatter: 0.1,
+        rods: 9.,
+        rod_contrast: 0.3,
+        texture: 0.15,
+        blur: 0.04,
+        ..of(Modality::Split, 240)
+    };
+    (MosaicOptions { spacing: 24., jitter: 0.12, ..MosaicOptions::default() }, image)
+}
+
+fn histology() -> (MosaicOptions, RenderOptions) {
+    let image = RenderOptions { size_scatter: 0.1, section: 0.2, ..of(Modality::Histology, 200) };
+    (MosaicOptions { spacing: 12., ..MosaicOptions::default() }, image)
+}
+
+fn nomarski() -> (MosaicOptions, RenderOptions) {
+    let image = RenderOptions {
+        diameter: 0.7,
+        size_scatter: 0.08,
+        brightness: 0.4,
+        contrast: 0.25,
+        shading: 0.45,
+        orientation: 225.,
+        outline: 0.8,
+        rods: 4.,
+        rod_contrast: 0.5,
+        blur: 0.07,
+        noise: 0.03,
+        ..of(Modality::Histology, 200)
+    };
+    (MosaicOptions { spacing: 16., jitter: 0.1, ..MosaicOptions::default() }, image)
+}
+
+fn electron() -> (MosaicOptions, RenderOptions) {
+    let image = RenderOptions {
+        diameter: 0.85,
+        size_scatter: 0.1,
+        brightness: 0.5,
+        contrast: 0.2,
+        shading: 0.,
+        outline: 2.,
+        granules: 0.5,
+        texture: 0.25,
+        blur: 0.02,
+        noise: 0.06,
+        grain: 0.4,
+        ..of(Modality::Histology, 240)
+    };
+    (MosaicOptions { spacing: 20., jitter: 0.1, ..MosaicOptions::default() }, image)
+}

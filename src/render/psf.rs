@@ -1,0 +1,54 @@
+use std::f64::consts::PI;
+use std::sync::OnceLock;
+
+/// Samples of the table per unit of distance, one full width at half maximum.
+const PER_WIDTH: usize = 64;
+/// Where the pattern is cut off, in full widths at half maximum: behind its second ring, below 0.5 % of its top.
+pub(super) const AIRY_CUT: f64 = 3.1;
+/// Where (2 J₁(v) / v)² = ½, times two.
+const WIDTH: f64 = 3.232_679;
+
+/// Amplitude of Airy's pattern 2 J₁(v) / v, 1 at its centre, at `distance` in full widths at half maximum of its
+/// intensity; linear between samples.
+pub(super) fn airy_amplitude(distance: f64) -> f64 {
+    static TABLE: OnceLock<Vec<f64>> = OnceLock::new();
+    let table = TABLE.get_or_init(|| {
+        let count = (AIRY_CUT * PER_WIDTH as f64).ceil() as usize + 2;
+        (0..count).map(|i| besinc(WIDTH * i as f64 / PER_WIDTH as f64)).collect()
+    });
+    let at = distance * PER_WIDTH as f64;
+    match table.get(at as usize..at as usize + 2) {
+        Some(&[a, b]) => a + (b - a) * at.fract(),
+        _ => 0.,
+    }
+}
+
+/// 2 J₁(v) / v with Bessel's integral J₁(v) = ∫₀^π cos(τ − v sin τ) dτ / π, which the trapezium rule sums to the last digit:
+/// its integrand is periodic.
+fn besinc(v: f64) -> f64 {
+    const STEPS: usize = 64;
+    if v < 1e-6 {
+        return 1.;
+    }
+    let term = |k: usize| {
+        let tau = PI * k as f64 / STEPS as f64;
+        (tau - v * tau.sin()).cos()
+    };
+    let inner: f64 = (1..STEPS).map(term).sum();
+    2. / v * (inner + 0.5 * (term(0) + term(STEPS))) / STEPS as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_pattern_has_the_zeros_the_width_and_the_rings_of_the_textbook() {
+        assert_eq!(airy_amplitude(0.), 1.);
+        // first and second zero of J₁
+        assert!(besinc(3.831_705_970).abs() < 1e-9 && besinc(7.015_586_670).abs() < 1e-9);
+        assert!((airy_amplitude(0.5).powi(2) - 0.5).abs() < 1e-6);
+        // the first ring has 1.75 % of the intensity
+        assert!((besinc(5.135_622).powi(2) - 0.0175).abs() < 1e-4);
+    }
+}

@@ -1,0 +1,155 @@
+use super::RenderOptions;
+use super::field::normal;
+use super::spacing::CellSizes;
+use crate::geometry::Point;
+use rand::{Rng, RngExt};
+use std::f64::consts::TAU;
+
+/// Area of a cone's cell, in squared spacings.
+const CELL: f64 = 0.866_025_403_784_438_6;
+/// Closest distance of two rods, in rod spacings: random placing stops near the density of their lattice.
+const CLOSEST: f64 = 0.75;
+/// Discs of diameter 1 that random placing without overlap brings into a unit of area (Rényi's car parking in the plane:
+/// coverage .547), less what the tries below leave out.
+const PARKED: f64 = 0.6;
+/// Room that cones leave to rods at least, squared spacings a cone.
+const LEAST_ROOM: f64 = 0.1;
+/// How often a place is tried for every rod wanted.
+const TRIES: f64 = 6.;
+/// Coefficient of variation of the rods' heights.
+const SCATTER: f64 = 0.5;
+
+/// A rod between cones.
+pub(super) struct Rod {
+    pub(super) centre: Point,
+    /// Distance of the rods there, px.
+    pub(super) pitch: f64,
+    /// Height over the surround, relative to the average cone.
+    pub(super) height: f64,
+}
+
+/// Rods at random in what room the cones leave, never overlapping. Their distance follows from their number and from that
+/// room.
+pub(super) fn between(
+    points: &[Point],
+    cells: &CellSizes,
+    options: &RenderOptions,
+    rng: &mut dyn Rng,
+) -> Vec<Rod> {
+    if options.rods == 0. || points.is_empty() {
+        return Vec::new();
+    }
+    let closest_per_spacing = closest(options);
+    let widest = cells.spacing.iter().copied().fold(0., f64::max);
+    let mut taken = Buckets::new(options, widest * (0.5 * options.diameter + closest_per_spacing));
+    for (&p, &spacing) in points.iter().zip(&cells.spacing) {
+        taken.insert(p, 0.5 * options.diameter * spacing);
+    }
+    let log_sd = (1. + SCATTER * SCATTER).ln().sqrt();
+    let tries = (TRIES * options.rods).ceil() as usize;
+    let mut rods = Vec::new();
+    for (&p, &spacing) in points.iter().zip(&cells.spacing) {
+        let closest = closest_per_spacing * spacing;
+        let pitch = closest / CLOSEST;
+        for _ in 0..tries {
+            let distance = spacing * rng.random_range(0.04f64..1.).sqrt();
+            let (sin, cos) = rng.random_range(0. ..TAU).sin_cos();
+            let centre = Point::new(p.x + distance * cos, p.y + distance * sin);
+            if taken.insert_if_free(centre, 0.5 * closest) {
+                let height = options.rod_contrast * (log_sd * normal(rng) - log_sd * log_sd / 2.).exp();
+                rods.push(Rod { centre, pitch, height });
+            }
+        }
+    }
+    rods
+}
+
+/// Closest distance of two rods, in spacings, at which as many as asked for find room. Their centres keep half of it, x/2, away
+/// from a cone of diameter d: rods · x² = PARKED · (cell − π (d + x)²/4), solved for x.
+fn closest(options: &RenderOptions) -> f64 {
+    let d = options.diameter;
+    let parked = PARKED * TAU / 8.;
+    let room = PARKED * (CELL - TAU / 8. * d * d).max(LEAST_ROOM);
+    let (a, b) = (options.rods + parked, 2. * parked * d);
+    ((b * b + 4. * a * room).sqrt() - b) / (2. * a)
+}
+
+/// Discs that must not overlap, sorted into squares at least as wide as any two of them reach.
+struct Buckets {
+    side: f64,
+    columns: usize,
+    rows: usize,
+    discs: Vec<Vec<(Point, f64)>>,
+}
+
+impl Buckets {
+    fn new(options: &RenderOptions, reach: f64) -> Self {
+        // never more squares than pixels
+        let side = reach.max(1.);
+        let count = |length: usize| (length as f64 / side) as usize + 3;
+        let (columns, rows) = (count(options.width), count(options.height));
+        Self { side, columns, rows, discs: vec![Vec::new(); columns * rows] }
+    }
+
+    /// The square of a place; those beyond the border share the outermost.
+    fn place(&self, p: Point) -> (usize, usize) {
+        let index = |v: f64, count: usize| ((v / self.side + 1.).max(0.) as usize).min(count - 1);
+        (index(p.x, self.columns), index(p.y, self.rows))
+    }
+
+    fn insert(&mut self, p: Point, radius: f64) {
+        let (column, row) = self.place(p);
+        self.discs[row * self.columns + column].push((p, radius));
+    }
+
+    /// Outside the image and one square around it nothing is free.
+    fn insert_if_free(&mut self, p: Point, radius: f64) -> bool {
+        let (column, row) = self.place(p);
+        let inside = |v: f64, count: usize| v > -self.side && v < (count - 2) as f64 * self.side;
+        if !inside(p.x, self.columns) || !inside(p.y, self.rows) {
+            return false;
+        }
+        let rows = row.saturating_sub(1)..(row + 2).min(self.rows);
+        let free = rows.into_iter().all(|j| {
+            let columns = column.saturating_sub(1)..(column + 2).min(self.columns);
+            self.discs[j * self.columns + columns.start..j * self.columns + columns.end]
+                .iter()
+                .flatten()
+                .all(|(q, r)| p.distance(*q) >= radius + r)
+        });
+        if free {
+            self.insert(p, radius);
+        }
+        free
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::detect::Modality;
+    use crate::render::{MosaicOptions, cone_mosaic};
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+
+    #[test]
+    fn as_many_rods_as_asked_for_keep_clear_of_cones_and_each_other() {
+        let mosaic = MosaicOptions { width: 400, height: 400, spacing: 24., ..MosaicOptions::default() };
+        let cones = cone_mosaic(&mosaic, &mut ChaCha8Rng::seed_from_u64(1)).unwrap();
+        for (rods, diameter) in [(3., 0.4), (6., 0.6), (9., 0.38), (15., 0.5)] {
+            let side = RenderOptions { width: 400, height: 400, ..RenderOptions::new(Modality::Confocal) };
+            let options = RenderOptions { rods, diameter, ..side };
+            let cells = CellSizes::of(&cones, &options).unwrap();
+            let found = between(&cones, &cells, &options, &mut ChaCha8Rng::seed_from_u64(2));
+            let inside = |p: &Point| (24. ..376.).contains(&p.x) && (24. ..376.).contains(&p.y);
+            let per_cone = found.iter().filter(|r| inside(&r.centre)).count() as f64
+                / cones.iter().filter(|p| inside(p)).count() as f64;
+            assert!((per_cone / rods - 1.).abs() < 0.2, "{per_cone} of {rods} at {diameter}");
+            for (i, rod) in found.iter().enumerate() {
+                let free = |q: &Point, room: f64| q.distance(rod.centre) >= room;
+                assert!(cones.iter().all(|c| free(c, 0.4 * diameter * 24.)));
+                assert!(found[..i].iter().all(|r| free(&r.centre, 0.5 * rod.pitch)));
+            }
+        }
+    }
+}

@@ -1,0 +1,81 @@
+use super::RenderOptions;
+use super::field::{SlowField, normal};
+use super::spacing::CellSizes;
+use crate::geometry::Point;
+use rand::{Rng, RngExt};
+use serde::Serialize;
+
+/// Contrast, relative to the average cone, below which a cone counts as dim.
+pub(super) const DIM: f64 = 0.3;
+
+/// What an observer could know of a cone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ConeClass {
+    /// It stands out.
+    Cone,
+    /// It has less than 0.3 of the average contrast: drawn so, or behind a vessel, or cut near its tip.
+    Dim,
+    /// It is not drawn at all.
+    Missing,
+}
+
+impl ConeClass {
+    /// As it is written in tables.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Cone => "cone",
+            Self::Dim => "dim",
+            Self::Missing => "missing",
+        }
+    }
+}
+
+/// How well a cone can be seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Visibility {
+    /// Its contrast relative to that of the average cone.
+    pub contrast: f64,
+    /// What that makes of it.
+    pub class: ConeClass,
+}
+
+impl Visibility {
+    /// Of a cone of the given contrast; none of it is missing.
+    pub(super) fn of(contrast: f64) -> Self {
+        let class = match contrast {
+            c if c <= 0. => ConeClass::Missing,
+            c if c < DIM => ConeClass::Dim,
+            _ => ConeClass::Cone,
+        };
+        Self { contrast, class }
+    }
+}
+
+/// Heights of the cones over their surround: log-normal, mean 1. Of the variance of the logarithm three quarters are the
+/// cone's own, one its neighbours share. Then dim cones lose most of it, and missing ones all.
+pub(super) fn heights(
+    points: &[Point],
+    cells: &CellSizes,
+    options: &RenderOptions,
+    rng: &mut dyn Rng,
+) -> Vec<f64> {
+    let sd = (1. + options.scatter * options.scatter).ln().sqrt();
+    let shared = SlowField::new(options.width, options.height, 2. * cells.typical, rng);
+    let mut heights: Vec<f64> = points
+        .iter()
+        .map(|p| {
+            let log = sd * (0.75f64.sqrt() * normal(rng) + 0.5 * shared.at(p.x, p.y)) - sd * sd / 2.;
+            let dim = if rng.random::<f64>() < options.dim { rng.random_range(0. ..DIM) } else { 1. };
+            dim * log.exp()
+        })
+        .collect();
+    if options.missing > 0. {
+        for height in &mut heights {
+            if rng.random::<f64>() < options.missing {
+                *height = 0.;
+            }
+        }
+    }
+    heights
+}
