@@ -56,7 +56,7 @@ pub(super) struct Model {
 /// What gives the logit of a cone's centre for every pixel.
 #[derive(Debug)]
 enum Network {
-    Own(network::Network),
+    Own(Box<network::Network>),
     #[cfg(feature = "onnx")]
     Onnx(Box<onnx::Onnx>),
 }
@@ -111,7 +111,7 @@ impl Model {
         let number = |key, range, expected| in_range(key, weights.word(key)?, range, expected);
         let modality = weights.word("modality")?.parse();
         Ok(Self {
-            network: Network::Own(network::Network::new(&weights)?),
+            network: Network::Own(Box::new(network::Network::new(&weights)?)),
             spacing: number("spacing", SPACING, "2–64 px")?,
             threshold,
             suppression: number("suppression", SUPPRESSION, "0.1–2 spacings")?,

@@ -2,6 +2,7 @@
 
 use super::{Model, Network, SPACING, SUPPRESSION, Threshold, WeightsError, in_range};
 use crate::detect::Modality;
+use crate::detect::calibration::Logistic;
 use crate::image::{Plane, crop, mirror};
 use rten::{Dimension, RunOptions, ThreadPool, Value};
 use std::fmt;

@@ -104,6 +104,6 @@ mod tests {
         assert!(changed(r#""suppression": "0.5""#, r#""suppression": "-.5""#).contains("suppression"));
         assert!(changed(r#""spacing": "8""#, r#""spacing": "0""#).contains("spacing"));
         assert!(changed(r#""modality": "confocal""#, r#""modality": "infrared""#).contains("modality"));
-        assert!(changed(r#""residual""#, r#""resident""#).contains("resident"));
+        assert!(changed(r#""unet""#, r#""nets""#).contains("nets"));
     }
 }
