@@ -6,7 +6,7 @@ use anyhow::Result;
 use clap::Args;
 use conemosaic::batch::{CoordinatesOutcome, compare_files, coordinate_files};
 use conemosaic::report::significant;
-use conemosaic::sample::{Sampler, sampler, samplers};
+use conemosaic::sample::{Sampler, as_reference, sampler, samplers_by_default};
 use std::path::PathBuf;
 
 /// Compares mosaics with point samplers: l-infinity distance of pair correlation functions
@@ -34,14 +34,14 @@ pub struct Compare {
     mosaic: MosaicArgs,
 }
 
-/// The samplers of these names; all if there are none. A name given twice counts once.
+/// The samplers of these names, as references; all that are so by default if there are none. A name given twice counts once.
 pub fn samplers_named(names: &[String]) -> Result<Vec<&'static dyn Sampler>> {
     if names.is_empty() {
-        return Ok(samplers().to_vec());
+        return Ok(samplers_by_default());
     }
     let mut found: Vec<&'static dyn Sampler> = Vec::new();
     for name in names {
-        let one = sampler(name.trim())?;
+        let one = as_reference(sampler(name.trim())?);
         if !found.iter().any(|s| s.name() == one.name()) {
             found.push(one);
         }

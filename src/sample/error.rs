@@ -1,3 +1,4 @@
+use super::Parameter;
 use thiserror::Error;
 
 /// Points that could not be made.
@@ -12,6 +13,30 @@ pub enum SampleError {
         names: String,
         /// The name that may have been meant, as a question; empty if none resembles it.
         hint: String,
+    },
+    /// The sampler has no parameter of that name.
+    #[error("{sampler} has no parameter “{name}”{hint}: {known}")]
+    UnknownParameter {
+        /// Name of the sampler.
+        sampler: &'static str,
+        /// What was to be set.
+        name: String,
+        /// The name that may have been meant, as a question; empty if none resembles it.
+        hint: String,
+        /// What can be set.
+        known: String,
+    },
+    /// A parameter cannot have that value.
+    #[error("{sampler}: {parameter}={value} is not possible: expected a number, {expected}")]
+    Value {
+        /// Name of the sampler.
+        sampler: &'static str,
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// What it was to be.
+        value: String,
+        /// What it can be.
+        expected: String,
     },
     /// More points than fit into memory.
     #[error("{n} points were asked for: at most {max} can be made")]
@@ -50,11 +75,23 @@ const MISSPELT: usize = 3;
 
 impl SampleError {
     pub(super) fn unknown(name: &str, names: &[&str]) -> Self {
-        let resembling = names.iter().map(|n| (strsim::levenshtein(name, n), n)).min();
-        let hint = match resembling {
-            Some((edits, closest)) if edits <= MISSPELT => format!(" (did you mean {closest}?)"),
-            _ => String::new(),
+        Self::Unknown { name: name.to_owned(), names: names.join(", "), hint: hint(name, names) }
+    }
+
+    pub(super) fn unknown_parameter(sampler: &'static str, name: &str, parameters: &[Parameter]) -> Self {
+        let names: Vec<&str> = parameters.iter().map(|p| p.name).collect();
+        let known = match names.is_empty() {
+            true => "it has no parameters".to_owned(),
+            false => format!("it has {}", names.join(", ")),
         };
-        Self::Unknown { name: name.to_owned(), names: names.join(", "), hint }
+        Self::UnknownParameter { sampler, name: name.to_owned(), hint: hint(name, &names), known }
+    }
+}
+
+fn hint(name: &str, names: &[&str]) -> String {
+    let resembling = names.iter().map(|n| (strsim::levenshtein(name, n), n)).min();
+    match resembling {
+        Some((edits, closest)) if edits <= MISSPELT => format!(" (did you mean {closest}?)"),
+        _ => String::new(),
     }
 }

@@ -10,6 +10,7 @@ mod error;
 mod frame;
 mod jittered;
 mod lattice;
+mod parameter;
 mod square;
 mod torus_grid;
 mod triangular;
@@ -20,11 +21,12 @@ pub use dart_throwing::DartThrowing;
 pub use error::SampleError;
 pub use frame::Frame;
 pub use jittered::Jittered;
+pub use parameter::{Parameter, Values};
 pub use square::Square;
 pub use triangular::Triangular;
 pub use uniform::Uniform;
 
-use crate::geometry::{Point, Window};
+use crate::geometry::{Point, Polygon, Window};
 use rand::Rng;
 
 /// A way to put n points into a window.
@@ -42,6 +44,53 @@ pub trait Sampler: Send + Sync {
     /// If `n` is out of the method's range, or it found no room for `n` points.
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError>;
 
+    /// What can be set by [`Sampler::configure`].
+    fn parameters(&self) -> &'static [Parameter] {
+        &[]
+    }
+
+    /// The same method with other parameters, given as (name, value); [`Values::read`] checks them.
+    ///
+    /// # Errors
+    /// If there is no such parameter or the value is out of its range.
+    fn configure(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError> {
+        Values::read(self.name(), self.parameters(), settings)?;
+        // reached without settings only
+        Err(SampleError::unknown_parameter(self.name(), "", self.parameters()))
+    }
+
+    /// Whether mosaics are compared with it unless others are named: not with those that are slow, or that make no mosaic.
+    fn by_default(&self) -> bool {
+        true
+    }
+
+    /// The setting of it that mosaics are compared with, where that is not the default one.
+    fn as_reference(&self) -> Option<&'static dyn Sampler> {
+        None
+    }
+
+    /// [`Sampler::fill`] for methods that take long: `progress` hears of steps done, of how many at most.
+    ///
+    /// # Errors
+    /// As [`Sampler::fill`].
+    fn fill_watched(
+        &self,
+        n: usize,
+        frame: &Frame,
+        rng: &mut dyn Rng,
+        _progress: &mut Watch<'_>,
+    ) -> Result<Vec<Point>, SampleError> {
+        self.fill(n, frame, rng)
+    }
+
+    /// [`Sampler::sample_watched`] without a listener.
+    ///
+    /// # Errors
+    /// As there.
+    fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
+        self.sample_watched(n, window, rng, &mut |_, _| ())
+    }
+
     /// About `n` points of `window`, by [`Sampler::fill`]: the bounds of a rectangle or torus are filled.
     ///
     /// A polygon is cut out of a pattern of the same density in its bounds. How many points it holds is left to chance;
@@ -49,26 +98,50 @@ pub trait Sampler: Send + Sync {
     ///
     /// # Errors
     /// If `n` or the window is out of the method's range, or it found no room for the points.
-    fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
-        let Window::Polygon(polygon) = window else { return self.fill(n, &Frame::new(n, window)?, rng) };
-        let bounds = polygon.bounds();
-        let share = polygon.area() / bounds.area();
-        let filled = (n as f64 / share).round() as usize;
-        let frame = Frame::new(filled, &Window::Rectangle(bounds))?;
-        let mut best: Option<(usize, Vec<Point>)> = None;
-        for _ in 0..CUTS {
-            let mut points = self.fill(filled, &frame, rng)?;
-            points.retain(|&p| polygon.contains(p));
-            let miss = points.len().abs_diff(n);
-            if best.as_ref().is_none_or(|(least, _)| miss < *least) {
-                best = Some((miss, points));
+    fn sample_watched(
+        &self,
+        n: usize,
+        window: &Window,
+        rng: &mut dyn Rng,
+        progress: &mut Watch<'_>,
+    ) -> Result<Vec<Point>, SampleError> {
+        match window {
+            Window::Polygon(polygon) => {
+                cut(n, polygon, |n, frame| self.fill_watched(n, frame, rng, progress))
             }
-            if miss as f64 <= CLOSE * n as f64 {
-                break;
+            Window::Rectangle(_) | Window::Torus(_) => {
+                self.fill_watched(n, &Frame::new(n, window)?, rng, progress)
             }
         }
-        Ok(best.map(|(_, points)| points).unwrap_or_default())
     }
+}
+
+/// What hears of a sampler's progress: steps done, and of how many at most.
+pub type Watch<'a> = dyn FnMut(usize, usize) + 'a;
+
+/// The pattern nearest to `n` points in number that a polygon cuts out of fillings of its bounds.
+fn cut(
+    n: usize,
+    polygon: &Polygon,
+    mut fill: impl FnMut(usize, &Frame) -> Result<Vec<Point>, SampleError>,
+) -> Result<Vec<Point>, SampleError> {
+    let bounds = polygon.bounds();
+    let share = polygon.area() / bounds.area();
+    let filled = (n as f64 / share).round() as usize;
+    let frame = Frame::new(filled, &Window::Rectangle(bounds))?;
+    let mut best: Option<(usize, Vec<Point>)> = None;
+    for _ in 0..CUTS {
+        let mut points = fill(filled, &frame)?;
+        points.retain(|&p| polygon.contains(p));
+        let miss = points.len().abs_diff(n);
+        if best.as_ref().is_none_or(|(least, _)| miss < *least) {
+            best = Some((miss, points));
+        }
+        if miss as f64 <= CLOSE * n as f64 {
+            break;
+        }
+    }
+    Ok(best.map(|(_, points)| points).unwrap_or_default())
 }
 
 /// Most patterns drawn to cut a polygon out of, and how near, as a share of n, their number must come to end the search.
@@ -80,6 +153,16 @@ static SAMPLERS: [&dyn Sampler; 6] = [&Uniform, &Jittered, &Triangular, &Square,
 /// Every sampler there is.
 pub fn samplers() -> &'static [&'static dyn Sampler] {
     &SAMPLERS
+}
+
+/// The samplers that mosaics are compared with if none are named, each in the setting for that.
+pub fn samplers_by_default() -> Vec<&'static dyn Sampler> {
+    SAMPLERS.iter().copied().filter(|s| s.by_default()).map(as_reference).collect()
+}
+
+/// The setting of a sampler that mosaics are compared with.
+pub fn as_reference(sampler: &'static dyn Sampler) -> &'static dyn Sampler {
+    sampler.as_reference().unwrap_or(sampler)
 }
 
 /// The sampler of that name.
