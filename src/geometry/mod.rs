@@ -6,6 +6,7 @@ mod neighbours;
 mod point;
 mod polygon;
 mod polygon_identity;
+pub mod power;
 mod ring;
 mod window;
 

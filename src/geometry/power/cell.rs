@@ -1,0 +1,116 @@
+/// Label of an edge that no other site made: the border of the domain.
+pub(super) const NO_SITE: u32 = u32::MAX;
+
+/// Cuts that would take off less than this share of the cell's radius are not made: rounding would make them again and
+/// again, and they change nothing.
+const ROUNDING: f64 = 1e-14;
+
+/// A corner of a cell, relative to its site, and whose bisector runs from it to the next corner.
+#[derive(Clone, Copy)]
+pub(super) struct Corner {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) site: u32,
+    /// Distance of that site: of the image whose bisector it is.
+    pub(super) distance: f64,
+}
+
+/// A convex polygon that half-planes are taken off, one at a time.
+#[derive(Default)]
+pub(super) struct Clip {
+    corners: Vec<Corner>,
+    spare: Vec<Corner>,
+    sides: Vec<f64>,
+    radius2: f64,
+}
+
+impl Clip {
+    pub(super) fn begin(&mut self, corners: impl Iterator<Item = [f64; 2]>, site: u32) {
+        self.corners.clear();
+        self.corners.extend(corners.map(|[x, y]| Corner { x, y, site, distance: 0. }));
+        self.measure();
+    }
+
+    pub(super) fn corners(&self) -> &[Corner] {
+        &self.corners
+    }
+
+    /// Square of the greatest distance of a corner from the site; 0 if nothing is left.
+    #[inline]
+    pub(super) fn radius2(&self) -> f64 {
+        self.radius2
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.corners.is_empty()
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.corners.clear();
+        self.radius2 = 0.;
+    }
+
+    fn measure(&mut self) {
+        self.radius2 = self.corners.iter().map(|c| c.x * c.x + c.y * c.y).fold(0., f64::max);
+    }
+
+    /// Takes off what is nearer, in power, to a site at (dx, dy) than to this one; `excess` is this site's weight less the
+    /// other's. Corners are judged one by one, so that rounding may leave a corner too many but never lose the cell.
+    pub(super) fn cut(&mut self, dx: f64, dy: f64, excess: f64, site: u32) {
+        let square = dx * dx + dy * dy;
+        let distance = square.sqrt();
+        let offset = (square + excess) / 2.;
+        let outside = ROUNDING * distance * self.radius2.sqrt();
+        self.sides.clear();
+        self.sides.extend(self.corners.iter().map(|c| dx * c.x + dy * c.y - offset));
+        if !self.sides.iter().any(|&s| s > outside) {
+            return;
+        }
+        self.spare.clear();
+        let (mut from, mut side) = match (self.corners.last(), self.sides.last()) {
+            (Some(&corner), Some(&side)) => (corner, side),
+            _ => return,
+        };
+        for (&to, &next) in self.corners.iter().zip(&self.sides) {
+            if (side > outside) != (next > outside) {
+                let t = (side / (side - next)).clamp(0., 1.);
+                let (x, y) = (from.x + t * (to.x - from.x), from.y + t * (to.y - from.y));
+                // leaving, the bisector begins; entering, the old edge goes on
+                self.spare.push(if next > outside {
+                    Corner { x, y, site, distance }
+                } else {
+                    Corner { x, y, ..from }
+                });
+            }
+            if next <= outside {
+                self.spare.push(to);
+            }
+            (from, side) = (to, next);
+        }
+        std::mem::swap(&mut self.corners, &mut self.spare);
+        if self.corners.len() < 3 {
+            self.corners.clear();
+        }
+        self.measure();
+    }
+
+    /// Area, its centroid relative to the site, and its second moment about that over the square of the area; `None`
+    /// without area.
+    pub(super) fn area(&self) -> Option<(f64, [f64; 2], f64)> {
+        let mut from = self.corners.last()?;
+        let (mut twice, mut x, mut y, mut square) = (0., 0., 0., 0.);
+        for to in &self.corners {
+            let cross = from.x * to.y - to.x * from.y;
+            let (sx, sy) = (from.x + to.x, from.y + to.y);
+            twice += cross;
+            x += cross * sx;
+            y += cross * sy;
+            square += cross * (sx * sx + sy * sy - from.x * to.x - from.y * to.y);
+            from = to;
+        }
+        let area = twice / 2.;
+        let (x, y) = (x / (6. * area), y / (6. * area));
+        let spread = (square / 12. / area - x * x - y * y) / area;
+        (area > 0.).then_some((area, [x, y], spread))
+    }
+}

@@ -1,0 +1,113 @@
+use super::Domain;
+
+/// A site where the grid keeps it.
+#[derive(Clone, Copy)]
+pub(super) struct Entry {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) weight: f64,
+    pub(super) site: u32,
+}
+
+/// Sites by the cell of a grid that they lie in, about one a cell.
+pub(super) struct Grid {
+    columns: usize,
+    rows: usize,
+    low: [f64; 2],
+    size: [f64; 2],
+    torus: bool,
+    starts: Vec<u32>,
+    entries: Vec<Entry>,
+}
+
+impl Grid {
+    /// Sites that are not finite are left out; those outside the domain count to the nearest cell.
+    pub(super) fn new(domain: &Domain, sites: &[[f64; 2]]) -> Self {
+        let [low, high] = domain.bounds();
+        let (width, height) = (high[0] - low[0], high[1] - low[1]);
+        let most = sites.len().max(1);
+        let side = (width * height / most as f64).sqrt();
+        let along = |length: f64| ((length / side).round() as usize).clamp(1, most);
+        let (columns, rows) = (along(width), along(height));
+        let mut grid = Self {
+            columns,
+            rows,
+            low,
+            size: [width / columns as f64, height / rows as f64],
+            torus: domain.is_torus(),
+            starts: vec![0; columns * rows + 1],
+            entries: Vec::new(),
+        };
+        let finite = |s: &[f64; 2]| s[0].is_finite() && s[1].is_finite();
+        let places: Vec<Option<usize>> = sites.iter().map(|s| finite(s).then(|| grid.place(*s))).collect();
+        for place in places.iter().flatten() {
+            grid.starts[place + 1] += 1;
+        }
+        for place in 0..columns * rows {
+            grid.starts[place + 1] += grid.starts[place];
+        }
+        let mut next = grid.starts.clone();
+        let none = Entry { x: 0., y: 0., weight: 0., site: u32::MAX };
+        grid.entries = vec![none; grid.starts[columns * rows] as usize];
+        for (i, place) in places.iter().enumerate() {
+            if let Some(place) = place {
+                let entry = Entry { x: sites[i][0], y: sites[i][1], weight: 0., site: i as u32 };
+                grid.entries[next[*place] as usize] = entry;
+                next[*place] += 1;
+            }
+        }
+        grid
+    }
+
+    /// Sites in the order of the grid.
+    pub(super) fn order(&self) -> impl Iterator<Item = u32> + '_ {
+        self.entries.iter().map(|e| e.site)
+    }
+
+    pub(super) fn weigh(&mut self, weights: &[f64]) {
+        for entry in &mut self.entries {
+            entry.weight = weights[entry.site as usize];
+        }
+    }
+
+    /// The longer side of a cell of the grid.
+    pub(super) fn step(&self) -> f64 {
+        self.size[0].max(self.size[1])
+    }
+
+    fn place(&self, p: [f64; 2]) -> usize {
+        let inside = |axis: usize, most: usize| {
+            // casts saturate: below is 0
+            (((p[axis] - self.low[axis]) / self.size[axis]) as usize).min(most - 1)
+        };
+        inside(1, self.rows) * self.columns + inside(0, self.columns)
+    }
+
+    /// Every site, and on a torus every image of one, within `reach` of (x, y) along both axes, and some beyond: the
+    /// entries of a stretch of the grid and how far they are shifted. On a torus (x, y) lies in it, and what a site's
+    /// cell can need are the images in the eight neighbours of the domain, no others.
+    #[inline]
+    pub(super) fn visit(&self, x: f64, y: f64, reach: f64, mut take: impl FnMut(&[Entry], f64, f64)) {
+        let cells = |v: f64, axis: usize, count: usize| {
+            let from = |v: f64| ((v - self.low[axis]) / self.size[axis]).floor() as isize;
+            let count = count as isize;
+            let (least, most) = if self.torus { (-count, 2 * count - 1) } else { (0, count - 1) };
+            (from(v - reach).clamp(least, most), from(v + reach).clamp(least, most))
+        };
+        let (left, right) = cells(x, 0, self.columns);
+        let (top, bottom) = cells(y, 1, self.rows);
+        let (columns, rows) = (self.columns as isize, self.rows as isize);
+        for unwrapped in top..=bottom {
+            let turns = unwrapped.div_euclid(rows);
+            let row = (unwrapped - turns * rows) as usize * self.columns;
+            let shift_y = turns as f64 * self.size[1] * self.rows as f64;
+            for image in left.div_euclid(columns)..=right.div_euclid(columns) {
+                let begin = left.max(image * columns) - image * columns;
+                let end = right.min((image + 1) * columns - 1) - image * columns;
+                let stretch =
+                    self.starts[row + begin as usize] as usize..self.starts[row + end as usize + 1] as usize;
+                take(&self.entries[stretch], image as f64 * self.size[0] * self.columns as f64, shift_y);
+            }
+        }
+    }
+}
