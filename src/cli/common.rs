@@ -1,4 +1,4 @@
-use super::progress::{Bar, Failures, Lines};
+use super::progress::{Bar, Failures, Lines, Steps};
 use anyhow::{Context, Result};
 use clap::Args;
 use conemosaic::batch::Progress;
@@ -53,6 +53,11 @@ impl Common {
         } else {
             Box::new(Lines::new())
         }
+    }
+
+    /// A bar for one long task; none if quiet.
+    pub fn steps(&self) -> Steps {
+        if self.quiet { Steps::hidden() } else { Steps::shown() }
     }
 
     /// Prints unless quiet. A reader that stops listening (`| head`) is no error.

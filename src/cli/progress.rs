@@ -81,3 +81,30 @@ impl Progress for Failures {
 
     fn end(&self) {}
 }
+
+/// A bar for the steps of one long task, on a terminal only.
+pub struct Steps(ProgressBar);
+
+impl Steps {
+    /// Shown on standard error, if that is a terminal.
+    pub fn shown() -> Self {
+        let bar = ProgressBar::with_draw_target(None, indicatif::ProgressDrawTarget::stderr());
+        if let Ok(style) = ProgressStyle::with_template("{bar:32} step {pos} of at most {len}  {elapsed}") {
+            bar.set_style(style);
+        }
+        Self(bar)
+    }
+
+    pub fn hidden() -> Self {
+        Self(ProgressBar::hidden())
+    }
+
+    pub fn at(&self, step: usize, of: usize) {
+        self.0.set_length(of as u64);
+        self.0.set_position(step as u64);
+    }
+
+    pub fn end(&self) {
+        self.0.finish_and_clear();
+    }
+}

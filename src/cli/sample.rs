@@ -1,15 +1,16 @@
 use super::Done;
 use super::common::Common;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use clap::Args;
 use conemosaic::geometry::Window;
+use conemosaic::image;
 use conemosaic::mosaic::io::{format_plain_points, write_plain_points};
 use conemosaic::report::{counted, table};
-use conemosaic::sample::{sampler, samplers};
+use conemosaic::sample::{Density, Sampler, sampler, samplers};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Draws points in the unit square from a sampler
 #[derive(Args)]
@@ -17,6 +18,8 @@ use std::path::PathBuf;
 Examples:
   conemosaic sample --list
   conemosaic sample dart-throwing -n 1024 --seed 7 --out points.csv
+  conemosaic sample bnot -n 1024 --steps 20 --torus
+  conemosaic sample bnot -n 5000 --density picture.png --out stipples.csv
 
 Writes x,y in [0, 1)², to the terminal without --out.")]
 pub struct Sample {
@@ -35,6 +38,11 @@ pub struct Sample {
     /// Steps of a relaxation: short for --set steps=K
     #[arg(long, value_name = "K")]
     steps: Option<usize>,
+    /// Points as dense as this PNG or TIFF is bright, stretched over the unit square [default: even density]
+    ///
+    /// Its grey values, 0 to 1, are densities relative to each other; below 1/1000 of the greatest they count as that.
+    #[arg(long, value_name = "FILE")]
+    density: Option<PathBuf>,
     /// File for the points
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -51,12 +59,15 @@ impl Sample {
             return Ok(Done::Completely);
         };
         let window = if self.torus { Window::unit_torus() } else { Window::unit_square() };
-        let settings = self.settings();
-        let settings: Vec<(&str, &str)> = settings.iter().map(|(k, v)| (*k, v.as_str())).collect();
-        let default = sampler(name)?;
-        let configured = if settings.is_empty() { None } else { Some(default.configure(&settings)?) };
-        let chosen = configured.as_deref().unwrap_or(default);
-        let points = chosen.sample(n, &window, &mut ChaCha8Rng::seed_from_u64(common.seed))?;
+        let changed = self.changed(name)?;
+        let chosen = match &changed {
+            Some(changed) => &**changed,
+            None => sampler(name)?,
+        };
+        let bar = common.steps();
+        let mut rng = ChaCha8Rng::seed_from_u64(common.seed);
+        let points = chosen.sample_watched(n, &window, &mut rng, &mut |step, of| bar.at(step, of))?;
+        bar.end();
         if let Some(path) = &self.out {
             write_plain_points(path, &points)?;
             common.say(&format!("{}: {}", counted(points.len(), "point"), path.display()));
@@ -71,11 +82,30 @@ impl Sample {
         Ok(Done::Completely)
     }
 
-    /// What is to be set: `--steps` is a setting like others.
-    fn settings(&self) -> Vec<(&str, String)> {
-        let set = self.set.iter().map(|(name, value)| (name.as_str(), value.clone()));
-        set.chain(self.steps.map(|steps| ("steps", steps.to_string()))).collect()
+    /// The sampler with what is set and the density, if anything is.
+    fn changed(&self, name: &str) -> Result<Option<Box<dyn Sampler>>> {
+        let steps = self.steps.map(|steps| steps.to_string());
+        let set = self.set.iter().map(|(name, value)| (name.as_str(), value.as_str()));
+        let settings: Vec<(&str, &str)> = set.chain(steps.as_deref().map(|steps| ("steps", steps))).collect();
+        let default = sampler(name)?;
+        let configured = if settings.is_empty() { None } else { Some(default.configure(&settings)?) };
+        let Some(path) = &self.density else { return Ok(configured) };
+        let density = density(path)?;
+        let dense = configured.as_deref().unwrap_or(default).with_density(&density);
+        if dense.is_none() {
+            let able = samplers().iter().filter(|s| s.with_density(&density).is_some()).map(|s| s.name());
+            let able = able.collect::<Vec<_>>().join(", ");
+            bail!("{name} makes points of even density: --density goes with {able}");
+        }
+        Ok(dense)
     }
+}
+
+fn density(path: &Path) -> Result<Density> {
+    let plane = image::read(path)?;
+    let (rows, columns) = plane.dim();
+    let values: Vec<f64> = plane.iter().map(|&v| f64::from(v)).collect();
+    Density::new(columns, rows, &values).with_context(|| path.display().to_string())
 }
 
 fn setting(text: &str) -> Result<(String, String), String> {

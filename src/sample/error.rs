@@ -38,6 +38,18 @@ pub enum SampleError {
         /// What it can be.
         expected: String,
     },
+    /// Cells could not be made equal.
+    #[error(
+        "{sampler}: the masses of {n} cells stay {error:.1e} (relative) apart: use another n or seed, or a smoother density"
+    )]
+    Unequal {
+        /// Name of the sampler.
+        sampler: &'static str,
+        /// Number of points.
+        n: usize,
+        /// Greatest relative deviation of a mass.
+        error: f64,
+    },
     /// More points than fit into memory.
     #[error("{n} points were asked for: at most {max} can be made")]
     TooMany {

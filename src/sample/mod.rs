@@ -4,23 +4,30 @@
 //! pattern has no border of its own; a bounded window then cuts it off as an image cuts off a mosaic. A polygon is cut
 //! out of a pattern of its bounds.
 
+mod bnot;
 mod bridson;
 mod dart_throwing;
+mod density;
 mod error;
 mod frame;
 mod jittered;
 mod lattice;
+mod lloyd;
 mod parameter;
+mod region;
 mod square;
 mod torus_grid;
 mod triangular;
 mod uniform;
 
+pub use bnot::Bnot;
 pub use bridson::Bridson;
 pub use dart_throwing::DartThrowing;
+pub use density::Density;
 pub use error::SampleError;
 pub use frame::Frame;
 pub use jittered::Jittered;
+pub use lloyd::Lloyd;
 pub use parameter::{Parameter, Values};
 pub use square::Square;
 pub use triangular::Triangular;
@@ -57,6 +64,11 @@ pub trait Sampler: Send + Sync {
         Values::read(self.name(), self.parameters(), settings)?;
         // reached without settings only
         Err(SampleError::unknown_parameter(self.name(), "", self.parameters()))
+    }
+
+    /// The same method for points as dense as `density` says, if it can; otherwise `None`.
+    fn with_density(&self, _density: &Density) -> Option<Box<dyn Sampler>> {
+        None
     }
 
     /// Whether mosaics are compared with it unless others are named: not with those that are slow, or that make no mosaic.
@@ -107,7 +119,9 @@ pub trait Sampler: Send + Sync {
     ) -> Result<Vec<Point>, SampleError> {
         match window {
             Window::Polygon(polygon) => {
-                cut(n, polygon, |n, frame| self.fill_watched(n, frame, rng, progress))
+                cut(n, polygon, polygon.area() / polygon.bounds().area(), |n, frame| {
+                    self.fill_watched(n, frame, rng, progress)
+                })
             }
             Window::Rectangle(_) | Window::Torus(_) => {
                 self.fill_watched(n, &Frame::new(n, window)?, rng, progress)
@@ -119,14 +133,15 @@ pub trait Sampler: Send + Sync {
 /// What hears of a sampler's progress: steps done, and of how many at most.
 pub type Watch<'a> = dyn FnMut(usize, usize) + 'a;
 
-/// The pattern nearest to `n` points in number that a polygon cuts out of fillings of its bounds.
+/// The pattern nearest to `n` points in number that a polygon cuts out of fillings of its bounds, of whose points it
+/// holds about `share`.
 fn cut(
     n: usize,
     polygon: &Polygon,
+    share: f64,
     mut fill: impl FnMut(usize, &Frame) -> Result<Vec<Point>, SampleError>,
 ) -> Result<Vec<Point>, SampleError> {
     let bounds = polygon.bounds();
-    let share = polygon.area() / bounds.area();
     let filled = (n as f64 / share).round() as usize;
     let frame = Frame::new(filled, &Window::Rectangle(bounds))?;
     let mut best: Option<(usize, Vec<Point>)> = None;
@@ -148,7 +163,8 @@ fn cut(
 const CUTS: usize = 32;
 const CLOSE: f64 = 0.005;
 
-static SAMPLERS: [&dyn Sampler; 6] = [&Uniform, &Jittered, &Triangular, &Square, &DartThrowing, &Bridson];
+static SAMPLERS: [&dyn Sampler; 8] =
+    [&Uniform, &Jittered, &Triangular, &Square, &DartThrowing, &Bridson, &Lloyd::DEFAULT, &Bnot::CONVERGED];
 
 /// Every sampler there is.
 pub fn samplers() -> &'static [&'static dyn Sampler] {

@@ -77,12 +77,14 @@ impl Raster {
         Ok(Self { columns, rows, size, low, torus: domain.is_torus(), density, ahead })
     }
 
-    /// The density at a place of the domain, over the greatest anywhere.
-    pub fn at(&self, p: [f64; 2]) -> f64 {
-        let cell = |axis: usize, count: usize| {
-            (((p[axis] - self.low[axis]) / self.size[axis]) as usize).min(count - 1)
-        };
-        self.density[cell(1, self.rows) * self.columns + cell(0, self.columns)]
+    /// Columns and rows.
+    pub const fn shape(&self) -> (usize, usize) {
+        (self.columns, self.rows)
+    }
+
+    /// Densities row by row, over the greatest of them.
+    pub fn values(&self) -> &[f64] {
+        &self.density
     }
 
     /// Integrals over a polygon whose edges are given, around a site.

@@ -1,0 +1,120 @@
+use super::capacity::{Solved, solve};
+use super::{Bnot, MOST_STEPS, Region, Watch, regularity};
+use crate::geometry::power::{Domain, PowerDiagram, PowerSites};
+use crate::sample::{SampleError, Sampler};
+use rand::Rng;
+use std::f64::consts::TAU;
+
+/// Relative deviation of masses that is allowed between moves, and at the end.
+const LOOSE: f64 = 1e-2;
+const EXACT: f64 = 1e-6;
+/// Points without a cell, which coincide with others, are moved by this share of a spacing; how often that is tried.
+const NUDGE: f64 = 1e-3;
+const NUDGES: usize = 8;
+
+impl Bnot {
+    /// Relaxes points of the region. In their order: where they are in the end, on a torus perhaps beyond its seam; and their
+    /// cells, in an order of their own.
+    pub(super) fn relax(
+        &self,
+        start: &[[f64; 2]],
+        region: &Region,
+        rng: &mut dyn Rng,
+        progress: &mut Watch<'_>,
+    ) -> Result<(Vec<[f64; 2]>, Solved), SampleError> {
+        let n = start.len();
+        let spacing = region.spacing(n);
+        // neighbours near each other in memory
+        let order = PowerSites::new(&region.domain, None, start).order();
+        let points = order.iter().map(|&i| start[i as usize]).collect();
+        let mut state =
+            State { region, points, weights: vec![0.; n], target: 0., diagram: PowerDiagram::default() };
+        state.begin(spacing);
+        state.move_to_centroids();
+        let all = self.steps.unwrap_or(MOST_STEPS);
+        for round in 0..=self.breaks {
+            if round > 0 {
+                state.solve(LOOSE);
+                if !regularity::shake(&mut state.points, &state.diagram, spacing, rng) {
+                    break;
+                }
+                state.weights.fill(0.);
+                state.begin(spacing);
+                state.move_to_centroids();
+            }
+            for step in 0..all {
+                progress(round * all + step, (self.breaks + 1) * all);
+                state.solve(LOOSE);
+                let moved = state.move_to_centroids();
+                if self.steps.is_none() && moved <= self.tolerance * spacing {
+                    break;
+                }
+            }
+        }
+        let error = state.solve(EXACT);
+        progress((self.breaks + 1) * all, (self.breaks + 1) * all);
+        if error > EXACT {
+            return Err(SampleError::Unequal { sampler: self.name(), n, error });
+        }
+        let mut points = start.to_vec();
+        for (&i, p) in order.iter().zip(&state.points) {
+            points[i as usize] = *p;
+        }
+        Ok((points, Solved { diagram: state.diagram, error }))
+    }
+}
+
+struct State<'a> {
+    region: &'a Region,
+    points: Vec<[f64; 2]>,
+    weights: Vec<f64>,
+    /// The mass that each cell is to have.
+    target: f64,
+    diagram: PowerDiagram,
+}
+
+impl State<'_> {
+    fn sites(&self) -> PowerSites<'_> {
+        PowerSites::new(&self.region.domain, self.region.density.as_ref(), &self.points)
+    }
+
+    /// Voronoi cells; points that have none are moved a little.
+    fn begin(&mut self, spacing: f64) {
+        for attempt in 0..NUDGES {
+            self.diagram = self.sites().diagram(&self.weights, None);
+            let cells = self.diagram.cells();
+            self.target = cells.iter().map(|c| c.mass).sum::<f64>() / cells.len().max(1) as f64;
+            let hidden: Vec<usize> = (0..cells.len()).filter(|&i| cells[i].mass <= 0.).collect();
+            if hidden.is_empty() {
+                return;
+            }
+            for i in hidden {
+                // every one another way
+                let angle = TAU * 0.618_034 * (i * NUDGES + attempt) as f64;
+                self.points[i][0] += NUDGE * spacing * angle.cos();
+                self.points[i][1] += NUDGE * spacing * angle.sin();
+            }
+        }
+    }
+
+    /// Makes masses equal; how far from it they stay.
+    fn solve(&mut self, tolerance: f64) -> f64 {
+        let mut weights = std::mem::take(&mut self.weights);
+        let solved = solve(&mut self.sites(), &mut weights, &self.diagram, self.target, tolerance);
+        self.weights = weights;
+        self.diagram = solved.diagram;
+        solved.error
+    }
+
+    /// Moves every point to the centroid of its cell; the root mean square of the ways.
+    fn move_to_centroids(&mut self) -> f64 {
+        let domain: &Domain = &self.region.domain;
+        let mut square = 0.;
+        for (point, cell) in self.points.iter_mut().zip(self.diagram.cells()) {
+            let [dx, dy] = domain.towards(domain.wrapped(*point), cell.centroid);
+            square += dx * dx + dy * dy;
+            *point = [point[0] + dx, point[1] + dy];
+        }
+        (square / self.points.len().max(1) as f64).sqrt()
+    }
+}

@@ -1,0 +1,61 @@
+use crate::geometry::power::{Domain, Raster, RasterError};
+use crate::geometry::{Point, Polygon};
+use std::sync::Arc;
+
+/// Least density, as a share of the greatest: an empty region would cut cells on either side off from each other.
+const LEAST: f64 = 1e-3;
+
+/// How many points a region is to have, relative to others: a raster over the bounds of the window, constant within
+/// each of its cells, from the upper left. Values below 1/1000 of the greatest count as that.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Density {
+    columns: usize,
+    rows: usize,
+    values: Arc<[f64]>,
+}
+
+impl Density {
+    /// Values row by row, in any unit.
+    ///
+    /// # Errors
+    /// If their number is not `columns` × `rows`, one is negative or not finite, or all are 0.
+    pub fn new(columns: usize, rows: usize, values: &[f64]) -> Result<Self, RasterError> {
+        let greatest = values.iter().copied().fold(0., f64::max);
+        // what is wrong with them is found here, so that a window can always be given to them
+        Raster::new(&Domain::rectangle(1., 1.), columns, rows, values.to_vec())?;
+        let values = values.iter().map(|v| (v / greatest).max(LEAST)).collect();
+        Ok(Self { columns, rows, values })
+    }
+
+    /// The values of a function of (x, y), each 0 to 1 across the bounds of the window, in the middles of the cells of a
+    /// raster.
+    ///
+    /// # Errors
+    /// As [`Density::new`].
+    pub fn from_fn(columns: usize, rows: usize, f: impl Fn(f64, f64) -> f64) -> Result<Self, RasterError> {
+        let middle = |i: usize, count: usize| (i as f64 + 0.5) / count as f64;
+        let values: Vec<f64> = (0..rows)
+            .flat_map(|row| (0..columns).map(move |column| (column, row)))
+            .map(|(column, row)| f(middle(column, columns), middle(row, rows)))
+            .collect();
+        Self::new(columns, rows, &values)
+    }
+
+    pub(super) fn over(&self, domain: &Domain) -> Option<Raster> {
+        Raster::new(domain, self.columns, self.rows, self.values.to_vec()).ok()
+    }
+
+    /// How much of its mass lies within a polygon over whose bounds it is spread, by the middles of its cells; at least
+    /// what one cell of even density would have.
+    pub(super) fn share(&self, polygon: &Polygon) -> f64 {
+        let b = polygon.bounds();
+        let middle = |i: usize, count: usize, side: f64| (i as f64 + 0.5) / count as f64 * side;
+        let within = |at: usize| {
+            let x = b.x0() + middle(at % self.columns, self.columns, b.width());
+            let y = b.y0() + middle(at / self.columns, self.rows, b.height());
+            polygon.contains(Point::new(x, y))
+        };
+        let inside: f64 = (0..self.values.len()).filter(|&at| within(at)).map(|at| self.values[at]).sum();
+        (inside / self.values.iter().sum::<f64>()).max(1. / self.values.len() as f64)
+    }
+}

@@ -1,0 +1,136 @@
+use super::{Density, Frame, SampleError, Sampler, Watch, cut};
+use crate::geometry::power::{Domain, Raster};
+use crate::geometry::{Point, Polygon, Window};
+use rand::{Rng, RngExt};
+
+/// Places tried for one point before a window is said to have none.
+const MOST_TRIES: usize = 1_000_000;
+
+/// Where points are relaxed: a rectangle, a torus or a convex polygon, moved to the origin, and how dense they are to be.
+pub(super) struct Region {
+    pub(super) domain: Domain,
+    pub(super) density: Option<Raster>,
+    frame: Frame,
+    polygon: Option<Polygon>,
+    /// Cells of the density, each with the mass of those before it.
+    cumulated: Vec<f64>,
+}
+
+impl Region {
+    /// The bounds of a frame.
+    pub(super) fn new(frame: &Frame, density: Option<&Density>) -> Self {
+        let domain = match frame.torus {
+            true => Domain::Torus { width: frame.width, height: frame.height },
+            false => Domain::rectangle(frame.width, frame.height),
+        };
+        Self::of(*frame, domain, None, density)
+    }
+
+    /// A polygon, if it is convex.
+    ///
+    /// # Errors
+    /// If `n` points in bounds of this shape are beyond all samplers.
+    pub(super) fn convex(
+        n: usize,
+        polygon: &Polygon,
+        density: Option<&Density>,
+    ) -> Result<Option<Self>, SampleError> {
+        let frame = Frame::new(n, &Window::Rectangle(polygon.bounds()))?;
+        let domain = Domain::convex(polygon);
+        Ok(domain.map(|domain| Self::of(frame, domain, Some(polygon.clone()), density)))
+    }
+
+    fn of(frame: Frame, domain: Domain, polygon: Option<Polygon>, density: Option<&Density>) -> Self {
+        let density = density.and_then(|d| d.over(&domain));
+        let cumulated = density.as_ref().map_or(Vec::new(), |raster| {
+            let mut sum = 0.;
+            let add = |value: &f64| {
+                sum += value;
+                sum
+            };
+            raster.values().iter().map(add).collect()
+        });
+        Self { domain, density, frame, polygon, cumulated }
+    }
+
+    /// Independent points, distributed as the density is.
+    pub(super) fn scatter(
+        &self,
+        sampler: &'static str,
+        n: usize,
+        rng: &mut dyn Rng,
+    ) -> Result<Vec<[f64; 2]>, SampleError> {
+        let one = |placed: usize, rng: &mut dyn Rng| {
+            for _ in 0..MOST_TRIES {
+                let p = self.draw(rng);
+                let within = |polygon: &Polygon| polygon.contains_strictly(self.frame.place(p[0], p[1]));
+                if self.polygon.as_ref().is_none_or(within) {
+                    return Ok(p);
+                }
+            }
+            Err(SampleError::NoRoom { sampler, n, placed, attempts: MOST_TRIES })
+        };
+        (0..n).map(|placed| one(placed, rng)).collect()
+    }
+
+    /// A place in the bounds.
+    fn draw(&self, rng: &mut dyn Rng) -> [f64; 2] {
+        let (u, v): (f64, f64) = (rng.random(), rng.random());
+        let (Some(raster), Some(whole)) = (&self.density, self.cumulated.last()) else {
+            return [u * self.frame.width, v * self.frame.height];
+        };
+        let at = rng.random::<f64>() * whole;
+        let cell = self.cumulated.partition_point(|sum| *sum <= at).min(self.cumulated.len() - 1);
+        let (columns, rows) = raster.shape();
+        let within = |i: usize, share: f64, count: usize, side: f64| (i as f64 + share) / count as f64 * side;
+        [
+            within(cell % columns, u, columns, self.frame.width),
+            within(cell / columns, v, rows, self.frame.height),
+        ]
+    }
+
+    /// Distance of neighbours in a triangular lattice of `n` points.
+    pub(super) fn spacing(&self, n: usize) -> f64 {
+        crate::mosaic::hexagonal_spacing(n, self.domain.area()).unwrap_or(1.)
+    }
+
+    /// Points of the window.
+    pub(super) fn place(&self, points: &[[f64; 2]]) -> Vec<Point> {
+        let wrapped = points.iter().map(|p| self.domain.wrapped(*p));
+        wrapped.map(|[x, y]| self.frame.place(x, y)).collect()
+    }
+}
+
+/// A sampler that moves points about in a [`Region`].
+pub(super) trait Relaxes: Sampler {
+    fn density(&self) -> Option<&Density>;
+
+    fn relax_in(
+        &self,
+        n: usize,
+        region: &Region,
+        rng: &mut dyn Rng,
+        progress: &mut Watch<'_>,
+    ) -> Result<Vec<Point>, SampleError>;
+
+    /// What [`Sampler::sample_watched`] does: convex polygons are filled, others cut out of their filled bounds.
+    fn relax_window(
+        &self,
+        n: usize,
+        window: &Window,
+        rng: &mut dyn Rng,
+        progress: &mut Watch<'_>,
+    ) -> Result<Vec<Point>, SampleError> {
+        let Window::Polygon(polygon) = window else {
+            let region = Region::new(&Frame::new(n, window)?, self.density());
+            return self.relax_in(n, &region, rng, progress);
+        };
+        if let Some(region) = Region::convex(n, polygon, self.density())? {
+            return self.relax_in(n, &region, rng, progress);
+        }
+        let share = self.density().map_or(polygon.area() / polygon.bounds().area(), |d| d.share(polygon));
+        cut(n, polygon, share, |n, frame| {
+            self.relax_in(n, &Region::new(frame, self.density()), rng, progress)
+        })
+    }
+}
