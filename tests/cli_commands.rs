@@ -142,7 +142,7 @@ fn compare_keeps_the_samplers_asked_for_in_their_order() {
 fn every_sampler_makes_points_of_the_unit_square() {
     let place = Place::new();
     let list = place.ok(&["sample", "--list"]).stdout;
-    for name in ["uniform", "jittered", "triangular", "square", "dart-throwing", "bridson"] {
+    for name in ["uniform", "jittered", "triangular", "square", "dart-throwing", "bridson", "lloyd"] {
         assert!(list.contains(name));
         for n in ["0", "1", "2", "1024"] {
             for torus in [&[][..], &["--torus"]] {
@@ -166,6 +166,46 @@ fn every_sampler_makes_points_of_the_unit_square() {
     assert_ne!(place.ok(&["sample", "uniform", "-n", "64", "--seed", "5"]).stdout, other);
     assert!(place.refused(&["sample", "octopus", "-n", "4"]).contains("dart-throwing"));
     assert!(place.refused(&["sample", "uniform", "-n", "-4"]).contains("whole number"));
+}
+
+#[test]
+fn parameters_are_listed_set_and_refused_with_what_is_possible() {
+    let place = Place::new();
+    let list = place.ok(&["sample", "--list"]).stdout;
+    assert!(list.contains("bnot") && list.contains("whole, 0 to 100000") && list.contains("spacings"));
+    let sampled = |arguments: &[&str]| place.ok(&[&["sample"], arguments].concat()).stdout;
+    let short = sampled(&["bnot", "-n", "90", "--steps", "3"]);
+    assert_eq!(short, sampled(&["bnot", "-n", "90", "--set", "steps=3", "--threads", "1"]));
+    assert_ne!(short, sampled(&["bnot", "-n", "90", "--steps", "4"]));
+    for n in ["0", "1", "2"] {
+        for torus in [&[][..], &["--torus"]] {
+            let text = sampled(&[&["bnot", "-n", n], torus].concat());
+            assert_eq!(text.lines().count().to_string(), (n.parse::<usize>().unwrap() + 1).to_string());
+        }
+    }
+    let refused = |arguments: &[&str]| place.refused(&[&["sample"], arguments].concat());
+    assert!(refused(&["bnot", "-n", "9", "--set", "step=3"]).contains("did you mean steps?"));
+    assert!(refused(&["bnot", "-n", "9", "--set", "tolerance=-1"]).contains("0.000000001 to 1 spacings"));
+    assert!(refused(&["bnot", "-n", "9", "--set", "steps"]).contains("NAME=VALUE"));
+    assert!(refused(&["uniform", "-n", "9", "--steps", "3"]).contains("no parameters"));
+}
+
+#[test]
+fn points_are_as_dense_as_a_picture_is_bright() {
+    let place = Place::new();
+    let plane = conemosaic::image::Plane::from_shape_fn((10, 20), |(_, x)| if x < 5 { 0.9 } else { 0.1 });
+    let path = place.path("bright.png");
+    conemosaic::image::write_png(&path, &plane, conemosaic::image::BitDepth::Eight).unwrap();
+    for name in ["bnot", "lloyd"] {
+        let text =
+            place.ok(&["sample", name, "-n", "400", "--steps", "10", "--density", "bright.png"]).stdout;
+        let left =
+            text.lines().skip(1).filter(|line| line.starts_with("0.0") || line.starts_with("0.1")).count();
+        assert!(left > 150, "{name}: {left} of 400 points on the left fifth");
+    }
+    let even = place.refused(&["sample", "jittered", "-n", "9", "--density", "bright.png"]);
+    assert!(even.contains("lloyd, bnot"), "{even}");
+    assert!(place.refused(&["sample", "bnot", "-n", "9", "--density", "no.png"]).contains("no.png"));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use conemosaic::compare::l_infinity;
 use conemosaic::geometry::{Point, Window};
-use conemosaic::sample::sampler;
+use conemosaic::sample::{Bnot, Sampler, sampler};
 use conemosaic::stats::{
     Deviation, EdgeCorrection, Pcf, PcfOptions, moments, nearest_neighbours, pcf, voronoi,
 };
@@ -102,13 +102,13 @@ fn pair_correlation_of_the_oracle_point_sets_is_that_of_all_pairs() {
     }
 }
 
-/// Mean of our sampler's curves over `seeds` patterns of 1024 points.
-fn mean_curve(name: &str, seeds: u64) -> Pcf {
+/// Mean of a sampler's curves over `seeds` patterns of `n` points.
+fn mean_curve(sampler: &dyn Sampler, n: usize, seeds: u64) -> Pcf {
     let window = Window::unit_square();
     let curves: Vec<Pcf> = (0..seeds)
         .map(|seed| {
             let mut rng = ChaCha8Rng::seed_from_u64(seed);
-            let points = sampler(name).unwrap().sample(1024, &window, &mut rng).unwrap();
+            let points = sampler.sample(n, &window, &mut rng).unwrap();
             pcf(&points, &window, &PcfOptions::default()).unwrap()
         })
         .collect();
@@ -119,21 +119,26 @@ fn mean_curve(name: &str, seeds: u64) -> Pcf {
 #[test]
 fn mean_curves_of_samplers_agree_with_those_of_another_program() {
     let Some(rows) = oracle("mean pair correlation of samplers", "samplers/pcf_mean.csv") else { return };
-    for (name, column) in [
-        ("uniform", "white_1024"),
-        ("jittered", "jitter_1024"),
-        ("dart-throwing", "dart_throwing_1024"),
-        ("bridson", "bridson_1024"),
+    let named = |name| sampler(name).unwrap();
+    for (sampler, column, n, seeds) in [
+        (named("uniform"), "white_1024", 1024, 40),
+        (named("jittered"), "jitter_1024", 1024, 40),
+        (named("dart-throwing"), "dart_throwing_1024", 1024, 40),
+        (named("bridson"), "bridson_1024", 1024, 40),
+        (&Bnot::PAPER, "bnot_default_1024", 1024, 20),
+        (&Bnot::PAPER, "bnot_default_4050", 4050, 10),
+        (&Bnot::CONVERGED, "bnot_converged_1024", 1024, 20),
     ] {
         let index = rows[0].iter().position(|c| c == column).unwrap();
-        let ours = mean_curve(name, 40);
+        let ours = mean_curve(sampler, n, seeds);
         let of = |column: usize| rows[1..].iter().map(move |row| row[column].parse::<f64>().unwrap());
         // The oracle's distances are printed to six digits.
         assert!(of(0).zip(&ours.r).all(|(a, b)| (a - b).abs() < 1e-5));
         let theirs = Pcf { g: of(index).collect(), ..ours.clone() };
         let distance = l_infinity(&ours, &theirs).unwrap();
+        let name = sampler.name();
         println!("{name}: l-infinity {distance:.4} to {column}");
-        assert!(distance <= 0.05, "{name}: {distance}");
+        assert!(distance <= 0.05, "{name}: {distance} to {column}");
     }
 }
 

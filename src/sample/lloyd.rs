@@ -78,6 +78,10 @@ impl Sampler for Lloyd {
         Ok(Box::new(Self { steps, density: self.density.clone() }))
     }
 
+    fn by_default(&self) -> bool {
+        false
+    }
+
     fn with_density(&self, density: &Density) -> Option<Box<dyn Sampler>> {
         Some(Box::new(Self { density: Some(density.clone()), ..self.clone() }))
     }
@@ -107,5 +111,49 @@ impl Relaxes for Lloyd {
         }
         progress(self.steps, self.steps);
         Ok(region.place(&points))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stats::{Deviation, moments, nearest_neighbours, voronoi};
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+
+    fn pattern(steps: usize, seed: u64) -> Vec<Point> {
+        let lloyd = Lloyd { steps, ..Lloyd::DEFAULT };
+        lloyd.sample(500, &Window::unit_torus(), &mut ChaCha8Rng::seed_from_u64(seed)).unwrap()
+    }
+
+    #[test]
+    fn no_step_leaves_uniform_points_and_every_step_makes_them_more_regular() {
+        let index = |steps| {
+            let ri = |seed| {
+                let distances = nearest_neighbours(&pattern(steps, seed), &Window::unit_torus()).distances;
+                moments(&distances, Deviation::Sample).ri.unwrap()
+            };
+            (0..6).map(ri).sum::<f64>() / 6.
+        };
+        let indexes = [0, 1, 5, 30].map(index);
+        assert!((indexes[0] - 1.91).abs() < 0.1, "{indexes:?}");
+        assert!(indexes.is_sorted() && indexes[3] > 8., "{indexes:?}");
+    }
+
+    #[test]
+    fn a_step_moves_each_point_to_the_centroid_of_its_cell() {
+        // after many, cells of points near rest hardly differ from hexagons in number of sides
+        let six = |steps| voronoi(&pattern(steps, 3), &Window::unit_torus()).summary().six_sided_percent;
+        assert!(six(300).unwrap() > 70. && six(0).unwrap() < 35., "{:?} {:?}", six(300), six(0));
+    }
+
+    #[test]
+    fn points_crowd_where_the_density_is() {
+        let density = Density::from_fn(50, 50, |x, _| if x < 0.5 { 8. } else { 1. }).unwrap();
+        let lloyd = Lloyd { density: Some(density), ..Lloyd::DEFAULT };
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        let points = lloyd.sample(800, &Window::unit_square(), &mut rng).unwrap();
+        let dense = points.iter().filter(|p| p.x < 0.5).count();
+        assert!((550..=720).contains(&dense), "{dense}");
     }
 }

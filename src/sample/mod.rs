@@ -269,7 +269,7 @@ mod tests {
         let ring = corners.iter().map(|&(x, y)| Point::new(x, y)).collect();
         let polygon = Window::polygon(vec![ring]).unwrap();
         let rectangle = Window::rectangle(0., 0., 2., 2.).unwrap();
-        for s in samplers() {
+        for s in samplers().iter().copied().map(as_reference) {
             // rows of a lattice that the sides of the L take or leave hold 12 to 40 points
             let most = if matches!(s.name(), "square" | "triangular") { 30 } else { 3 };
             let n = s.sample(600, &polygon, &mut seeded(1)).unwrap().len();
@@ -298,12 +298,12 @@ mod tests {
         ) {
             let bounds = crate::geometry::Rectangle::new(x0, y0, x0 + w, y0 + w * aspect).unwrap();
             let window = if torus { Window::Torus(bounds) } else { Window::Rectangle(bounds) };
-            let s = samplers()[which];
+            let s = as_reference(samplers()[which]);
             let points = s.sample(n, &window, &mut seeded(seed)).unwrap();
             for p in &points {
                 prop_assert!(p.x >= bounds.x0() && p.x < bounds.x1() && p.y >= bounds.y0() && p.y < bounds.y1());
             }
-            if matches!(s.name(), "uniform" | "jittered" | "dart-throwing") || n == 0 {
+            if matches!(s.name(), "uniform" | "jittered" | "dart-throwing" | "lloyd" | "bnot") || n == 0 {
                 prop_assert_eq!(points.len(), n);
             } else if n >= 50 {
                 // few rows of a lattice close on a narrow torus: their number jumps

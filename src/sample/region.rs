@@ -61,16 +61,17 @@ impl Region {
         rng: &mut dyn Rng,
     ) -> Result<Vec<[f64; 2]>, SampleError> {
         let one = |placed: usize, rng: &mut dyn Rng| {
-            for _ in 0..MOST_TRIES {
-                let p = self.draw(rng);
-                let within = |polygon: &Polygon| polygon.contains_strictly(self.frame.place(p[0], p[1]));
-                if self.polygon.as_ref().is_none_or(within) {
-                    return Ok(p);
-                }
-            }
-            Err(SampleError::NoRoom { sampler, n, placed, attempts: MOST_TRIES })
+            let found = (0..MOST_TRIES).map(|_| self.draw(rng)).find(|p| self.contains(*p));
+            found.ok_or(SampleError::NoRoom { sampler, n, placed, attempts: MOST_TRIES })
         };
         (0..n).map(|placed| one(placed, rng)).collect()
+    }
+
+    /// Whether it lies inside; on a torus, everything does.
+    pub(super) fn contains(&self, [x, y]: [f64; 2]) -> bool {
+        let within = |polygon: &Polygon| polygon.contains_strictly(self.frame.place(x, y));
+        let bounds = (0. ..self.frame.width).contains(&x) && (0. ..self.frame.height).contains(&y);
+        self.frame.torus || (bounds && self.polygon.as_ref().is_none_or(within))
     }
 
     /// A place in the bounds.
@@ -92,6 +93,11 @@ impl Region {
     /// Distance of neighbours in a triangular lattice of `n` points.
     pub(super) fn spacing(&self, n: usize) -> f64 {
         crate::mosaic::hexagonal_spacing(n, self.domain.area()).unwrap_or(1.)
+    }
+
+    /// Middle of the bounds.
+    pub(super) fn centre(&self) -> [f64; 2] {
+        [self.frame.width / 2., self.frame.height / 2.]
     }
 
     /// Points of the window.

@@ -14,3 +14,6 @@ mod raster;
 pub use diagram::{Facet, PowerCell, PowerDiagram, PowerSites};
 pub use domain::Domain;
 pub use raster::{Raster, RasterError};
+
+#[cfg(test)]
+mod tests;

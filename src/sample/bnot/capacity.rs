@@ -18,7 +18,7 @@ pub(super) struct Solved {
 }
 
 /// Finds weights for which every cell has the mass `target` within `tolerance` (relative), by damped Newton steps (de Goes
-/// et al. 2012, algorithm 1; damping of Kitagawa, Mérigot & Thibert 2019: a step is halved until no cell is smaller
+/// et al. 2012; damping of Kitagawa, Mérigot & Thibert 2019: a step is halved until no cell is smaller
 /// than half the smallest one at the start and the deviation falls as it should, which makes convergence certain).
 ///
 /// Starts from `weights`, or where they hide a site from a half, a quarter … and none of them. Ends early where rounding

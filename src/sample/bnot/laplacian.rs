@@ -13,7 +13,7 @@ pub(super) struct Laplacian {
 
 impl Laplacian {
     /// By how much masses of cells fall with weights: c_ij is the length of the shared edge over twice the distance of
-    /// the sites (de Goes et al. 2012, eq. 10; Kitagawa et al. 2019).
+    /// the sites (de Goes et al. 2012; Kitagawa et al. 2019).
     pub(super) fn of(diagram: &PowerDiagram) -> Self {
         let n = diagram.cells().len();
         let mut new = Self::with_room(n, 7 * n);
@@ -96,13 +96,11 @@ impl Laplacian {
             }
         }
         let first = groups.clone();
-        for i in 0..self.len() {
-            if groups[i] == NONE {
-                let grouped = self.row(i).iter().filter(|(j, _)| first[*j as usize] != NONE);
-                let closest = grouped.max_by(|a, b| a.1.total_cmp(&b.1));
-                groups[i] = closest.map_or(count, |(j, _)| first[*j as usize]);
-                count += u32::from(closest.is_none());
-            }
+        for (i, group) in groups.iter_mut().enumerate().filter(|(_, group)| **group == NONE) {
+            let grouped = self.row(i).iter().filter(|(j, _)| first[*j as usize] != NONE);
+            let closest = grouped.max_by(|a, b| a.1.total_cmp(&b.1));
+            *group = closest.map_or(count, |(j, _)| first[*j as usize]);
+            count += u32::from(closest.is_none());
         }
         (groups, count as usize)
     }

@@ -63,7 +63,7 @@ impl Multigrid {
             cycle(&mut self.levels, &rest, &mut z);
             centre(&mut z);
             let next = dot(&rest, &z);
-            if !(next > 0.) {
+            if next.is_nan() || next <= 0. {
                 return round;
             }
             if direction.is_empty() {

@@ -8,6 +8,8 @@ use std::f64::consts::TAU;
 /// Relative deviation of masses that is allowed between moves, and at the end.
 const LOOSE: f64 = 1e-2;
 const EXACT: f64 = 1e-6;
+/// Steps after crystals were broken: enough for even distances, too few for new crystals.
+const AFTER_BREAK: usize = 20;
 /// Points without a cell, which coincide with others, are moved by this share of a spacing; how often that is tried.
 const NUDGE: f64 = 1e-3;
 const NUDGES: usize = 8;
@@ -31,28 +33,32 @@ impl Bnot {
             State { region, points, weights: vec![0.; n], target: 0., diagram: PowerDiagram::default() };
         state.begin(spacing);
         state.move_to_centroids();
-        let all = self.steps.unwrap_or(MOST_STEPS);
+        let first = self.steps.unwrap_or(MOST_STEPS);
+        let all = first + self.breaks * AFTER_BREAK;
         for round in 0..=self.breaks {
             if round > 0 {
                 state.solve(LOOSE);
-                if !regularity::shake(&mut state.points, &state.diagram, spacing, rng) {
+                if !regularity::shake(&mut state.points, &state.diagram, region, spacing, rng) {
                     break;
                 }
                 state.weights.fill(0.);
                 state.begin(spacing);
                 state.move_to_centroids();
             }
-            for step in 0..all {
-                progress(round * all + step, (self.breaks + 1) * all);
-                state.solve(LOOSE);
-                let moved = state.move_to_centroids();
-                if self.steps.is_none() && moved <= self.tolerance * spacing {
+            let (done, steps) =
+                if round == 0 { (0, first) } else { (first + (round - 1) * AFTER_BREAK, AFTER_BREAK) };
+            let mut moved = 1f64;
+            for step in 0..steps {
+                progress(done + step, all);
+                state.solve(LOOSE.min(moved));
+                moved = state.move_to_centroids() / spacing;
+                if self.steps.is_none() && moved <= self.tolerance {
                     break;
                 }
             }
         }
         let error = state.solve(EXACT);
-        progress((self.breaks + 1) * all, (self.breaks + 1) * all);
+        progress(all, all);
         if error > EXACT {
             return Err(SampleError::Unequal { sampler: self.name(), n, error });
         }
@@ -88,11 +94,14 @@ impl State<'_> {
             if hidden.is_empty() {
                 return;
             }
+            let centre = self.region.centre();
             for i in hidden {
-                // every one another way
+                // inwards, and every one another way
+                let [dx, dy] = self.region.domain.towards(self.points[i], centre);
+                let away = dx.hypot(dy).max(f64::MIN_POSITIVE);
                 let angle = TAU * 0.618_034 * (i * NUDGES + attempt) as f64;
-                self.points[i][0] += NUDGE * spacing * angle.cos();
-                self.points[i][1] += NUDGE * spacing * angle.sin();
+                self.points[i][0] += NUDGE * spacing * (dx / away + 0.7 * angle.cos());
+                self.points[i][1] += NUDGE * spacing * (dy / away + 0.7 * angle.sin());
             }
         }
     }

@@ -103,15 +103,17 @@ fn cells_of_the_pattern_have_the_published_scatter_of_areas() {
 }
 
 #[test]
-fn breaking_crystals_leaves_fewer_of_them() {
-    let six_sided = |breaks: usize| {
-        let bnot = Bnot { breaks, steps: Some(60), ..Bnot::CONVERGED };
-        let points = bnot.sample(400, &Window::unit_torus(), &mut seeded(7)).unwrap();
-        assert_eq!(points.len(), 400);
-        voronoi(&points, &Window::unit_torus()).summary().six_sided_percent.unwrap()
+fn crystals_form_with_time_and_breaking_leaves_fewer_of_them() {
+    let region = Region::new(&Frame::new(1000, &Window::unit_torus()).unwrap(), None);
+    let crystalline = |steps: usize, breaks: usize| {
+        let bnot = Bnot { breaks, steps: Some(steps), ..Bnot::CONVERGED };
+        let start = region.scatter("bnot", 1000, &mut seeded(7)).unwrap();
+        let (_, solved) = bnot.relax(&start, &region, &mut seeded(8), &mut |_, _| ()).unwrap();
+        regularity::regular(&solved.diagram).len()
     };
-    let (whole, broken) = (six_sided(0), six_sided(3));
-    assert!(broken < whole, "{broken} % of {whole} %");
+    let [early, late, broken] =
+        [(20, 0), (100, 0), (100, 2)].map(|(steps, breaks)| crystalline(steps, breaks));
+    assert!(early < 10 && late > 100 && broken < late / 2, "{early} {late} {broken}");
 }
 
 #[test]
