@@ -261,7 +261,8 @@ mod tests {
         found.count() as f64 / runs as f64
     }
 
-    /// All but Lloyd's: relaxed against a border it is not as dense there as within, and the test says so (at n = 80 in 91 %).
+    /// All but Lloyd's, for which the test speaks of a trend in 91 % at n = 80. Why is not known: relaxed against a border, its cells
+    /// are 1.5 % larger there than within (60 patterns), which may or may not be what the test sees.
     fn stationary() -> impl Iterator<Item = &'static dyn Sampler> {
         crate::sample::samplers()
             .iter()
