@@ -66,6 +66,14 @@ pub enum SampleError {
         /// The most it can be.
         max: f64,
     },
+    /// A curve to be reached is none.
+    #[error("{what} {problem}")]
+    Target {
+        /// Which kind of curve.
+        what: &'static str,
+        /// What is wrong with it.
+        problem: String,
+    },
     /// Every attempt ran full before the last point was placed.
     #[error(
         "{sampler} found room for at most {placed} of {n} points in {attempts} attempts: use another n or a wider window"

@@ -10,12 +10,16 @@ mod dart_throwing;
 mod density;
 mod error;
 mod frame;
+mod green;
 mod jittered;
 mod lattice;
 mod lloyd;
 mod parameter;
+mod pink;
 mod region;
+mod shaped;
 mod square;
+mod step;
 mod torus_grid;
 mod triangular;
 mod uniform;
@@ -26,10 +30,14 @@ pub use dart_throwing::DartThrowing;
 pub use density::Density;
 pub use error::SampleError;
 pub use frame::Frame;
+pub use green::Green;
 pub use jittered::Jittered;
 pub use lloyd::Lloyd;
 pub use parameter::{Parameter, Values};
+pub use pink::Pink;
+pub use shaped::{NearestTarget, Shaped, TargetCurve};
 pub use square::Square;
+pub use step::Step;
 pub use triangular::Triangular;
 pub use uniform::Uniform;
 
@@ -163,8 +171,19 @@ fn cut(
 const CUTS: usize = 32;
 const CLOSE: f64 = 0.005;
 
-static SAMPLERS: [&dyn Sampler; 8] =
-    [&Uniform, &Jittered, &Triangular, &Square, &DartThrowing, &Bridson, &Lloyd::DEFAULT, &Bnot::CONVERGED];
+static SAMPLERS: [&dyn Sampler; 11] = [
+    &Uniform,
+    &Jittered,
+    &Triangular,
+    &Square,
+    &DartThrowing,
+    &Bridson,
+    &Green,
+    &Pink,
+    &Step,
+    &Lloyd::DEFAULT,
+    &Bnot::CONVERGED,
+];
 
 /// Every sampler there is.
 pub fn samplers() -> &'static [&'static dyn Sampler] {

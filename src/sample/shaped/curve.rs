@@ -1,0 +1,241 @@
+use super::super::SampleError;
+use std::f64::consts::{PI, TAU};
+
+/// Spacing of the samples of g, in hexagonal spacings.
+const STEP: f64 = 0.02;
+/// Pairs farther apart than this, in hexagonal spacings, are left to chance.
+pub(super) const REACH: f64 = 6.;
+/// Where a measured pair correlation function gives way to the one that follows from the spectrum, in spacings.
+const BLEND: [f64; 2] = [2., 2.4];
+/// Standard deviation of the kernel that measured functions are smoothed with, in spacings ([`crate::stats::PcfOptions`]).
+const SIGMA: f64 = 0.1;
+/// Rounds of deconvolution: the first takes off most of the smoothing, more would raise the noise of measured curves.
+const ROUNDS: usize = 2;
+/// A curve that ends before this, in spacings, says nothing of a pattern.
+const SHORTEST: f64 = 1.;
+
+/// The pair correlation function a pattern is to have; r in hexagonal spacings s = √(2/(√3 λ)).
+#[derive(Clone, Debug, PartialEq)]
+pub struct TargetCurve {
+    /// Unsmoothed g at multiples of [`STEP`].
+    g: Vec<f64>,
+}
+
+impl TargetCurve {
+    /// From rows of r (in spacings, rising) and g as [`crate::stats::pcf`] estimates it with its default kernel. Below the
+    /// first r, g is constant; above the last, or 6 spacings, it is left to chance.
+    ///
+    /// The smoothing by the kernel, Ĝ(r) = ∫ d g(d) k(r − d) dd / r, is undone by van Cittert's iteration (1931).
+    ///
+    /// # Errors
+    /// If there are fewer than two rows, r does not rise from 0 or more to 1 or more, or g is negative or not finite.
+    pub fn from_pcf(rows: &[[f64; 2]]) -> Result<Self, SampleError> {
+        check(rows, "a target pair correlation function", "r", "g", SHORTEST)?;
+        let last = rows[rows.len() - 1][0].min(REACH);
+        let measured = |r: f64| interpolate(rows, r);
+        Ok(Self { g: sharpened(&measured, rows[0][0], last, last) })
+    }
+
+    /// From rows of frequency f (in units of √λ, that is √n in a unit square; rising) and power S(f) of the periodogram
+    /// |Σ exp(−2πi k·x)|²/n. Below the first f, S is constant; above the last it is 1, that of independent points.
+    ///
+    /// g(r) = 1 + 2π ∫ (S(f) − 1) J₀(2πfr) f df with λ = 1 (Hankel transform; Heck et al. 2013, eq. 3). Where no point
+    /// process has that spectrum g comes out negative and is cut to 0.
+    ///
+    /// # Errors
+    /// If there are fewer than two rows, f does not rise from 0 or more to more, or S is negative or not finite.
+    pub fn from_spectrum(rows: &[[f64; 2]]) -> Result<Self, SampleError> {
+        check(rows, "a target spectrum", "frequency", "power", f64::MIN_POSITIVE)?;
+        Ok(Self { g: transformed(rows) })
+    }
+
+    /// Power 0 below `frequency` (in √λ) and 1 above: g(r) = 1 − f J₁(2πfr)/r (Heck et al. 2013, eq. 8).
+    pub(in super::super) fn below(frequency: f64) -> Self {
+        let g = |i: usize| {
+            let r = i as f64 * STEP * unit();
+            // J₁(x) ≈ x/2 at 0
+            let drop = if i == 0 {
+                PI * frequency * frequency
+            } else {
+                frequency * libm::j1(TAU * frequency * r) / r
+            };
+            (1. - drop).max(0.)
+        };
+        Self { g: (0..=(REACH / STEP) as usize).map(g).collect() }
+    }
+
+    /// From a measured pair correlation function at .15, .244, … spacings, smoothed as [`TargetCurve::from_pcf`] expects it, and
+    /// beyond it from the spectrum of the same patterns at .05, .1, … √λ.
+    pub(in super::super) fn from_tables(pcf: &[f64], spectrum: &[f64]) -> Self {
+        let rows = |values: &[f64], first: f64, step: f64| -> Vec<[f64; 2]> {
+            values.iter().enumerate().map(|(i, &v)| [first + i as f64 * step, v]).collect()
+        };
+        let (pcf, spectrum) = (rows(pcf, 0.15, 0.094), rows(spectrum, 0.05, 0.05));
+        let far = transformed(&spectrum);
+        let measured = |r: f64| {
+            let share = ((r - BLEND[0]) / (BLEND[1] - BLEND[0])).clamp(0., 1.);
+            interpolate(&pcf, r) * (1. - share) + share * sampled(&far, r)
+        };
+        let mut g = sharpened(&measured, pcf[0][0], BLEND[0], REACH);
+        let first = (BLEND[1] / STEP) as usize;
+        g[first..].copy_from_slice(&far[first..]);
+        Self { g }
+    }
+
+    /// g at a distance of `r` spacings; 1 beyond [`TargetCurve::reach`].
+    pub fn at(&self, r: f64) -> f64 {
+        sampled(&self.g, r)
+    }
+
+    /// How far it goes, in spacings.
+    pub fn reach(&self) -> f64 {
+        (self.g.len() - 1) as f64 * STEP
+    }
+}
+
+fn check(
+    rows: &[[f64; 2]],
+    what: &'static str,
+    x: &'static str,
+    y: &'static str,
+    least_end: f64,
+) -> Result<(), SampleError> {
+    let refuse = |problem: String| Err(SampleError::Target { what, problem });
+    if rows.len() < 2 {
+        return refuse(format!("needs at least two rows of {x} and {y}, it has {}", rows.len()));
+    }
+    for (row, &[a, b]) in rows.iter().enumerate() {
+        let before = if row == 0 { f64::NEG_INFINITY } else { rows[row - 1][0] };
+        if !(a.is_finite() && a >= 0. && a > before) {
+            return refuse(format!("must have {x} rise from 0 or more: row {} has {a}", row + 1));
+        }
+        if !(b.is_finite() && b >= 0.) {
+            return refuse(format!("must have {y} finite and not negative: row {} has {b}", row + 1));
+        }
+    }
+    let end = rows[rows.len() - 1][0];
+    if end < least_end {
+        return refuse(format!("must reach {x} = {least_end} or more, it ends at {end}"));
+    }
+    Ok(())
+}
+
+/// Linear between rows, constant beyond them.
+fn interpolate(rows: &[[f64; 2]], x: f64) -> f64 {
+    let after = rows.partition_point(|row| row[0] <= x);
+    match (after.checked_sub(1).map(|i| rows[i]), rows.get(after)) {
+        (Some([a, ya]), Some(&[b, yb])) => ya + (yb - ya) * (x - a) / (b - a),
+        (Some([_, y]), None) | (None, Some(&[_, y])) => y,
+        (None, None) => 1.,
+    }
+}
+
+fn sampled(g: &[f64], r: f64) -> f64 {
+    let at = r / STEP;
+    let i = at as usize;
+    match (g.get(i), g.get(i + 1)) {
+        (Some(a), Some(b)) => a + (b - a) * (at - i as f64),
+        (Some(a), None) => *a,
+        _ => 1.,
+    }
+}
+
+/// Samples of the function that, smoothed, is `measured` between `first` and `last`; up to `end`.
+fn sharpened(measured: &dyn Fn(f64) -> f64, first: f64, last: f64, end: f64) -> Vec<f64> {
+    let samples = (end / STEP) as usize + 1;
+    let r = |i: usize| i as f64 * STEP;
+    let mut g: Vec<f64> = (0..samples).map(|i| measured(r(i))).collect();
+    let width = (6. * SIGMA / STEP) as usize;
+    let kernel: Vec<f64> = (0..=width).map(|k| (-0.5 * (r(k) / SIGMA).powi(2)).exp()).collect();
+    let norm = STEP / (TAU.sqrt() * SIGMA);
+    for _ in 0..ROUNDS {
+        let smooth = |i: usize| {
+            let near = i.saturating_sub(width)..=i + width;
+            near.map(|k| kernel[k.abs_diff(i)] * r(k) * g[k.min(samples - 1)]).sum::<f64>() * norm / r(i)
+        };
+        // the kernel must not reach far into negative distances
+        let from = (first.max(1.5 * SIGMA) / STEP).ceil() as usize;
+        let to = samples.min((last / STEP) as usize + 1);
+        let mut change = vec![0.; samples];
+        (from..to).for_each(|i| change[i] = measured(r(i)) - smooth(i));
+        let lowest = change.get(from).copied().unwrap_or(0.);
+        change.iter_mut().take(from).for_each(|c| *c = lowest);
+        g.iter_mut().zip(&change).for_each(|(g, c)| *g = (*g + c).max(0.));
+    }
+    g
+}
+
+/// A hexagonal spacing in 1/√λ.
+fn unit() -> f64 {
+    (2. / 3f64.sqrt()).sqrt()
+}
+
+/// Samples of g from a radial power spectrum.
+fn transformed(rows: &[[f64; 2]]) -> Vec<f64> {
+    /// Frequencies a row interval is cut into at least, and a wave at the reach.
+    const PER_WAVE: f64 = 24.;
+    let last = rows[rows.len() - 1][0];
+    let steps = (PER_WAVE * last * REACH * unit()).ceil().clamp(400., 20_000.) as usize;
+    let step = last / steps as f64;
+    let terms: Vec<[f64; 2]> = (0..steps)
+        .map(|k| {
+            let f = (k as f64 + 0.5) * step;
+            [TAU * f, (interpolate(rows, f) - 1.) * TAU * f * step]
+        })
+        .collect();
+    (0..=(REACH / STEP) as usize)
+        .map(|i| {
+            let r = i as f64 * STEP * unit();
+            let sum: f64 = terms.iter().map(|&[w, weight]| weight * libm::j0(w * r)).sum();
+            (1. + sum).max(0.)
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spectrum_with_a_step_has_its_closed_form() {
+        let f = 0.5;
+        let curve = TargetCurve::from_spectrum(&[[0., 0.], [f, 0.]]).unwrap();
+        for i in 1..60 {
+            let r = i as f64 * 0.1;
+            let expected = TargetCurve::below(f).at(r);
+            assert!((curve.at(r) - expected).abs() < 2e-3, "{r}: {} {expected}", curve.at(r));
+        }
+    }
+
+    #[test]
+    fn smoothing_the_sharpened_curve_gives_what_was_measured() {
+        // a narrow peak of width .2
+        let truth = |r: f64| 1. + 1.5 * (-0.5 * ((r - 1.) / 0.2f64).powi(2)).exp();
+        let smoothed = |r: f64| {
+            let sum: f64 = (1..2000)
+                .map(|k| f64::from(k) * 0.002)
+                .map(|d| d * truth(d) * (-0.5 * ((r - d) / SIGMA).powi(2)).exp() * 0.002)
+                .sum();
+            sum / (TAU.sqrt() * SIGMA) / r
+        };
+        let rows: Vec<[f64; 2]> =
+            (0..117).map(|k| 0.15 + f64::from(k) * 0.02).map(|r| [r, smoothed(r)]).collect();
+        let curve = TargetCurve::from_pcf(&rows).unwrap();
+        let worst = |g: &dyn Fn(f64) -> f64| {
+            (20..200).map(|k| f64::from(k) * 0.01).map(|r| (g(r) - truth(r)).abs()).fold(0., f64::max)
+        };
+        let (before, after) = (worst(&smoothed), worst(&|r| curve.at(r)));
+        assert!(before > 0.15 && after < 0.04, "{before} {after}");
+    }
+
+    #[test]
+    fn unsound_curves_are_refused_with_the_row() {
+        let message = |rows: &[[f64; 2]]| TargetCurve::from_pcf(rows).unwrap_err().to_string();
+        assert!(message(&[[0.1, 1.]]).contains("two rows"));
+        assert!(message(&[[0.2, 1.], [0.1, 1.]]).contains("row 2 has 0.1"));
+        assert!(message(&[[0.2, 1.], [2., -1.]]).contains("row 2 has -1"));
+        assert!(message(&[[0.2, f64::NAN], [2., 1.]]).contains("row 1"));
+        assert!(message(&[[0.2, 1.], [0.5, 1.]]).contains("ends at 0.5"));
+        assert!(TargetCurve::from_spectrum(&[[0., 1.], [0., 1.]]).is_err());
+    }
+}

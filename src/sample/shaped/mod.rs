@@ -1,0 +1,104 @@
+//! Patterns whose pair correlation function, and so their radial spectrum, is given.
+
+mod curve;
+mod descent;
+mod features;
+mod neighbours;
+mod normal;
+mod spline;
+
+pub use curve::TargetCurve;
+pub use features::NearestTarget;
+
+use super::{Frame, SampleError, Sampler};
+use crate::geometry::{Point, Window};
+use rand::{Rng, RngExt};
+
+/// Points whose pair correlation function is `curve`: uniform ones, moved as little as makes it so.
+///
+/// Öztireli & Gross (2012) and Heck et al. (2013) move points down the gradient of ∫ (g − g*)². That takes hundreds of steps,
+/// since many points must move together to change g far out. Here the miss of g at all distances is taken off at once: with
+/// e(x) the misses and J their Jacobian, x ← x − Jᵀ (J Jᵀ + μ)⁻¹ e, the shortest displacement that removes e to first order
+/// (Levenberg–Marquardt). J Jᵀ has as many rows as there are distances, some sixty, and each is a sum over all points, so
+/// some of them are enough to know it; ten steps suffice for any n, each linear in n.
+///
+/// Distances are those of the torus in every window. They are controlled up to 6 spacings, or half the shorter side of the
+/// window; a window narrower than a spacing gets uniform points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shaped {
+    /// The function to reach.
+    pub curve: TargetCurve,
+    /// Nearest-neighbour distances to reach besides: g alone does not fix them.
+    pub nearest: Option<NearestTarget>,
+}
+
+impl Sampler for Shaped {
+    fn name(&self) -> &'static str {
+        "shaped"
+    }
+
+    fn about(&self) -> &'static str {
+        "uniform points moved until their pair correlation function is a given one; exactly n"
+    }
+
+    fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
+        Ok(self.moved(n, frame, rng).into_iter().map(|[x, y]| frame.place(x, y)).collect())
+    }
+
+    fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
+        let Window::Polygon(polygon) = window else { return self.fill(n, &Frame::new(n, window)?, rng) };
+        let bounds = polygon.bounds();
+        let filled = (n as f64 * bounds.area() / polygon.area()).round() as usize;
+        let frame = Frame::new(filled, &Window::Rectangle(bounds))?;
+        let points = self.moved(filled, &frame, rng);
+        let mut best: Option<(usize, Vec<Point>)> = None;
+        // a pattern of the torus is the same process wherever the polygon lies on it: one serves all tries
+        for _ in 0..CUTS {
+            let turn = [rng.random::<f64>() * frame.width, rng.random::<f64>() * frame.height];
+            let turned = points.iter().map(|p| {
+                frame.place(
+                    (p[0] + turn[0]).rem_euclid(frame.width),
+                    (p[1] + turn[1]).rem_euclid(frame.height),
+                )
+            });
+            let inside: Vec<Point> = turned.filter(|&p| polygon.contains(p)).collect();
+            let miss = inside.len().abs_diff(n);
+            if best.as_ref().is_none_or(|(least, _)| miss < *least) {
+                best = Some((miss, inside));
+            }
+            if miss as f64 <= CLOSE * n as f64 {
+                break;
+            }
+        }
+        Ok(best.map(|(_, points)| points).unwrap_or_default())
+    }
+}
+
+/// Most places of a polygon on a pattern that are tried, and how near, as a share of n, its points must come to n.
+const CUTS: usize = 64;
+const CLOSE: f64 = 0.005;
+/// Windows narrower than this, in spacings, are left uniform.
+const NARROWEST: f64 = 1.;
+
+impl Shaped {
+    /// Points on [0, width) × [0, height).
+    fn moved(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Vec<[f64; 2]> {
+        // hexagonal spacing 1
+        let scale = frame.spacing(n);
+        let sides = [frame.width / scale, frame.height / scale];
+        let mut points: Vec<[f64; 2]> =
+            (0..n).map(|_| sides.map(|side| rng.random::<f64>() * side)).collect();
+        let shorter = sides[0].min(sides[1]);
+        if n >= 2 && shorter >= NARROWEST {
+            descent::descend(
+                &mut points,
+                sides,
+                &self.curve,
+                self.nearest,
+                (0.5 * shorter).min(self.curve.reach()),
+            );
+        }
+        points.iter_mut().for_each(|p| *p = p.map(|v| v * scale));
+        points
+    }
+}
