@@ -8,9 +8,9 @@ use crate::compare::References;
 use crate::geometry::Window;
 use crate::mosaic::io::{ReadOptions, read_coordinates};
 use crate::mosaic::{LengthUnit, Mosaic};
-use crate::report::{CoordinatesRecord, counted};
+use crate::report::{Cell, CoordinatesRecord, PowerScale, counted, spectrum_png};
 use crate::sample::Sampler;
-use crate::stats::{MeasureOptions, Measures, measure};
+use crate::stats::{MeasureOptions, Measures, SpectrumOptions, StatsError, measure, spectrum};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -27,6 +27,8 @@ pub struct CoordinatesOptions {
     pub scales: ScaleSource,
     /// How mosaics are measured.
     pub measure: MeasureOptions,
+    /// Power spectra to be written, by [`measure_files`], and how they are drawn.
+    pub spectrum: Option<(SpectrumOptions, PowerScale)>,
 }
 
 /// What came of measuring or comparing coordinate files.
@@ -38,7 +40,8 @@ pub struct CoordinatesOutcome {
     pub failures: Vec<Failure>,
 }
 
-/// Writes `summary.csv` (one row a file) and `NAME.pcf.csv` (r in hexagonal spacings, g).
+/// Writes `summary.csv` (one row a file), `NAME.pcf.csv` (r in hexagonal spacings, g), and `NAME.spectrum.csv` and `.png` if
+/// asked for.
 ///
 /// # Errors
 /// If the file of a window cannot be read or `out` cannot be written to. Files that fail are in the outcome and in `failures.csv`.
@@ -53,9 +56,14 @@ pub fn measure_files(
     let (records, failures) = for_each(inputs, progress, |input| {
         let (mosaic, outside) = load(input, options, &regions)?;
         let measures = measure(&mosaic, &options.measure);
-        let record = record(input, &mosaic, outside, &measures, Vec::new());
+        let mut record = record(input, &mosaic, outside, &measures, Vec::new());
         let (header, rows) = pcf_table(measures.pcf.as_ref().ok(), &[]);
         out.write_table(&format!("{}.pcf.csv", input.name), &header, &rows)?;
+        if let Some((power, scale)) = &options.spectrum
+            && let Err(missing) = write_spectrum(&out, &input.name, &mosaic, power, *scale)?
+        {
+            record.warnings.push(format!("no spectrum: {missing}"));
+        }
         let line = line_about(&record);
         Ok((record, line))
     });
@@ -64,6 +72,29 @@ pub fn measure_files(
     out.write("options.json", &options_json(options, serde_json::Value::Null)?)?;
     write_failures(&out, &failures)?;
     Ok(CoordinatesOutcome { records, failures })
+}
+
+/// Writes `NAME.spectrum.csv` (frequency in √density, power, anisotropy in dB) and `NAME.spectrum.png`, or says why there is none.
+fn write_spectrum(
+    out: &OutputFolder,
+    name: &str,
+    mosaic: &Mosaic,
+    options: &SpectrumOptions,
+    scale: PowerScale,
+) -> Result<Result<(), StatsError>, BatchError> {
+    let spectrum = match spectrum(mosaic.points(), mosaic.window(), options) {
+        Ok(spectrum) => spectrum,
+        Err(missing) => return Ok(Err(missing)),
+    };
+    let header = ["frequency", "power", "anisotropy_db"].map(str::to_owned);
+    let rows: Vec<Vec<Cell>> = (0..spectrum.power.len())
+        .map(|k| {
+            vec![spectrum.frequency[k].into(), spectrum.power[k].into(), spectrum.anisotropy_db[k].into()]
+        })
+        .collect();
+    out.write_table(&format!("{name}.spectrum.csv"), &header, &rows)?;
+    out.write(&format!("{name}.spectrum.png"), &spectrum_png(&spectrum, scale)?)?;
+    Ok(Ok(()))
 }
 
 /// Writes `l_infinity.csv`: one row a file, one column a sampler.
@@ -113,6 +144,7 @@ fn options_json(options: &CoordinatesOptions, samplers: serde_json::Value) -> Re
         "torus": options.torus,
         "scale": options.scales.describe(),
         "measure": options.measure,
+        "spectrum": options.spectrum.map(|(spectrum, _)| spectrum),
         "samplers": samplers,
     }))?;
     json.push(b'\n');

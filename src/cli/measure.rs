@@ -6,8 +6,8 @@ use anyhow::Result;
 use clap::Args;
 use conemosaic::batch::{CoordinatesOptions, CoordinatesOutcome, Region, coordinate_files, measure_files};
 use conemosaic::mosaic::io::{Origin, ReadOptions};
-use conemosaic::report::{Cell, CoordinatesRecord, counted};
-use conemosaic::stats::{Deviation, EdgeCorrection, Kernel, MeasureOptions, PcfOptions};
+use conemosaic::report::{Cell, CoordinatesRecord, PowerScale, counted};
+use conemosaic::stats::{Deviation, EdgeCorrection, Kernel, MeasureOptions, PcfOptions, SpectrumOptions};
 use std::path::{Path, PathBuf};
 
 /// How coordinate files are to be understood.
@@ -118,6 +118,7 @@ impl MosaicArgs {
             torus: self.torus,
             scales: self.scale.source()?,
             measure: MeasureOptions { deviation, pcf: self.pcf.options()? },
+            spectrum: None,
         })
     }
 }
@@ -134,6 +135,8 @@ Writes to measured/:
   summary.csv    one row a file: n, nearest neighbours, regularity index, density, …
                  (lengths in the unit of the column unit, or of the suffix)
   NAME.pcf.csv   pair correlation function (r in hexagonal spacings, g)
+  NAME.spectrum.csv, NAME.spectrum.png   with --spectrum: mean power and anisotropy (dB; 0 without direction) by frequency in
+                 √density (√n in the unit square; independent points have power 1), and the plane of wave vectors
   options.json   how it was measured
   failures.csv   files that failed, if any; then the exit code is 2")]
 pub struct Measure {
@@ -145,11 +148,24 @@ pub struct Measure {
     out: PathBuf,
     #[command(flatten)]
     mosaic: MosaicArgs,
+    /// Write the power spectrum too; its picture linear (white: 3 times the power of independent points) or in dB (−20 to
+    /// +10): --spectrum, --spectrum=db
+    #[arg(long, value_name = "SCALE", num_args = 0..=1, require_equals = true, default_missing_value = "linear", value_parser = ["linear", "db"], help_heading = "Power spectrum")]
+    spectrum: Option<String>,
+    /// Highest frequency of the spectrum in √density (0.1–20)
+    #[arg(long, value_name = "F", default_value_t = SpectrumOptions::default().max_frequency, requires = "spectrum", help_heading = "Power spectrum")]
+    max_frequency: f64,
 }
 
 impl Measure {
     pub fn execute(self, common: &Common) -> Result<Done> {
-        let options = self.mosaic.options()?;
+        let mut options = self.mosaic.options()?;
+        if let Some(scale) = &self.spectrum {
+            let spectrum = SpectrumOptions { max_frequency: self.max_frequency };
+            spectrum.validate()?;
+            let scale = if scale == "db" { PowerScale::Decibel } else { PowerScale::Linear };
+            options.spectrum = Some((spectrum, scale));
+        }
         let inputs = coordinate_files(&self.files, Some(&self.out))?;
         let outcome = measure_files(&inputs, &options, &self.out, &*common.progress())?;
         if !outcome.records.is_empty() {

@@ -9,6 +9,7 @@ mod ink;
 mod overlay;
 mod page;
 mod record;
+mod spectrum;
 mod table;
 mod validation;
 mod validation_page;
@@ -23,6 +24,7 @@ pub use figure::{
 pub use overlay::{MarkKind, OverlayMark, encode_png, overlay, overlay_with_border};
 pub use page::{expected_errors, page};
 pub use record::{CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord, SamplerDistance, by_need};
+pub use spectrum::{PowerScale, spectrum_png};
 pub use table::{counted, significant, table};
 pub use validation::{
     TextTable, accuracy_table, agreement_table, comparison_table, group_table, threshold_table,

@@ -35,6 +35,12 @@ pub enum StatsError {
         /// Its y.
         y: f64,
     },
+    /// The window is a polygon.
+    #[error("{statistic} needs a rectangular window: choose one with --window X0,Y0,X1,Y1")]
+    NotRectangular {
+        /// What was to be computed.
+        statistic: &'static str,
+    },
     /// Torus correction asked for in a window with a border.
     #[error(
         "the torus correction needs a torus window, this one has a border: choose another edge correction"

@@ -11,6 +11,7 @@ mod nearest;
 mod pairs;
 mod pcf;
 mod polygon_waves;
+mod spectrum;
 mod trend;
 mod voronoi;
 
@@ -21,5 +22,6 @@ pub use measure::{MeasureOptions, Measures, measure};
 pub use nearest::{Deviation, Moments, interior, moments};
 pub(crate) use pcf::pcf_on_one_thread;
 pub use pcf::{EdgeCorrection, Kernel, Pcf, PcfOptions, pcf};
+pub use spectrum::{PowerSpectrum, SpectrumOptions, spectrum};
 pub use trend::{TREND_LEVEL, Trend, trend};
 pub use voronoi::{Cell, Voronoi, VoronoiSummary, voronoi};

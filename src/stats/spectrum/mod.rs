@@ -1,0 +1,246 @@
+mod waves;
+
+use super::StatsError;
+use crate::geometry::{Point, Window};
+use serde::{Deserialize, Serialize};
+
+/// More waves than this are refused: they fill gigabytes.
+const MOST_WAVES: f64 = 5e7;
+
+/// How far a spectrum goes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SpectrumOptions {
+    /// Highest frequency in √λ, the square root of the density (√n in the unit square): .1–20, default 4.
+    pub max_frequency: f64,
+}
+
+impl Default for SpectrumOptions {
+    fn default() -> Self {
+        Self { max_frequency: 4. }
+    }
+}
+
+impl SpectrumOptions {
+    /// # Errors
+    /// If the frequency is out of its range.
+    pub fn validate(&self) -> Result<(), StatsError> {
+        if (0.1..=20.).contains(&self.max_frequency) {
+            return Ok(());
+        }
+        let range = "0.1 to 20 √density";
+        Err(StatsError::Option {
+            option: "highest frequency of the spectrum",
+            value: self.max_frequency,
+            range,
+        })
+    }
+}
+
+/// Power spectrum of a point pattern: 1 on average for independent points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PowerSpectrum {
+    /// Frequencies of the annuli, in √λ: multiples of 1/√n, as far as there are waves.
+    pub frequency: Vec<f64>,
+    /// Mean power of each annulus.
+    pub power: Vec<f64>,
+    /// Anisotropy of each annulus, in dB: 10 log₁₀(s²/P²), with s² the variance (divisor number − 1) and P the mean of its power
+    /// (Ulichney 1987; Lagae & Dutré 2008). That of one pattern without direction is about 0 dB, of the mean spectrum of m
+    /// patterns −10 log₁₀ m. `None` where there is a single wave or no variance.
+    pub anisotropy_db: Vec<Option<f64>>,
+    /// Highest wave numbers in the plane, along x and y.
+    highest: [usize; 2],
+    /// Power at 0 ≤ kx, |ky| ≤ highest: `[kx · (2 · highest y + 1) + ky + highest y]`.
+    plane: Vec<f64>,
+}
+
+/// Periodogram P(k) = |Σ_j exp(−2πi k·x_j)|²/n over the wave vectors k of the window as a torus, (j/w, l/h) with whole j and l,
+/// without 0; averaged over annuli ⌊|k|√A⌉ (Ulichney 1987; Lagae & Dutré 2008). In a window with a border the same waves are used:
+/// the mean of a pattern that is cut off by it is 0 at them. Linear in n, accurate to 10⁻⁶ of P.
+///
+/// # Errors
+/// If there is no point, one is outside, an option is out of its range, the window is a polygon (whose own
+/// spectrum would cover that of the points), or there are more than 5·10⁷ waves.
+pub fn spectrum(
+    points: &[Point],
+    window: &Window,
+    options: &SpectrumOptions,
+) -> Result<PowerSpectrum, StatsError> {
+    options.validate()?;
+    if matches!(window, Window::Polygon(_)) {
+        return Err(StatsError::NotRectangular { statistic: "the power spectrum" });
+    }
+    let n = points.len();
+    if n == 0 {
+        return Err(StatsError::TooFewPoints { statistic: "the power spectrum", needed: 1, found: 0 });
+    }
+    let bounds = window.bounds();
+    if let Some((index, p)) =
+        points.iter().enumerate().find(|(_, p)| !(p.is_finite() && window.contains(**p)))
+    {
+        return Err(StatsError::Outside { index, x: p.x, y: p.y });
+    }
+    let root = (n as f64).sqrt();
+    let annuli = (options.max_frequency * root).floor();
+    // |k| √A is hypot(j √(h/w), l √(w/h))
+    let stretch = (bounds.height() / bounds.width()).sqrt();
+    let highest = [(annuli + 0.5) / stretch, (annuli + 0.5) * stretch];
+    let waves = (highest[0] + 1.) * (2. * highest[1] + 1.);
+    if waves > MOST_WAVES {
+        let range = "at most 5e7: use a lower highest frequency";
+        return Err(StatsError::Option { option: "number of waves of the spectrum", value: waves, range });
+    }
+    let highest = highest.map(|v| v.floor() as usize);
+    let unit: Vec<[f64; 2]> = points
+        .iter()
+        .map(|p| [(p.x - bounds.x0()) / bounds.width(), (p.y - bounds.y0()) / bounds.height()])
+        .collect();
+    let plane: Vec<f64> =
+        waves::sums(&unit, highest[0], highest[1]).iter().map(|s| s.norm_sqr() / n as f64).collect();
+
+    let mut annulus = vec![Annulus::default(); annuli as usize + 1];
+    for (j, column) in plane.chunks_exact(2 * highest[1] + 1).enumerate() {
+        // a wave and its opposite have the same power: half of them count
+        let first = if j == 0 { highest[1] + 1 } else { 0 };
+        for (l, &power) in column.iter().enumerate().skip(first) {
+            let length = (j as f64 * stretch).hypot((l as f64 - highest[1] as f64) / stretch);
+            if let Some(a) = annulus.get_mut(length.round_ties_even() as usize) {
+                a.add(power);
+            }
+        }
+    }
+    let filled = || annulus.iter().enumerate().skip(1).filter(|(_, a)| a.waves > 0.);
+    Ok(PowerSpectrum {
+        frequency: filled().map(|(k, _)| k as f64 / root).collect(),
+        power: filled().map(|(_, a)| a.mean).collect(),
+        anisotropy_db: filled().map(|(_, a)| a.anisotropy_db()).collect(),
+        highest,
+        plane,
+    })
+}
+
+/// Running mean and sum of squared deviations (Welford 1962).
+#[derive(Clone, Copy, Default)]
+struct Annulus {
+    waves: f64,
+    mean: f64,
+    squares: f64,
+}
+
+impl Annulus {
+    fn add(&mut self, power: f64) {
+        self.waves += 1.;
+        let off = power - self.mean;
+        self.mean += off / self.waves;
+        self.squares += off * (power - self.mean);
+    }
+
+    fn anisotropy_db(&self) -> Option<f64> {
+        let ratio = self.squares / (self.waves - 1.) / (self.mean * self.mean);
+        (self.waves > 1. && ratio > 0. && ratio.is_finite()).then(|| 10. * ratio.log10())
+    }
+}
+
+impl PowerSpectrum {
+    /// Highest wave numbers of the plane along x and y.
+    pub fn highest(&self) -> [usize; 2] {
+        self.highest
+    }
+
+    /// Power at the wave (kx, ky); `None` beyond the highest. P(0, 0) is n.
+    pub fn at(&self, kx: isize, ky: isize) -> Option<f64> {
+        let (kx, ky) = if kx < 0 { (-kx, -ky) } else { (kx, ky) };
+        let [columns, rows] = self.highest;
+        let inside = kx as usize <= columns && ky.unsigned_abs() <= rows;
+        let row = (ky + rows as isize) as usize;
+        inside.then(|| self.plane[kx as usize * (2 * rows + 1) + row])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample::sampler;
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use std::f64::consts::TAU;
+
+    fn pattern(name: &str, n: usize, window: &Window, seed: u64) -> Vec<Point> {
+        sampler(name).unwrap().sample(n, window, &mut ChaCha8Rng::seed_from_u64(seed)).unwrap()
+    }
+
+    #[test]
+    fn power_is_that_of_the_definition_in_any_rectangle() {
+        let window = Window::rectangle(-3., 2., 5., 4.).unwrap();
+        let points = pattern("uniform", 150, &window, 1);
+        let spectrum = spectrum(&points, &window, &SpectrumOptions { max_frequency: 2. }).unwrap();
+        let [columns, rows] = spectrum.highest().map(|k| k as isize);
+        let mut annuli = vec![(0., 0.); 25];
+        for (j, l) in (-columns..=columns).flat_map(|j| (-rows..=rows).map(move |l| (j, l))) {
+            let phase = |p: &Point| -TAU * (j as f64 * p.x / 8. + l as f64 * p.y / 2.);
+            let (re, im) = points.iter().map(phase).fold((0., 0.), |(a, b), t| (a + t.cos(), b + t.sin()));
+            let power = (re * re + im * im) / 150.;
+            assert!((spectrum.at(j, l).unwrap() - power).abs() < 1e-6 * power.max(0.01));
+            let k = ((j as f64 / 8.).hypot(l as f64 / 2.) * 4.).round_ties_even() as usize;
+            if (1..25).contains(&k) {
+                annuli[k] = (annuli[k].0 + power, annuli[k].1 + 1.);
+            }
+        }
+        for (f, power) in spectrum.frequency.iter().zip(&spectrum.power) {
+            let (sum, waves) = annuli[(f * 150f64.sqrt()).round() as usize];
+            assert!((power - sum / waves).abs() < 1e-6, "{f}");
+        }
+    }
+
+    #[test]
+    fn independent_points_have_power_one_and_no_direction() {
+        let window = Window::unit_torus();
+        let spectrum =
+            spectrum(&pattern("uniform", 4000, &window, 2), &window, &SpectrumOptions::default()).unwrap();
+        let mean = |v: &mut dyn Iterator<Item = f64>| {
+            let all: Vec<f64> = v.skip(20).collect();
+            all.iter().sum::<f64>() / all.len() as f64
+        };
+        let power = mean(&mut spectrum.power.iter().copied());
+        assert!((power - 1.).abs() < 0.02, "{power}");
+        let anisotropy = mean(&mut spectrum.anisotropy_db.iter().flatten().copied());
+        assert!(anisotropy.abs() < 0.3, "{anisotropy} dB");
+    }
+
+    #[test]
+    fn a_lattice_has_direction() {
+        let window = Window::unit_torus();
+        let lattice =
+            spectrum(&pattern("square", 1024, &window, 3), &window, &SpectrumOptions::default()).unwrap();
+        assert!((lattice.at(32, 0).unwrap() - 1024.).abs() < 1e-3);
+        assert!(lattice.at(31, 0).unwrap() < 1e-6);
+        let at_first = lattice.frequency.iter().position(|&f| f == 1.).unwrap();
+        assert!(lattice.anisotropy_db[at_first].unwrap() > 10.);
+    }
+
+    #[test]
+    fn what_has_no_spectrum_is_refused() {
+        let window = Window::unit_square();
+        let options = SpectrumOptions::default();
+        assert!(matches!(spectrum(&[], &window, &options), Err(StatsError::TooFewPoints { .. })));
+        let outside = [Point::new(2., 0.)];
+        assert!(matches!(spectrum(&outside, &window, &options), Err(StatsError::Outside { .. })));
+        let never = SpectrumOptions { max_frequency: f64::NAN };
+        assert!(matches!(spectrum(&[Point::new(0., 0.)], &window, &never), Err(StatsError::Option { .. })));
+        let corners = [(0., 0.), (2., 0.), (0., 2.)].map(|(x, y)| Point::new(x, y));
+        let triangle = Window::polygon(vec![corners.to_vec()]).unwrap();
+        let inside = [Point::new(0.1, 0.1)];
+        assert!(matches!(spectrum(&inside, &triangle, &options), Err(StatsError::NotRectangular { .. })));
+    }
+
+    #[test]
+    fn threads_make_no_difference() {
+        let window = Window::unit_square();
+        let points = pattern("uniform", 3000, &window, 4);
+        let on = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| spectrum(&points, &window, &SpectrumOptions::default()).unwrap())
+        };
+        assert_eq!(on(1), on(3));
+    }
+}
