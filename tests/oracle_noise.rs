@@ -3,7 +3,9 @@
 use conemosaic::compare::l_infinity;
 use conemosaic::geometry::Window;
 use conemosaic::sample::sampler;
-use conemosaic::stats::{Deviation, Pcf, PcfOptions, moments, nearest_neighbours, pcf};
+use conemosaic::stats::{
+    Deviation, Pcf, PcfOptions, SpectrumOptions, moments, nearest_neighbours, pcf, spectrum,
+};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::path::PathBuf;
@@ -66,6 +68,60 @@ fn regularity_index_of_green_and_pink_is_near_the_published_one() {
         for n in [512, 1024] {
             let ri = mean(name, n).1;
             assert!(range.contains(&ri), "{name} {n}: {ri}");
+        }
+    }
+}
+
+/// Mean radial power at multiples of .05 √n, of 1024 points in the unit square.
+fn mean_power(name: &str, seeds: u64, frequencies: &[f64]) -> Vec<f64> {
+    let window = Window::unit_square();
+    let mut sum = vec![0.; frequencies.len()];
+    for seed in 0..seeds {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let points = sampler(name).unwrap().sample(1024, &window, &mut rng).unwrap();
+        let own = spectrum(&points, &window, &SpectrumOptions::default()).unwrap();
+        for (sum, f) in sum.iter_mut().zip(frequencies) {
+            let after = own.frequency.partition_point(|g| g <= f).max(1);
+            let share = (f - own.frequency[after - 1]) / (own.frequency[after] - own.frequency[after - 1]);
+            *sum += own.power[after - 1] * (1. - share) + own.power[after] * share;
+        }
+    }
+    sum.iter().map(|s| s / seeds as f64).collect()
+}
+
+/// A mean over m patterns of the power of an annulus with k waves scatters by P/√(m k); about 3 f √n waves, each of them and its
+/// opposite counted once, are in the annulus at f. The reference curves are means of ten or more patterns.
+#[test]
+fn spectra_of_samplers_agree_with_those_of_another_program() {
+    let Some(frequencies) = column("spectrum_mean.csv", "frequency_in_sqrt_n") else { return };
+    let seeds = 40;
+    for (name, reference) in [
+        ("uniform", "white_1024"),
+        ("jittered", "jitter_1024"),
+        ("dart-throwing", "dart_throwing_1024"),
+        ("bridson", "bridson_1024"),
+        ("green", "green_1024"),
+        ("pink", "pink_1024"),
+        ("step", "step_1024"),
+    ] {
+        let theirs = column("spectrum_mean.csv", reference).unwrap();
+        let ours = mean_power(name, seeds, &frequencies);
+        let mut worst = (0., 0., 0., 0.);
+        for ((f, a), b) in frequencies.iter().zip(&ours).zip(&theirs) {
+            let scatter = b.max(0.02) * ((1. / seeds as f64 + 0.1) / (3.1 * f * 32.)).sqrt();
+            let off = (a - b).abs() / scatter;
+            if off > worst.0 {
+                worst = (off, *f, *a, *b);
+            }
+        }
+        let (off, f, a, b) = worst;
+        println!("{name}: at most {off:.1} standard deviations, at {f:.2} √n: {a:.3}, reference {b:.3}");
+        if name == "step" {
+            // ours is nearer to the definition than the reference, whose power reaches .08 below the step
+            let below = frequencies.iter().zip(&ours).filter(|(f, _)| **f < 0.52).map(|(_, p)| *p);
+            assert!(below.fold(0., f64::max) < 0.02);
+        } else {
+            assert!(off < 4.5, "{name}: {off} at {f}");
         }
     }
 }

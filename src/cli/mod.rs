@@ -11,6 +11,7 @@ mod render;
 mod run;
 mod sample;
 mod scale;
+mod target;
 mod validate;
 
 use clap::error::ErrorKind;

@@ -1,5 +1,6 @@
 use super::Done;
 use super::common::Common;
+use super::target::TargetArgs;
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use conemosaic::geometry::Window;
@@ -20,11 +21,12 @@ Examples:
   conemosaic sample dart-throwing -n 1024 --seed 7 --out points.csv
   conemosaic sample bnot -n 1024 --steps 20 --torus
   conemosaic sample bnot -n 5000 --density picture.png --out stipples.csv
+  conemosaic sample --target-pcf measured/retina.pcf.csv -n 1024 --out like_retina.csv
 
 Writes x,y in [0, 1)², to the terminal without --out.")]
 pub struct Sample {
     /// Name of the sampler
-    #[arg(required_unless_present = "list")]
+    #[arg(required_unless_present_any = ["list", "target_pcf", "target_spectrum"])]
     name: Option<String>,
     /// Number of points; a lattice makes the nearest number it can
     #[arg(short, long, value_name = "N", required_unless_present = "list")]
@@ -47,23 +49,27 @@ pub struct Sample {
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// List the samplers
-    #[arg(long, conflicts_with_all = ["name", "n", "out"])]
+    #[arg(long, conflicts_with_all = ["name", "n", "out", "target_pcf", "target_spectrum"])]
     list: bool,
+    #[command(flatten)]
+    target: TargetArgs,
 }
 
 impl Sample {
     pub fn execute(self, common: &Common) -> Result<Done> {
-        let (Some(name), Some(n)) = (&self.name, self.n) else {
+        let (false, Some(n)) = (self.list, self.n) else {
             // asked for: printed even if quiet
             let _ = writeln!(std::io::stdout(), "{}", list());
             return Ok(Done::Completely);
         };
         let window = if self.torus { Window::unit_torus() } else { Window::unit_square() };
-        let changed = self.changed(name)?;
-        let chosen = match &changed {
-            Some(changed) => &**changed,
-            None => sampler(name)?,
+        let shaped = self.target.sampler()?;
+        let default: &dyn Sampler = match (&shaped, &self.name) {
+            (Some(shaped), _) => shaped,
+            (None, name) => sampler(name.as_deref().unwrap_or_default())?,
         };
+        let changed = self.changed(default)?;
+        let chosen = changed.as_deref().unwrap_or(default);
         let bar = common.steps();
         let mut rng = ChaCha8Rng::seed_from_u64(common.seed);
         let points = chosen.sample_watched(n, &window, &mut rng, &mut |step, of| bar.at(step, of))?;
@@ -83,11 +89,10 @@ impl Sample {
     }
 
     /// The sampler with what is set and the density, if anything is.
-    fn changed(&self, name: &str) -> Result<Option<Box<dyn Sampler>>> {
+    fn changed(&self, default: &dyn Sampler) -> Result<Option<Box<dyn Sampler>>> {
         let steps = self.steps.map(|steps| steps.to_string());
         let set = self.set.iter().map(|(name, value)| (name.as_str(), value.as_str()));
         let settings: Vec<(&str, &str)> = set.chain(steps.as_deref().map(|steps| ("steps", steps))).collect();
-        let default = sampler(name)?;
         let configured = if settings.is_empty() { None } else { Some(default.configure(&settings)?) };
         let Some(path) = &self.density else { return Ok(configured) };
         let density = density(path)?;
@@ -95,7 +100,7 @@ impl Sample {
         if dense.is_none() {
             let able = samplers().iter().filter(|s| s.with_density(&density).is_some()).map(|s| s.name());
             let able = able.collect::<Vec<_>>().join(", ");
-            bail!("{name} makes points of even density: --density goes with {able}");
+            bail!("{} makes points of even density: --density goes with {able}", default.name());
         }
         Ok(dense)
     }

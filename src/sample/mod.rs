@@ -180,7 +180,7 @@ static SAMPLERS: [&dyn Sampler; 11] = [
     &Bridson,
     &Green,
     &Pink,
-    &Step,
+    &Step::HIGHEST,
     &Lloyd::DEFAULT,
     &Bnot::CONVERGED,
 ];

@@ -1,5 +1,5 @@
 use super::shaped::{NearestTarget, Shaped, TargetCurve};
-use super::{Frame, SampleError, Sampler};
+use super::{Frame, SampleError, Sampler, Watch};
 use crate::geometry::{Point, Window};
 use rand::Rng;
 use std::sync::LazyLock;
@@ -40,7 +40,13 @@ impl Sampler for Pink {
         SHAPED.fill(n, frame, rng)
     }
 
-    fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
-        SHAPED.sample(n, window, rng)
+    fn sample_watched(
+        &self,
+        n: usize,
+        window: &Window,
+        rng: &mut dyn Rng,
+        progress: &mut Watch<'_>,
+    ) -> Result<Vec<Point>, SampleError> {
+        SHAPED.sample_watched(n, window, rng, progress)
     }
 }

@@ -1,5 +1,4 @@
-use super::curve::TargetCurve;
-use super::features::{Features, NearestTarget};
+use super::features::Features;
 use super::neighbours::NeighbourList;
 use super::normal::solve;
 
@@ -17,16 +16,9 @@ const MARGIN: f64 = 0.4;
 /// Damping μ over the mean of the diagonal of J Jᵀ: at first, and at least.
 const DAMPING: [f64; 2] = [1e-3, 1e-6];
 
-/// Moves points of the torus with these sides, of hexagonal spacing 1, until their pairs nearer than `reach` are those of
-/// `curve` and their nearest neighbours as wanted, or no step comes nearer to that.
-pub(super) fn descend(
-    points: &mut Vec<[f64; 2]>,
-    sides: [f64; 2],
-    curve: &TargetCurve,
-    nearest: Option<NearestTarget>,
-    reach: f64,
-) {
-    let features = Features::new(curve, nearest, points.len(), reach);
+/// Moves points of the torus with these sides, of hexagonal spacing 1, until their features, of pairs nearer than `reach`, are as
+/// wanted, or no step comes nearer to that.
+pub(super) fn descend(points: &mut Vec<[f64; 2]>, sides: [f64; 2], features: &Features, reach: f64) {
     let mut list = NeighbourList::new(points, sides, reach, MARGIN.min(reach));
     let mut misses = features.misses(points, &list);
     let mut damping = DAMPING[0];

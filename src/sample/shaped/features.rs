@@ -1,6 +1,7 @@
 use super::curve::TargetCurve;
 use super::neighbours::NeighbourList;
 use super::spline;
+use super::waves::LongWaves;
 use std::f64::consts::TAU;
 
 /// Distance of the spline's nodes along r, in spacings.
@@ -17,16 +18,17 @@ pub struct NearestTarget {
     pub sd: f64,
 }
 
-/// What is to be reached: numbers of pairs by distance, smoothed by a spline, and two moments of the nearest-neighbour
-/// distances; each in the unit of g, so that .01 is the same miss for all.
+/// What is to be reached: numbers of pairs by distance, smoothed by a spline, two moments of the nearest-neighbour distances, and
+/// the power of long waves; each in about the unit of g, so that .01 is the same miss for all.
 ///
-/// Slot 0 belongs to the node at −[`NODE`], slot k + 1 to the node k; slots of nodes that are not controlled weigh nothing. The
-/// last two are mean and mean square.
+/// Slot 0 belongs to the node at −[`NODE`], slot k + 1 to the node k; slots of nodes that are not controlled weigh nothing. Then
+/// come mean and mean square, then the annuli of waves.
 pub(super) struct Features {
     goal: Vec<f64>,
     weight: Vec<f64>,
     nodes: usize,
     nearest: bool,
+    waves: LongWaves,
 }
 
 /// One pair of nearest neighbours.
@@ -39,12 +41,20 @@ struct Nearest {
 
 impl Features {
     /// For `n` points whose hexagonal spacing is 1, and pairs nearer than `reach`.
-    pub(super) fn new(target: &TargetCurve, nearest: Option<NearestTarget>, n: usize, reach: f64) -> Self {
+    pub(super) fn new(
+        target: &TargetCurve,
+        nearest: Option<NearestTarget>,
+        n: usize,
+        sides: [f64; 2],
+        reach: f64,
+    ) -> Self {
+        let waves = LongWaves::new(target, sides);
         let controlled = ((reach / NODE) as usize).saturating_sub(2);
         let nodes = controlled + 4;
         let n = n as f64;
         let area = n * 0.75f64.sqrt();
-        let (mut goal, mut weight) = (vec![0.; nodes + 2], vec![0.; nodes + 2]);
+        let slots = nodes + 2 + waves.annuli();
+        let (mut goal, mut weight) = (vec![0.; slots], vec![0.; slots]);
         for node in 0..controlled {
             let r = node as f64 * NODE;
             let density = pairs_per_length(target, r);
@@ -54,9 +64,13 @@ impl Features {
         if let Some(NearestTarget { mean, sd }) = nearest {
             goal[nodes] = mean;
             goal[nodes + 1] = mean * mean + sd * sd;
-            weight[nodes..].fill(NEAREST_WEIGHT);
+            weight[nodes..nodes + 2].fill(NEAREST_WEIGHT);
         }
-        Self { goal, weight, nodes, nearest: nearest.is_some() }
+        for a in 0..waves.annuli() {
+            goal[nodes + 2 + a] = waves.goal(a);
+            weight[nodes + 2 + a] = WAVE_WEIGHT;
+        }
+        Self { goal, weight, nodes, nearest: nearest.is_some(), waves }
     }
 
     /// How far each is from its goal.
@@ -76,6 +90,7 @@ impl Features {
                 value[self.nodes + 1] += near.square / n;
             }
         }
+        value[self.nodes + 2..].copy_from_slice(&self.waves.power(points));
         value.iter().zip(&self.goal).zip(&self.weight).map(|((v, g), w)| (v - g) * w).collect()
     }
 
@@ -125,8 +140,8 @@ impl Features {
         pull
     }
 
-    /// Calls `add(i, slot, derivatives, direction)`: moving point i by a small way along the unit vector `direction` changes
-    /// the features from `slot` on by that much times `derivatives`.
+    /// Calls `add(i, slot, derivatives, direction)`: moving point i by a small vector changes the features from
+    /// `slot` on by its product with `direction` times `derivatives`.
     #[inline]
     fn derive(
         &self,
@@ -157,11 +172,15 @@ impl Features {
                 }
             }
         }
+        self.waves.derive(points, |i, annulus, gradient| add(i, self.nodes + 2 + annulus, &[1.], gradient));
     }
 }
 
 /// A miss of the nearest-neighbour moments counts as much as one of g at this many nodes.
 const NEAREST_WEIGHT: f64 = 2.;
+
+/// A miss of the power of an annulus, which scatters by 1/√(number of waves), counts as this much of one of g.
+const WAVE_WEIGHT: f64 = 0.1;
 
 /// First slot of the four that a pair at distance `d` counts in, and how far it is beyond the second one's node.
 #[inline]
@@ -210,10 +229,10 @@ mod tests {
         let mut rng = ChaCha8Rng::seed_from_u64(5);
         let n = 190;
         let points: Vec<[f64; 2]> = (0..n).map(|_| SIDES.map(|side| rng.random::<f64>() * side)).collect();
-        let target = TargetCurve::from_pcf(&[[0., 0.5], [6., 1.]]).unwrap();
+        let target = TargetCurve::from_spectrum(&[[0., 0.5], [0.7, 1.5]]).unwrap();
         let nearest = NearestTarget { mean: 0.5, sd: 0.2 };
         let list = NeighbourList::new(&points, SIDES, 6., 0.5);
-        (points, list, Features::new(&target, Some(nearest), n, 6.))
+        (points, list, Features::new(&target, Some(nearest), n, SIDES, 6.))
     }
 
     #[test]
@@ -244,7 +263,14 @@ mod tests {
         let size = features.goal.len();
         let gram = features.gram(&points, &list, points.len());
         let unit = |k: usize| (0..size).map(|i| f64::from(u8::from(i == k))).collect::<Vec<f64>>();
-        for (a, b) in [(5, 5), (5, 6), (20, 3), (size - 1, size - 2), (size - 1, 4)] {
+        for (a, b) in [
+            (5, 5),
+            (5, 6),
+            (20, 3),
+            (size - 1, size - 2),
+            (size - 1, 4),
+            (features.nodes, features.nodes + 1),
+        ] {
             let (p, q) = (features.pull(&points, &list, &unit(a)), features.pull(&points, &list, &unit(b)));
             let product: f64 = p.iter().zip(&q).map(|(p, q)| p[0] * q[0] + p[1] * q[1]).sum();
             assert!((gram[a * size + b] - product).abs() < 1e-9 * (1. + product.abs()), "{a} {b}");

@@ -6,11 +6,13 @@ mod features;
 mod neighbours;
 mod normal;
 mod spline;
+mod waves;
 
 pub use curve::TargetCurve;
 pub use features::NearestTarget;
 
-use super::{Frame, SampleError, Sampler};
+use self::features::Features;
+use super::{Frame, SampleError, Sampler, Watch};
 use crate::geometry::{Point, Window};
 use rand::{Rng, RngExt};
 
@@ -21,6 +23,9 @@ use rand::{Rng, RngExt};
 /// e(x) the misses and J their Jacobian, x ← x − Jᵀ (J Jᵀ + μ)⁻¹ e, the shortest displacement that removes e to first order
 /// (Levenberg–Marquardt). J Jᵀ has as many rows as there are distances, some sixty, and each is a sum over all points, so
 /// some of them are enough to know it; ten steps suffice for any n, each linear in n.
+///
+/// Pairs fix g, and so the spectrum, up to the waves that are longer than pairs are apart; where the spectrum is given, the power
+/// of those waves is controlled in the same way (the longest 256 of them).
 ///
 /// Distances are those of the torus in every window. They are controlled up to 6 spacings, or half the shorter side of the
 /// window; a window narrower than a spacing gets uniform points.
@@ -45,7 +50,13 @@ impl Sampler for Shaped {
         Ok(self.moved(n, frame, rng).into_iter().map(|[x, y]| frame.place(x, y)).collect())
     }
 
-    fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
+    fn sample_watched(
+        &self,
+        n: usize,
+        window: &Window,
+        rng: &mut dyn Rng,
+        _progress: &mut Watch<'_>,
+    ) -> Result<Vec<Point>, SampleError> {
         let Window::Polygon(polygon) = window else { return self.fill(n, &Frame::new(n, window)?, rng) };
         let bounds = polygon.bounds();
         let filled = (n as f64 * bounds.area() / polygon.area()).round() as usize;
@@ -90,13 +101,9 @@ impl Shaped {
             (0..n).map(|_| sides.map(|side| rng.random::<f64>() * side)).collect();
         let shorter = sides[0].min(sides[1]);
         if n >= 2 && shorter >= NARROWEST {
-            descent::descend(
-                &mut points,
-                sides,
-                &self.curve,
-                self.nearest,
-                (0.5 * shorter).min(self.curve.reach()),
-            );
+            let reach = (0.5 * shorter).min(self.curve.reach());
+            let features = Features::new(&self.curve, self.nearest, n, sides, reach);
+            descent::descend(&mut points, sides, &features, reach);
         }
         points.iter_mut().for_each(|p| *p = p.map(|v| v * scale));
         points

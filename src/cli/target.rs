@@ -1,0 +1,79 @@
+use anyhow::{Context, Result, bail};
+use clap::Args;
+use conemosaic::sample::{Shaped, TargetCurve};
+use std::path::{Path, PathBuf};
+
+/// A curve that the points are to have, instead of a named sampler.
+#[derive(Args)]
+#[command(next_help_heading = "Points of a given pair correlation or spectrum (exactly n, instead of NAME)")]
+pub struct TargetArgs {
+    /// CSV of r (in hexagonal spacings, up to 1 at least) and g, as NAME.pcf.csv of `measure` holds them: points are moved until
+    /// their pair correlation function is this one. Beyond the last r, or 6 spacings, it is left to chance
+    #[arg(long, value_name = "FILE", conflicts_with = "name")]
+    target_pcf: Option<PathBuf>,
+    /// CSV of frequency (in √n) and power (1: independent points), as NAME.spectrum.csv of `measure --spectrum` holds them: the same
+    /// for the radially averaged power spectrum, 1 beyond the last frequency: let it go on until it is. Smooth it,
+    /// or average several: the noise of a single pattern's spectrum is noise in g
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["name", "target_pcf"])]
+    target_spectrum: Option<PathBuf>,
+}
+
+impl TargetArgs {
+    /// The sampler of that curve, if there is one.
+    pub fn sampler(&self) -> Result<Option<Shaped>> {
+        let curve = match (&self.target_pcf, &self.target_spectrum) {
+            (Some(path), _) => read(path, "r and g", TargetCurve::from_pcf)?,
+            (None, Some(path)) => read(path, "frequency and power", TargetCurve::from_spectrum)?,
+            (None, None) => return Ok(None),
+        };
+        Ok(Some(Shaped { curve, nearest: None }))
+    }
+}
+
+fn read<E: std::error::Error + Send + Sync + 'static>(
+    path: &Path,
+    what: &str,
+    curve: impl Fn(&[[f64; 2]]) -> Result<TargetCurve, E>,
+) -> Result<TargetCurve> {
+    let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
+    let rows = rows(&text, what).with_context(|| path.display().to_string())?;
+    curve(&rows).with_context(|| path.display().to_string())
+}
+
+/// The first two columns; a header, blank lines and lines after # are left out.
+fn rows(text: &str, what: &str) -> Result<Vec<[f64; 2]>> {
+    let mut rows = Vec::new();
+    let mut header_allowed = true;
+    for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
+        let line = line.trim();
+        if line.is_empty() || line.starts_with('#') {
+            continue;
+        }
+        let mut cells = line.split([',', ';', '\t']).map(str::trim);
+        let number = |cell: Option<&str>| cell.and_then(|c| c.parse::<f64>().ok());
+        match (number(cells.next()), number(cells.next())) {
+            (Some(a), Some(b)) => rows.push([a, b]),
+            _ if header_allowed => {}
+            _ => bail!("line {}: “{line}” is not {what}, two numbers with a comma between them", index + 1),
+        }
+        header_allowed = false;
+    }
+    Ok(rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn header_comments_and_further_columns_are_left_out() {
+        let read = rows("\u{feff}# mine\nr,g,g_uniform\n\n0.1,0.5,1\n0.2;1.5\r\n", "r and g").unwrap();
+        assert_eq!(read, [[0.1, 0.5], [0.2, 1.5]]);
+    }
+
+    #[test]
+    fn what_is_no_number_is_refused_with_its_line() {
+        let message = rows("r,g\n0.1,0.5\n0.2,x\n", "r and g").unwrap_err().to_string();
+        assert!(message.contains("line 3") && message.contains("0.2,x"), "{message}");
+    }
+}
