@@ -18,7 +18,8 @@ const MARGIN: f64 = 1e-9;
 /// 3. The first candidate no nearer than r (on the torus) to any point becomes a point and active; if there is none, the
 ///    picked point retires. Repeat from 2 until none is active.
 ///
-/// n varies by about 1 % at 1024 and is smaller than asked for in windows a few radii wide.
+/// n varies by about 1 % at 1024 and is smaller than asked for in windows a few radii wide; in windows narrower than r it is
+/// the number of disks that fill a line, which may be far from n.
 #[derive(Clone, Copy, Debug)]
 pub struct Bridson;
 

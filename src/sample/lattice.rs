@@ -1,16 +1,32 @@
-use super::Frame;
+use super::{Frame, Parameter};
 use crate::geometry::Point;
 use rand::{Rng, RngExt};
+use rand_distr::StandardNormal;
 
 /// Offsets tried in a bounded window for the one whose number of points is nearest to n.
 const OFFSETS: usize = 32;
 
-/// Rows of points `step` apart; rows `row_step` apart; every other row moved by `shift` × `step`.
+/// Standard deviations of jitter within which points outside a bounded window may be carried into it.
+const CARRIED: f64 = 5.;
+
+/// What the lattices let a user set.
+pub(super) const JITTER: Parameter = Parameter {
+    name: "jitter",
+    unit: "spacings",
+    range: (0., 1.),
+    whole: false,
+    default: "0",
+    meaning: "standard deviation of each point's displacement in x and y",
+};
+
+/// Rows of points `step` apart; rows `row_step` apart; every other row moved by `shift` × `step`; then each point
+/// displaced by a normal deviate of standard deviation `jitter` in x and y.
 #[derive(Clone, Copy)]
 pub(super) struct Lattice {
     pub(super) step: f64,
     pub(super) row_step: f64,
     pub(super) shift: f64,
+    pub(super) jitter: f64,
 }
 
 impl Lattice {
@@ -27,16 +43,16 @@ impl Lattice {
                 row_step: frame.height / rows as f64,
                 // A single row closes on itself only unshifted.
                 shift: if rows == 1 { 0. } else { self.shift },
+                jitter: self.jitter,
             };
             let (x, y) = (rng.random::<f64>() * closed.step, rng.random::<f64>() * closed.row_step);
             return (0..rows)
                 .flat_map(|row| (0..columns).map(move |column| (row, column)))
                 .map(|(row, column)| {
                     let moved = x + closed.shift * closed.step * (row % 2) as f64;
-                    frame.place(
-                        (moved + column as f64 * closed.step).rem_euclid(frame.width),
-                        y + row as f64 * closed.row_step,
-                    )
+                    let (x, y) = (moved + column as f64 * closed.step, y + row as f64 * closed.row_step);
+                    let [x, y] = closed.jittered([x, y], rng);
+                    frame.place(x.rem_euclid(frame.width), y.rem_euclid(frame.height))
                 })
                 .collect();
         }
@@ -44,7 +60,8 @@ impl Lattice {
         for _ in 0..OFFSETS {
             // Two rows are a period, so that either kind of row may come first.
             let (x, y) = (rng.random::<f64>() * self.step, rng.random::<f64>() * 2. * self.row_step);
-            let count: usize = self.rows(x, y, frame).map(|(_, _, columns)| columns).sum();
+            let count: usize =
+                self.rows(x, y, [frame.width, frame.height]).map(|(_, _, columns)| columns).sum();
             let miss = (count as f64 - n as f64).abs();
             if miss < best.0 {
                 best = (miss, x, y);
@@ -53,16 +70,27 @@ impl Lattice {
                 break;
             }
         }
-        self.rows(best.1, best.2, frame)
-            .flat_map(|(x, y, columns)| (0..columns).map(move |i| (x + i as f64 * self.step, y)))
-            .map(|(x, y)| frame.place(x, y))
+        let margin = CARRIED * self.jitter;
+        let (x, y, sides) = (best.1 + margin, best.2 + margin, [frame.width, frame.height]);
+        self.rows(x, y, sides.map(|side| side + 2. * margin))
+            .flat_map(|(x, y, columns)| (0..columns).map(move |i| [x + i as f64 * self.step, y]))
+            .map(|[x, y]| self.jittered([x - margin, y - margin], rng))
+            .filter(|[x, y]| self.jitter == 0. || (0. ..sides[0]).contains(x) && (0. ..sides[1]).contains(y))
+            .map(|[x, y]| frame.place(x, y))
             .collect()
     }
 
-    /// First x, y, and number of points, of every row inside the window when the point (x, y) is in the lattice.
-    fn rows(self, x: f64, y: f64, frame: &Frame) -> impl Iterator<Item = (f64, f64, usize)> {
+    fn jittered(self, [x, y]: [f64; 2], rng: &mut dyn Rng) -> [f64; 2] {
+        if self.jitter == 0. {
+            return [x, y];
+        }
+        let (dx, dy): (f64, f64) = (rng.sample(StandardNormal), rng.sample(StandardNormal));
+        [x + self.jitter * dx, y + self.jitter * dy]
+    }
+
+    /// First x, y, and number of points, of every row inside a window of these sides when the point (x, y) is in the lattice.
+    fn rows(self, x: f64, y: f64, [width, height]: [f64; 2]) -> impl Iterator<Item = (f64, f64, usize)> {
         let first = -(y / self.row_step).floor();
-        let (width, height) = (frame.width, frame.height);
         (0..)
             .map(move |i| {
                 let row = first + i as f64;
