@@ -4,17 +4,24 @@
 //! pattern has no border of its own; a bounded window then cuts it off as an image cuts off a mosaic. A polygon is cut
 //! out of a pattern of its bounds.
 
+mod ahumada;
 mod bnot;
 mod bridson;
+mod curcio_sloan;
 mod dart_throwing;
 mod darts;
+mod deering;
 mod density;
 mod error;
 mod frame;
 mod green;
+mod hash_grid;
 mod jittered;
 mod lattice;
 mod lloyd;
+mod minimal_spacing;
+mod normal;
+mod outward;
 mod parameter;
 mod pink;
 mod poisson_disk;
@@ -22,19 +29,25 @@ mod region;
 mod shaped;
 mod square;
 mod step;
+mod torus_cells;
 mod torus_grid;
 mod triangular;
 mod uniform;
+mod wang;
 
+pub use ahumada::Ahumada;
 pub use bnot::Bnot;
 pub use bridson::Bridson;
+pub use curcio_sloan::CurcioSloan;
 pub use dart_throwing::DartThrowing;
+pub use deering::Deering;
 pub use density::Density;
 pub use error::SampleError;
 pub use frame::Frame;
 pub use green::Green;
 pub use jittered::Jittered;
 pub use lloyd::Lloyd;
+pub use minimal_spacing::MinimalSpacing;
 pub use parameter::{Parameter, Values};
 pub use pink::Pink;
 pub use poisson_disk::PoissonDisk;
@@ -43,6 +56,7 @@ pub use square::Square;
 pub use step::Step;
 pub use triangular::Triangular;
 pub use uniform::Uniform;
+pub use wang::Wang;
 
 use crate::geometry::{Point, Polygon, Window};
 use rand::Rng;
@@ -187,6 +201,11 @@ static SAMPLERS: &[&dyn Sampler] = &[
     &Step::HIGHEST,
     &Lloyd::DEFAULT,
     &Bnot::CONVERGED,
+    &Ahumada::DEFAULT,
+    &CurcioSloan::DEFAULT,
+    &Wang::DEFAULT,
+    &MinimalSpacing::DEFAULT,
+    &Deering::DEFAULT,
 ];
 
 /// Every sampler there is.
