@@ -6,7 +6,7 @@ use anyhow::Result;
 use clap::Args;
 use conemosaic::batch::{CoordinatesOutcome, compare_files, coordinate_files};
 use conemosaic::report::significant;
-use conemosaic::sample::{Sampler, as_reference, sampler, samplers_by_default};
+use conemosaic::sample::{Sampler, as_reference, sampler, samplers, samplers_by_default};
 use std::path::PathBuf;
 
 /// Compares mosaics with point samplers: l-infinity distance of pair correlation functions
@@ -27,23 +27,30 @@ pub struct Compare {
     /// Folder for the results
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Samplers to compare with, separated by commas [default: all; see `conemosaic sample --list`]
+    /// Samplers to compare with, separated by commas; all is every one, slow ones included [default: those marked * by
+    /// `conemosaic sample --list`]
     #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
     samplers: Vec<String>,
     #[command(flatten)]
     mosaic: MosaicArgs,
 }
 
-/// The samplers of these names, as references; all that are so by default if there are none. A name given twice counts once.
+/// The samplers of these names, as references; those compared with by default if there are none; “all” is every one. A name
+/// given twice counts once.
 pub fn samplers_named(names: &[String]) -> Result<Vec<&'static dyn Sampler>> {
     if names.is_empty() {
         return Ok(samplers_by_default());
     }
     let mut found: Vec<&'static dyn Sampler> = Vec::new();
     for name in names {
-        let one = as_reference(sampler(name.trim())?);
-        if !found.iter().any(|s| s.name() == one.name()) {
-            found.push(one);
+        let chosen = match name.trim() {
+            "all" => samplers().to_vec(),
+            name => vec![sampler(name)?],
+        };
+        for one in chosen.into_iter().map(as_reference) {
+            if !found.iter().any(|s| s.name() == one.name()) {
+                found.push(one);
+            }
         }
     }
     Ok(found)

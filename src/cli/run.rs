@@ -35,7 +35,8 @@ pub struct Run {
     out: PathBuf,
     #[command(flatten)]
     detect: DetectArgs,
-    /// Samplers to compare with, separated by commas [default: all; see `conemosaic sample --list`]
+    /// Samplers to compare with, separated by commas; all is every one, slow ones included [default: those marked * by
+    /// `conemosaic sample --list`]
     #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
     samplers: Vec<String>,
     /// The area that counts, for cones as for density: auto (all that was imaged: black margins and the corners between

@@ -121,9 +121,10 @@ fn setting(text: &str) -> Result<(String, String), String> {
 
 /// Every sampler, then every parameter.
 fn list() -> String {
-    let rows: Vec<Vec<String>> =
-        samplers().iter().map(|s| vec![s.name().to_owned(), s.about().to_owned()]).collect();
+    let marked = |s: &dyn Sampler| format!("{}{}", s.name(), if s.by_default() { " *" } else { "" });
+    let rows: Vec<Vec<String>> = samplers().iter().map(|s| vec![marked(*s), s.about().to_owned()]).collect();
     let made = table(&["sampler", "what it makes"], &rows);
+    let made = format!("{made}\n* run and compare take these unless --samplers names others");
     let parameters = samplers().iter().flat_map(|s| s.parameters().iter().map(move |p| (s.name(), p)));
     let rows: Vec<Vec<String>> = parameters
         .map(|(sampler, p)| {
