@@ -381,7 +381,8 @@ mod tests {
             });
             prop_assert_eq!(polygon.contains(p), crossings.count() % 2 == 1);
             let least = edges.iter().map(|e| EdgeTree::new(vec![*e]).distance(p)).fold(f64::INFINITY, f64::min);
-            prop_assert_eq!(polygon.border_distance(p).abs(), least);
+            // the tree may take the same edge in a sum of another order
+            prop_assert!((polygon.border_distance(p).abs() - least).abs() <= 1e-14 * (1. + least));
             let sampled = edges.iter().flat_map(|e| (0..=50).map(move |k| {
                 let t = f64::from(k) / 50.;
                 Point::new(e.from.x + t * (e.to.x - e.from.x), e.from.y + t * (e.to.y - e.from.y)).distance(p)
