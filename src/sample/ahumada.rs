@@ -1,6 +1,7 @@
 use super::hash_grid::{HashGrid, distance};
 use super::normal::{displaced, truncated};
 use super::outward::exactly;
+use super::retina::{FARTHEST, Retina};
 use super::{Frame, Parameter, SampleError, Sampler, Values};
 use crate::geometry::Point;
 use rand::{Rng, RngExt};
@@ -19,13 +20,18 @@ const BEYOND: f64 = 6.;
 /// whose centres are then displaced.
 ///
 /// **Published** (the paper's abstract): each cone has a circular disc of influence; the discs are packed tightly outward from the
-/// centre; the parameters are the mean radius, its standard deviation, and the standard deviation of the jitter after packing.
+/// centre; the parameters are the mean radius, its standard deviation, and the standard deviation of the jitter after packing; all
+/// three may vary with eccentricity, and were fitted to a macaque's fovea out to 1.6°.
 ///
-/// **Known in outline only, hence chosen here**: radii are normal; the next disc goes where it touches two earlier ones and lies
-/// nearest to the centre; a place where it does not fit stays empty. The paper fitted the parameters to a macaque's fovea
-/// out to 1.6° and lets them vary with eccentricity; those values were not at hand. The defaults, .1 mean radii and .07 mean
-/// diameters, are ours: they give a regularity index of 10, amid those of real mosaics (8 to 12), and hold over the whole
-/// window. The mean radius follows from n.
+/// **Not at hand, hence chosen here**: the fitted values and their change with eccentricity; that radii are normal; that the next
+/// disc goes where it touches two earlier ones and lies nearest to the centre, and that a place where it does not fit stays
+/// empty. The defaults, .1 mean radii and .07 mean diameters, give a regularity index of 10, amid those of real mosaics (8
+/// to 12). The mean radius follows from n.
+///
+/// **Eccentricity**: given one in mm, the middle of the window lies there, with the fovea to its left, and the mean radius follows the
+/// density of human cones (Curcio et al. 1990, mean of four meridians) from place to place; n then says how large the window is.
+/// The other two parameters stay the same shares of the mean radius, and packing goes outward from the middle of the window,
+/// which is the fovea at 0 mm: our choice.
 ///
 /// Exactly n points. Opposite edges of a torus do not fit: the model has a centre.
 #[derive(Clone, Copy, Debug)]
@@ -34,14 +40,16 @@ pub struct Ahumada {
     pub radius_sd: f64,
     /// Displacement of each cone in x and y after packing: standard deviation in mean diameters.
     pub jitter: f64,
+    /// Where the middle of the window lies, in mm from the fovea; `None`: discs have one mean radius all over.
+    pub eccentricity: Option<f64>,
 }
 
 impl Ahumada {
     /// Our choice; see the type.
-    pub const DEFAULT: Self = Self { radius_sd: 0.1, jitter: 0.07 };
+    pub const DEFAULT: Self = Self { radius_sd: 0.1, jitter: 0.07, eccentricity: None };
 }
 
-static PARAMETERS: [Parameter; 2] = [
+static PARAMETERS: [Parameter; 3] = [
     Parameter {
         name: "radius-sd",
         unit: "mean radii",
@@ -57,6 +65,14 @@ static PARAMETERS: [Parameter; 2] = [
         whole: false,
         default: "0.07",
         meaning: "standard deviation of each cone's displacement in x and y after packing (our choice)",
+    },
+    Parameter {
+        name: "eccentricity",
+        unit: "mm",
+        range: (0., FARTHEST),
+        whole: false,
+        default: "none, one mean size",
+        meaning: "where the middle of the window lies, from the fovea: sizes then follow the density of Curcio et al. (1990)",
     },
 ];
 
@@ -78,6 +94,7 @@ impl Sampler for Ahumada {
         Ok(Box::new(Self {
             radius_sd: values.get("radius-sd").unwrap_or(self.radius_sd),
             jitter: values.get("jitter").unwrap_or(self.jitter),
+            eccentricity: values.get("eccentricity").or(self.eccentricity),
         }))
     }
 
@@ -86,9 +103,12 @@ impl Sampler for Ahumada {
     }
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
+        let retina = Retina::around(self.eccentricity, DENSITY);
         exactly(n, frame, DENSITY, self.name(), |half| {
-            let discs = self.pack(half.map(|side| side + BEYOND), rng);
-            discs.into_iter().map(|disc| displaced(disc.centre, 2. * self.jitter, rng)).collect()
+            let beyond = BEYOND * retina.largest(half);
+            let discs = self.pack(half.map(|side| side + beyond), &retina, rng);
+            let jitter = |centre| 2. * self.jitter * retina.size(centre);
+            discs.into_iter().map(|disc| displaced(disc.centre, jitter(disc.centre), rng)).collect()
         })
     }
 }
@@ -108,25 +128,32 @@ impl Ahumada {
         truncated(1., self.radius_sd, DEVIATIONS, rng)
     }
 
-    /// Discs of mean radius 1 that cover the window of these half sides from its centre outward.
-    fn pack(&self, half: [f64; 2], rng: &mut dyn Rng) -> Vec<Disc> {
-        let widest = 1. + DEVIATIONS * self.radius_sd;
+    /// Discs of mean radius 1 in the middle that cover the window of these half sides from there outward.
+    fn pack(&self, half: [f64; 2], retina: &Retina, rng: &mut dyn Rng) -> Vec<Disc> {
+        let widest = (1. + DEVIATIONS * self.radius_sd) * retina.largest(half);
         let first = self.radius(rng);
         let mut radius = self.radius(rng);
         let (sine, cosine) = (TAU * rng.random::<f64>()).sin_cos();
         let touching = first + radius;
-        let mut packing =
-            Packing { discs: Vec::new(), grid: HashGrid::new(4. * widest), pockets: BinaryHeap::new() };
+        let mut packing = Packing {
+            discs: Vec::new(),
+            grid: HashGrid::new(4. * widest),
+            pockets: BinaryHeap::new(),
+            retina,
+        };
         packing.put(Disc { centre: [0., 0.], radius: first });
         packing.put(Disc { centre: [touching * cosine, touching * sine], radius });
         radius = self.radius(rng);
         while let Some(Reverse((_, a, b, side))) = packing.pockets.pop() {
-            let Some(centre) = touching_both(packing.discs[a], packing.discs[b], radius, side) else {
+            let (a, b) = (packing.discs[a], packing.discs[b]);
+            // its mean is that of the discs that it touches
+            let scaled = radius * (retina.size(a.centre) + retina.size(b.centre)) / 2.;
+            let Some(centre) = touching_both(a, b, scaled, side) else {
                 continue;
             };
             let inside = centre[0].abs() <= half[0] && centre[1].abs() <= half[1];
-            if inside && packing.has_room(Disc { centre, radius }) {
-                packing.put(Disc { centre, radius });
+            if inside && packing.has_room(Disc { centre, radius: scaled }) {
+                packing.put(Disc { centre, radius: scaled });
                 radius = self.radius(rng);
             }
         }
@@ -134,13 +161,14 @@ impl Ahumada {
     }
 }
 
-struct Packing {
+struct Packing<'a> {
     discs: Vec<Disc>,
     grid: HashGrid,
     pockets: BinaryHeap<Pocket>,
+    retina: &'a Retina,
 }
 
-impl Packing {
+impl Packing<'_> {
     fn has_room(&self, disc: Disc) -> bool {
         self.grid.near(disc.centre).all(|(k, centre)| {
             // it touches two discs, and rounding must not make them overlap
@@ -151,10 +179,11 @@ impl Packing {
     /// A new disc, and the pockets between it and those near enough for a disc of mean radius to touch both.
     fn put(&mut self, disc: Disc) {
         let new = self.discs.len();
+        let mean = self.retina.size(disc.centre);
         for (k, centre) in self.grid.near(disc.centre) {
             let other = Disc { centre, radius: self.discs[k].radius };
             for side in [false, true] {
-                if let Some([x, y]) = touching_both(other, disc, 1., side) {
+                if let Some([x, y]) = touching_both(other, disc, mean, side) {
                     self.pockets.push(Reverse((x.hypot(y).to_bits(), k, new, side)));
                 }
             }
@@ -188,12 +217,15 @@ mod tests {
     use crate::stats::{Deviation, moments, nearest_neighbours};
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
+    use std::sync::LazyLock;
+
+    static EVEN: LazyLock<Retina> = LazyLock::new(|| Retina::around(None, DENSITY));
 
     #[test]
     fn discs_touch_two_others_and_overlap_none() {
         for radius_sd in [0., 0.05, 0.3] {
-            let model = Ahumada { radius_sd, jitter: 0. };
-            let discs = model.pack([25., 15.], &mut ChaCha8Rng::seed_from_u64(1));
+            let model = Ahumada { radius_sd, jitter: 0., eccentricity: None };
+            let discs = model.pack([25., 15.], &EVEN, &mut ChaCha8Rng::seed_from_u64(1));
             for (i, a) in discs.iter().enumerate() {
                 let gaps = (0..discs.len())
                     .filter(|&j| j != i)
@@ -208,7 +240,11 @@ mod tests {
     #[test]
     fn packing_is_tight_and_equal_discs_make_the_triangular_lattice() {
         let covered = |radius_sd: f64| {
-            let discs = Ahumada { radius_sd, jitter: 0. }.pack([46., 46.], &mut ChaCha8Rng::seed_from_u64(2));
+            let discs = Ahumada { radius_sd, jitter: 0., eccentricity: None }.pack(
+                [46., 46.],
+                &EVEN,
+                &mut ChaCha8Rng::seed_from_u64(2),
+            );
             let within = |d: &&Disc| d.centre[0].abs() <= 40. && d.centre[1].abs() <= 40.;
             let area: f64 = discs.iter().filter(within).map(|d| d.radius * d.radius / 2. * TAU).sum();
             area / 6400.

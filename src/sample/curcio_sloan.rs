@@ -7,13 +7,18 @@ use std::f64::consts::SQRT_2;
 /// The compressed-jittered model of Curcio & Sloan (1992): a square array, compressed along one diagonal and stretched along
 /// the other so that its density stays, whose points are then displaced.
 ///
-/// **Published**: the model and its two parameters, ratio of compression and standard deviation of the jitter; that both vary with
-/// eccentricity, the mosaic being least compressed and jittered at the edge of the rod-free zone; that spacing is 10–15 %
-/// less in one direction. With a ratio of 3^(−1/4) = .760 the compressed array is the triangular lattice.
+/// **Published** (the abstract): that a compressed-jittered model was fitted at seven places along six meridians of a human retina;
+/// that the mosaic is least compressed and jittered at the edge of the foveal rod-free zone; that spacing is 10–15 % less in one
+/// direction, and greater along meridians than across them.
 ///
-/// **Not at hand, hence chosen here**: the table of parameters by eccentricity. The defaults, .8 and .1, are those that programs
-/// of other groups name as taken from the paper; that the jitter is in sides of the uncompressed cell is our reading. They
-/// hold over the whole window.
+/// **As we understand it**: the array is square, and what varies is the ratio of compression and the standard deviation of the jitter.
+/// With a ratio of 3^(−1/4) = .760 the compressed array is the triangular lattice.
+///
+/// **Not at hand, hence chosen here**: the fitted values. The defaults are .8 and .1, and the jitter is in sides of the uncompressed
+/// cell.
+///
+/// **Eccentricity**: the fitted values by place are not at hand; of their dependence only the sentence above is known, which gives no
+/// number. So there is no such parameter: set `compression` and `jitter` for the place. They hold over the whole window.
 ///
 /// Rows lie along the compressed diagonal, along x, at a random offset. The number of points is near n; on a torus rows and columns
 /// must close, which stretches the array by a few per cent.
@@ -26,7 +31,7 @@ pub struct CurcioSloan {
 }
 
 impl CurcioSloan {
-    /// The values that other programs name as the paper's.
+    /// Our choice; see the type.
     pub const DEFAULT: Self = Self { compression: 0.8, jitter: 0.1 };
 }
 
@@ -37,7 +42,7 @@ static PARAMETERS: [Parameter; 2] = [
         range: (0.5, 1.),
         whole: false,
         default: "0.8",
-        meaning: "length of one diagonal of the square cell over its length before (0.760: triangular lattice)",
+        meaning: "length of one diagonal of the square cell over its length before (0.760: triangular lattice; our choice)",
     },
     Parameter {
         name: "jitter",
@@ -45,7 +50,7 @@ static PARAMETERS: [Parameter; 2] = [
         range: (0., 0.5),
         whole: false,
         default: "0.1",
-        meaning: "standard deviation of each point's displacement in x and y",
+        meaning: "standard deviation of each point's displacement in x and y (our choice)",
     },
 ];
 

@@ -1,6 +1,7 @@
 use super::hash_grid::{HashGrid, distance};
 use super::normal::truncated;
 use super::outward::{exactly, ring};
+use super::retina::{FARTHEST, Retina};
 use super::{Frame, Parameter, SampleError, Sampler, Values};
 use crate::geometry::Point;
 use rand::Rng;
@@ -28,14 +29,20 @@ const BEYOND: f64 = 4.;
 /// The cone model of Deering (2005): cells added in rings around the fovea, each with a target size of its own, which push and pull
 /// one another into place.
 ///
-/// **Published**: cones are added in concentric rings outward; each has a target radius, randomly perturbed; cells repel each other when
-/// nearer than their radii ask for and attract each other when somewhat farther; only those near the growing edge move.
+/// **Published** (the author's slides): cones are added in concentric rings outward, with target sizes that vary; an equation of
+/// forces between them; borders of the cells that are formed anew, and a final touch-up; densities by eccentricity and
+/// meridian, mostly those of Curcio et al. (1990). **As we understand it**: target radii are perturbed at random; cells repel each
+/// other when nearer than their radii ask for and attract each other when somewhat farther; only those near the growing edge move.
 ///
-/// **Known in outline only, hence chosen here**: two cells at u times the distance at which they touch repel each other by 1 − u for
+/// **Not at hand, hence chosen here**: the equation. Two cells at u times the distance at which they touch repel each other by 1 − u for
 /// u < 1 and attract each other by 1.6 (u − 1)(1.5 − u) for u from 1 to 1.5; a cell moves by .3 of the sum, in as many rounds
 /// a ring as `rounds` says; the last five rings move. The paper re-forms the cells' borders as polygons and repairs gaps; here
-/// centres interact by their distance alone. The paper takes the radius from the density by eccentricity and meridian; here the mean is
-/// the same all over the window. The deviation of radii is ours: it gives a regularity index of 10, amid those of real mosaics (8 to 12).
+/// centres interact by their distance alone. The deviation of radii gives a regularity index of 10, amid those of real mosaics
+/// (8 to 12).
+///
+/// **Eccentricity**: without, the mean radius is the same all over the window. Given one in mm, the middle of the window lies there, with
+/// the fovea to its left, and the mean radius follows the density of human cones (Curcio et al. 1990; the mean of the four
+/// meridians, where the original tells them apart); n then says how large the window is. Rings are around the fovea.
 ///
 /// Exactly n points. Opposite edges of a torus do not fit: the model has a centre.
 #[derive(Clone, Copy, Debug)]
@@ -44,14 +51,16 @@ pub struct Deering {
     pub radius_sd: f64,
     /// Rounds of pushing and pulling after each ring.
     pub rounds: usize,
+    /// Where the middle of the window lies, in mm from the fovea; `None`: cells have one mean radius all over.
+    pub eccentricity: Option<f64>,
 }
 
 impl Deering {
     /// Our choice; see the type.
-    pub const DEFAULT: Self = Self { radius_sd: 0.15, rounds: 8 };
+    pub const DEFAULT: Self = Self { radius_sd: 0.15, rounds: 8, eccentricity: None };
 }
 
-static PARAMETERS: [Parameter; 2] = [
+static PARAMETERS: [Parameter; 3] = [
     Parameter {
         name: "radius-sd",
         unit: "mean radii",
@@ -67,6 +76,14 @@ static PARAMETERS: [Parameter; 2] = [
         whole: true,
         default: "8",
         meaning: "rounds of pushing and pulling after each ring (our choice)",
+    },
+    Parameter {
+        name: "eccentricity",
+        unit: "mm",
+        range: (0., FARTHEST),
+        whole: false,
+        default: "none, one mean size",
+        meaning: "where the middle of the window lies, from the fovea: sizes then follow the density of Curcio et al. (1990)",
     },
 ];
 
@@ -88,6 +105,7 @@ impl Sampler for Deering {
         Ok(Box::new(Self {
             radius_sd: values.get("radius-sd").unwrap_or(self.radius_sd),
             rounds: values.count("rounds").unwrap_or(self.rounds),
+            eccentricity: values.get("eccentricity").or(self.eccentricity),
         }))
     }
 
@@ -96,7 +114,11 @@ impl Sampler for Deering {
     }
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
-        exactly(n, frame, DENSITY, self.name(), |half| self.grow(half.map(|side| side + BEYOND), rng))
+        let retina = Retina::around(self.eccentricity, DENSITY);
+        exactly(n, frame, DENSITY, self.name(), |half| {
+            let beyond = BEYOND * retina.largest(half);
+            self.grow(half.map(|side| side + beyond), &retina, rng)
+        })
     }
 }
 
@@ -107,16 +129,24 @@ struct Cell {
 }
 
 impl Deering {
-    /// Cells of mean diameter 1 as far as these half sides.
-    fn grow(&self, half: [f64; 2], rng: &mut dyn Rng) -> Vec<[f64; 2]> {
-        let rings = (half[0].hypot(half[1]) / RING) as usize;
+    /// Cells of mean diameter 1 in the middle as far as these half sides.
+    fn grow(&self, half: [f64; 2], retina: &Retina, rng: &mut dyn Rng) -> Vec<[f64; 2]> {
+        // rings are around the fovea, which may lie in the window or beside it; all places are seen from the middle
+        let fovea = retina.fovea();
+        let seen = |[x, y]: [f64; 2]| [x - fovea, y];
+        let wide = [half[0] + fovea, half[1]];
+        let last = wide[0].hypot(wide[1]);
+        let mut radius = (fovea - half[0]).max(0.);
         let mut done = Vec::new();
         // the last of them still move; the one before those is what they lean on
         let mut edge: VecDeque<Vec<Cell>> = VecDeque::new();
-        for k in 0..=rings {
-            let places = if k == 0 { vec![[0., 0.]] } else { ring(k as f64 * RING, 1., half, rng) };
-            let new = places.into_iter().map(|centre| {
-                let radius = truncated(0.5, 0.5 * self.radius_sd, DEVIATIONS, rng);
+        while radius <= last {
+            let step = retina.size(seen([radius, 0.]));
+            let places = if radius == 0. { vec![[0., 0.]] } else { ring(radius, step, wide, rng) };
+            radius += RING * step;
+            let inside = places.into_iter().map(seen).filter(|place| place[0] >= -half[0]);
+            let new = inside.map(|centre| {
+                let radius = truncated(0.5, 0.5 * self.radius_sd, DEVIATIONS, rng) * retina.size(centre);
                 Cell { centre, radius }
             });
             edge.push_back(new.collect());
@@ -126,7 +156,7 @@ impl Deering {
             let still = edge.len().saturating_sub(MOBILE);
             let fixed = edge.iter().take(still).map(Vec::len).sum();
             let mut cells: Vec<Cell> = edge.iter().flatten().copied().collect();
-            self.settle(&mut cells, fixed);
+            self.settle(&mut cells, fixed, retina.largest(half));
             let mut settled = cells.into_iter();
             edge.iter_mut().flatten().zip(&mut settled).for_each(|(cell, new)| *cell = new);
         }
@@ -134,11 +164,10 @@ impl Deering {
         done
     }
 
-    /// Rounds of forces between cells, of which the first `fixed` do not move.
-    fn settle(&self, cells: &mut [Cell], fixed: usize) {
-        let widest = 1. + DEVIATIONS * self.radius_sd;
-        let reach = ATTRACTION_ENDS * widest;
-        let mut grid = HashGrid::new(reach + SLACK);
+    /// Rounds of forces between cells of mean diameters up to `largest`, of which the first `fixed` do not move.
+    fn settle(&self, cells: &mut [Cell], fixed: usize, largest: f64) {
+        let reach = largest * (ATTRACTION_ENDS * (1. + DEVIATIONS * self.radius_sd) + SLACK);
+        let mut grid = HashGrid::new(reach);
         cells.iter().enumerate().for_each(|(k, cell)| grid.insert(k, cell.centre));
         // who may come within reach in this ring's rounds
         let neighbours: Vec<Vec<usize>> = cells[fixed..]
@@ -146,9 +175,7 @@ impl Deering {
             .zip(fixed..)
             .map(|(cell, i)| {
                 let near = grid.near(cell.centre);
-                near.filter(|&(j, p)| j != i && distance(p, cell.centre) < reach + SLACK)
-                    .map(|(j, _)| j)
-                    .collect()
+                near.filter(|&(j, p)| j != i && distance(p, cell.centre) < reach).map(|(j, _)| j).collect()
             })
             .collect();
         for _ in 0..self.rounds {
@@ -201,7 +228,7 @@ mod tests {
         for (apart, settled) in [(0.3, 1.1), (1.3, 1.1), (2., 2.)] {
             let cell = |x: f64, radius: f64| Cell { centre: [x, 0.], radius };
             let mut cells = [cell(0., 0.5), cell(apart, 0.6)];
-            Deering { rounds: 300, ..Deering::DEFAULT }.settle(&mut cells, 1);
+            Deering { rounds: 300, ..Deering::DEFAULT }.settle(&mut cells, 1, 1.);
             assert_eq!(cells[0].centre, [0., 0.], "the first is fixed");
             assert!((cells[1].centre[0] - settled).abs() < 1e-6, "{apart}: {:?}", cells[1].centre);
         }

@@ -1,23 +1,31 @@
 use super::normal::truncated;
+use super::retina::{FARTHEST, cones_per_mm2};
 use super::torus_cells::TorusCells;
 use super::{Frame, Parameter, SampleError, Sampler, Values};
 use crate::geometry::Point;
+use crate::mosaic::hexagonal_spacing;
 use rand::{Rng, RngExt};
 
 /// Minimal distances are drawn again beyond this many standard deviations.
 const DEVIATIONS: f64 = 4.;
+/// Least distance of human cones in the periphery, in mm: the middle of the 6–8 µm of Curcio & Sloan (1992).
+const PERIPHERAL: f64 = 0.007;
 /// Places tried for a cell before the window counts as full.
 const TRIALS: usize = 100_000;
 
 /// The minimal-spacing rule (d_min, exclusion zone): cells are placed one after the other at random; a place is refused if an earlier
 /// cell is nearer than d_min, which is a normal deviate (Wässle & Riemann 1978; Galli-Resta et al. 1999).
 ///
-/// **Published**: the rule, and that d_min ~ N(μ, σ) with values in µm fitted to each field.
+/// **Published**: the rule, and that d_min ~ N(μ, σ).
 ///
 /// **Chosen here**: d_min is in hexagonal spacings of n cells, so that one value serves any density; it is drawn anew for each place
 /// tried, not once a cell; negative ones, and those beyond four standard deviations, are drawn again; distances are those of
-/// the torus. The fitted values are of other cells and species, or were not at hand: μ = .7 is near the most that random placement can
-/// fill (the limit is .777), σ = .07 follows the ratio 1 : 10 in the examples of Eglen's program for the rule.
+/// the torus. Values fitted to mosaics were not at hand: μ = .7 is near the most that random placement can fill (the limit is .777), and σ is
+/// a tenth of it.
+///
+/// **Eccentricity**: none was published with the rule. Curcio & Sloan (1992) found the least distance of human cones constant, 6–8 µm,
+/// across the peripheral retina, while their spacing grows. Given an eccentricity in mm, μ is 7 µm in hexagonal spacings of
+/// human cones there (Curcio et al. 1990, mean of four meridians), or .7 if that is less, as it is within some 2 mm.
 ///
 /// Exactly n points. No neighbour is nearer than μ − 4σ.
 #[derive(Clone, Copy, Debug)]
@@ -31,9 +39,17 @@ pub struct MinimalSpacing {
 impl MinimalSpacing {
     /// Our choice; see the type.
     pub const DEFAULT: Self = Self { mean: 0.7, sd: 0.07 };
+
+    /// The mean of d_min for human cones at this many mm from the fovea, in hexagonal spacings.
+    pub fn mean_at(eccentricity: f64) -> f64 {
+        let most = Self::DEFAULT.mean;
+        // of the cones of a square metre, a number that rounding does not hurt
+        let spacing = hexagonal_spacing((1e6 * cones_per_mm2(eccentricity)) as usize, 1e6);
+        spacing.map_or(most, |mm| (PERIPHERAL / mm).min(most))
+    }
 }
 
-static PARAMETERS: [Parameter; 2] = [
+static PARAMETERS: [Parameter; 3] = [
     Parameter {
         name: "mean",
         unit: "spacings",
@@ -48,7 +64,15 @@ static PARAMETERS: [Parameter; 2] = [
         range: (0., 0.3),
         whole: false,
         default: "0.07",
-        meaning: "standard deviation of the minimal distance (a tenth of the mean, as in Eglen's examples)",
+        meaning: "standard deviation of the minimal distance (our choice: a tenth of the mean)",
+    },
+    Parameter {
+        name: "eccentricity",
+        unit: "mm",
+        range: (0., FARTHEST),
+        whole: false,
+        default: "none, mean 0.7",
+        meaning: "distance from the fovea: the mean is 7 µm there (Curcio & Sloan 1992), at most 0.7 spacings, unless it is set",
     },
 ];
 
@@ -68,7 +92,10 @@ impl Sampler for MinimalSpacing {
     fn configure(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError> {
         let values = Values::read(self.name(), self.parameters(), settings)?;
         Ok(Box::new(Self {
-            mean: values.get("mean").unwrap_or(self.mean),
+            mean: values
+                .get("mean")
+                .or_else(|| values.get("eccentricity").map(Self::mean_at))
+                .unwrap_or(self.mean),
             sd: values.get("sd").unwrap_or(self.sd),
         }))
     }

@@ -26,6 +26,7 @@ mod parameter;
 mod pink;
 mod poisson_disk;
 mod region;
+mod retina;
 mod shaped;
 mod square;
 mod step;

@@ -16,14 +16,15 @@ const BEYOND: f64 = 3.;
 
 /// The cone model of Wang et al. (2001): a polar array around the fovea, Gaussian jitter, and a minimal spacing.
 ///
-/// **Published**: that much, and what it is to look like: clusters of triangular order, each rotated against the next, and a desert
-/// island in the spectrum.
+/// **Published** (the abstract): the constraints are the sampling properties of several human foveal mosaics, above all local clusters
+/// rotated against each other and spectra like desert islands. That it is an array of those three parts is as we understand it.
 ///
-/// **Known in outline only, hence chosen here**: rings are √3/2 spacings apart and hold a cone a spacing, from a random angle on; a
+/// **Not at hand, hence chosen here**: rings are √3/2 spacings apart and hold a cone a spacing, from a random angle on; a
 /// cone whose displacement brings it nearer than the minimal spacing to one placed before is displaced anew, and left out
-/// after 100 draws. Neither parameters nor their change with eccentricity were at hand. The defaults, a jitter of .1 and a minimal
-/// spacing of .65 spacings of the array, are ours: they give a regularity index of 10, amid those of real mosaics (8 to 12),
-/// and hold over the whole window.
+/// after 100 draws. The defaults, a jitter of .1 and a minimal
+/// spacing of .65 spacings of the array, give a regularity index of 10, amid those of real mosaics (8 to 12).
+///
+/// **Eccentricity**: the model is one of the fovea; as far as we know no dependence was published, and there is none here.
 ///
 /// Exactly n points. No two are nearer than the minimal spacing, measured in the array, which is denser than n/A by the cones left
 /// out. Opposite edges of a torus do not fit: the model has a centre.

@@ -1,0 +1,106 @@
+/// Human cones per mm² by eccentricity in mm: mean of the four meridians of Curcio et al. (1990), read off their curves (where
+/// the nasal one has a gap, at the optic disc, between its neighbours). Beyond 18 mm not all meridians are known.
+const DENSITY: [(f64, f64); 30] = [
+    (0., 197_000.),
+    (0.05, 150_750.),
+    (0.1, 112_500.),
+    (0.15, 90_250.),
+    (0.2, 71_750.),
+    (0.3, 52_250.),
+    (0.4, 40_750.),
+    (0.5, 33_750.),
+    (0.6, 29_250.),
+    (0.7, 25_000.),
+    (0.8, 21_750.),
+    (0.9, 20_000.),
+    (1., 18_750.),
+    (2., 11_125.),
+    (3., 8_225.),
+    (4., 6_750.),
+    (5., 5_900.),
+    (6., 5_425.),
+    (7., 5_150.),
+    (8., 4_900.),
+    (9., 4_675.),
+    (10., 4_450.),
+    (11., 4_300.),
+    (12., 4_125.),
+    (13., 4_025.),
+    (14., 3_975.),
+    (15., 3_975.),
+    (16., 3_900.),
+    (17., 3_925.),
+    (18., 4_000.),
+];
+
+/// The greatest eccentricity at which the density is known, in mm.
+pub(super) const FARTHEST: f64 = 18.;
+
+/// Cones per mm² at that many mm from the fovea, between the values known by the logarithm; beyond the last the last.
+pub(super) fn cones_per_mm2(eccentricity: f64) -> f64 {
+    let after = DENSITY.partition_point(|(at, _)| *at <= eccentricity).clamp(1, DENSITY.len() - 1);
+    let ((from, a), (to, b)) = (DENSITY[after - 1], DENSITY[after]);
+    let share = ((eccentricity - from) / (to - from)).clamp(0., 1.);
+    a * (b / a).powf(share)
+}
+
+/// How large cells are from place to place, around a point of the retina that the middle of the window lies on. Lengths are in the
+/// unit of a model, in which cells in the middle have size 1; the fovea lies to the left.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Retina {
+    /// Eccentricity of the middle and the model's unit of length, in mm; `None`: cells are as large everywhere.
+    place: Option<(f64, f64)>,
+}
+
+impl Retina {
+    /// The retina around a place this many mm from the fovea, for a model that makes `density` cells of size 1 a squared unit.
+    pub(super) fn around(eccentricity: Option<f64>, density: f64) -> Self {
+        Self { place: eccentricity.map(|mm| (mm, (density / cones_per_mm2(mm)).sqrt())) }
+    }
+
+    /// How far to the left of the middle the fovea is.
+    pub(super) fn fovea(&self) -> f64 {
+        self.place.map_or(0., |(mm, unit)| mm / unit)
+    }
+
+    /// Size of a cell at a place that is seen from the middle.
+    pub(super) fn size(&self, [x, y]: [f64; 2]) -> f64 {
+        let Some((mm, unit)) = self.place else { return 1. };
+        (cones_per_mm2(mm) / cones_per_mm2((mm + x * unit).hypot(y * unit))).sqrt()
+    }
+
+    /// Size of the largest cell as far as these half sides.
+    pub(super) fn largest(&self, half: [f64; 2]) -> f64 {
+        // densities rise again by a few per cent in the far periphery
+        const RISE: f64 = 1.02;
+        if self.place.is_some() { RISE * self.size(half) } else { 1. }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn density_is_the_published_one_and_falls_from_the_fovea_to_the_periphery() {
+        assert!((cones_per_mm2(0.) - 197_000.).abs() < 1e-6 && (cones_per_mm2(99.) - 4_000.).abs() < 1e-6);
+        assert!((cones_per_mm2(1.) - 18_750.).abs() < 1e-6);
+        let known: Vec<f64> = (0..1500).map(|k| cones_per_mm2(0.01 * f64::from(k))).collect();
+        assert!(known.windows(2).all(|pair| pair[1] <= pair[0] + 1e-6));
+    }
+
+    #[test]
+    fn cells_are_of_size_1_in_the_middle_and_the_smaller_the_nearer_to_the_fovea() {
+        for mm in [0., 0.2, 3.] {
+            let retina = Retina::around(Some(mm), 1.);
+            assert!((retina.size([0., 0.]) - 1.).abs() < 1e-12);
+            let fovea = [-retina.fovea(), 0.];
+            assert!((retina.size(fovea) - (cones_per_mm2(mm) / 197_000.).sqrt()).abs() < 1e-9);
+            for place in [[5., 3.], [-7., 20.], [20., -20.]] {
+                assert!(retina.size(place) <= retina.largest([20., 20.]));
+            }
+        }
+        let even = Retina::around(None, 1.);
+        assert_eq!((even.size([9., 9.]), even.largest([9., 9.]), even.fovea()), (1., 1., 0.));
+    }
+}
