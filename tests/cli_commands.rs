@@ -501,3 +501,50 @@ fn a_window_that_samplers_cannot_fill_costs_the_comparison_and_not_the_mosaic() 
     assert_eq!(row["n"], "40");
     assert!(row["warnings"].contains("not compared with"), "{}", row["warnings"]);
 }
+
+#[test]
+fn samples_are_drawn_in_the_window_asked_for() {
+    let place = Place::new();
+    place.write("corners.csv", "x,y\n0,0\n40,0\n0,30\n");
+    let list = place.ok(&["sample", "--list"]).stdout;
+    let names = list.lines().skip(2).take_while(|line| !line.starts_with('*'));
+    let names: Vec<&str> = names.filter_map(|line| line.split_whitespace().next()).collect();
+    assert!(names.len() >= 17, "{names:?}");
+    for name in names {
+        for (window, x, y) in [
+            ("150x90", (-0.5, 149.5), (-0.5, 89.5)),
+            ("-7,2,-3,5", (-7., -3.), (2., 5.)),
+            ("corners.csv", (0., 40.), (0., 30.)),
+        ] {
+            let text = place.ok(&["sample", name, "-n", "80", "--window", window]).stdout;
+            let points: Vec<(f64, f64)> = text
+                .lines()
+                .skip(1)
+                .map(|line| line.split_once(',').unwrap())
+                .map(|(x, y)| (x.parse().unwrap(), y.parse().unwrap()))
+                .collect();
+            assert!((60..=100).contains(&points.len()), "{name} {window}: {}", points.len());
+            let within = |v: f64, (low, high): (f64, f64)| v >= low && v < high;
+            assert!(points.iter().all(|p| within(p.0, x) && within(p.1, y)), "{name} {window}");
+            let reach = points.iter().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max);
+            assert!(reach > x.0 + 0.6 * (x.1 - x.0), "{name} {window}: {reach}");
+        }
+    }
+    place.ok(&[
+        "sample",
+        "bridson",
+        "-n",
+        "80",
+        "--window",
+        "150x90",
+        "--torus",
+        "--out",
+        "points.csv",
+        "-q",
+    ]);
+    place.ok(&["measure", "points.csv", "--window", "150x90", "--out", "measured", "-q"]);
+    let refused = |window: &[&str]| place.refused(&[&["sample", "uniform", "-n", "9"], window].concat());
+    assert!(refused(&["--window", "corners.csv", "--torus"]).contains("--torus"));
+    assert!(refused(&["--window", "image"]).contains("WxH"));
+    assert!(refused(&["--window", "1e9,0,2e9,1"]).contains("times as long as wide"));
+}

@@ -1,13 +1,18 @@
 //! What every sampler in the registry promises, whatever it is.
 
 use conemosaic::geometry::{Point, Rectangle, Window};
-use conemosaic::sample::{Sampler, samplers, samplers_by_default};
-use conemosaic::stats::nearest_neighbours;
+use conemosaic::mosaic::hexagonal_spacing;
+use conemosaic::sample::{Sampler, sampler, samplers, samplers_by_default};
+use conemosaic::stats::{nearest_neighbours, voronoi};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 fn seeded(seed: u64) -> ChaCha8Rng {
     ChaCha8Rng::seed_from_u64(seed)
+}
+
+fn named(name: &str) -> &'static dyn Sampler {
+    sampler(name).unwrap()
 }
 
 fn promises_exactly_n(sampler: &dyn Sampler) -> bool {
@@ -118,7 +123,7 @@ fn parameters_at_their_defaults_change_nothing_and_at_their_limits_give_points_o
 #[test]
 fn jitter_makes_a_lattice_less_regular_and_keeps_its_number_near() {
     for name in ["square", "triangular"] {
-        let lattice = conemosaic::sample::sampler(name).unwrap();
+        let lattice = named(name);
         for window in [Window::unit_square(), Window::unit_torus()] {
             let scatter = |jitter: &str| {
                 let lattice = lattice.configure(&[("jitter", jitter)]).unwrap();
@@ -162,4 +167,84 @@ fn mosaics_are_compared_by_default_with_fast_samplers_only() {
     for slow in ["ahumada", "curcio-sloan", "wang", "minimal-spacing", "deering", "poisson-disk"] {
         assert!(!names.contains(&slow), "{slow}");
     }
+}
+
+#[test]
+fn every_sampler_of_the_literature_is_there_under_its_name() {
+    let names: Vec<&str> = samplers().iter().map(|s| s.name()).collect();
+    for expected in "uniform jittered square triangular dart-throwing bridson poisson-disk green pink step bnot lloyd ahumada \
+                     curcio-sloan wang minimal-spacing deering"
+        .split_whitespace()
+    {
+        assert!(names.contains(&expected), "{expected}");
+    }
+    assert_eq!(names.len(), 17);
+}
+
+/// Distances in hexagonal spacings of the points asked for, on the torus in every window.
+#[test]
+fn no_two_points_are_nearer_than_a_sampler_promises() {
+    let bounds = Rectangle::new(-2., 1., 4., 5.).unwrap();
+    for (name, least) in
+        [("dart-throwing", 0.75), ("bridson", 0.7306), ("poisson-disk", 0.7766), ("minimal-spacing", 0.42)]
+    {
+        for n in [2, 30, 400, 2000] {
+            let spacing = hexagonal_spacing(n, 24.).unwrap();
+            for window in [Window::Rectangle(bounds), Window::Torus(bounds)] {
+                let points = named(name).sample(n, &window, &mut seeded(n as u64)).unwrap();
+                let nearest = nearest_neighbours(&points, &Window::Torus(bounds)).distances;
+                let found = nearest.into_iter().fold(f64::INFINITY, f64::min) / spacing;
+                assert!(found >= least - 2e-4, "{name}, {n}: {found}");
+            }
+        }
+    }
+}
+
+/// Doubling is exact in binary numbers, so it must not change a single bit of the pattern.
+#[test]
+fn a_window_of_another_size_holds_the_same_pattern_scaled() {
+    for sampler in samplers() {
+        for torus in [false, true] {
+            let window = |size: f64| {
+                let bounds = Rectangle::new(0., 0., 2. * size, size).unwrap();
+                if torus { Window::Torus(bounds) } else { Window::Rectangle(bounds) }
+            };
+            let [small, large] =
+                [1., 1024.].map(|size| sampler.sample(120, &window(size), &mut seeded(9)).unwrap());
+            assert_eq!(small.len(), large.len(), "{}", sampler.name());
+            let off =
+                small.iter().zip(&large).map(|(a, b)| Point::new(1024. * a.x, 1024. * a.y).distance(*b));
+            let off = off.fold(0., f64::max);
+            assert!(off < 1e-6, "{}, torus {torus}: {off}", sampler.name());
+        }
+    }
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_points() {
+    let window = Window::rectangle(0., 0., 3., 2.).unwrap();
+    let pools =
+        [1, 2, 5].map(|threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap());
+    for sampler in samplers() {
+        let patterns = pools
+            .each_ref()
+            .map(|pool| pool.install(|| sampler.sample(900, &window, &mut seeded(4)).unwrap()));
+        assert!(patterns.iter().all(|p| *p == patterns[0]), "{}", sampler.name());
+    }
+}
+
+/// Equal power cells: the area of a Voronoi cell, which has no weight to make it equal, still scatters little; and Lloyd's less
+/// than that of its uniform start.
+#[test]
+fn relaxed_points_have_cells_of_nearly_equal_area() {
+    let window = Window::unit_torus();
+    let scatter = |sampler: &dyn Sampler| {
+        let points = sampler.sample(500, &window, &mut seeded(2)).unwrap();
+        let areas: Vec<f64> = voronoi(&points, &window).cells.iter().filter_map(|cell| cell.area).collect();
+        let mean = areas.iter().sum::<f64>() / areas.len() as f64;
+        assert!((mean * 500. - 1.).abs() < 1e-9);
+        (areas.iter().map(|a| (a / mean - 1.).powi(2)).sum::<f64>() / areas.len() as f64).sqrt()
+    };
+    let [bnot, lloyd, uniform] = ["bnot", "lloyd", "uniform"].map(|name| scatter(named(name)));
+    assert!(bnot < 0.06 && bnot < lloyd && lloyd < 0.2 && uniform > 0.4, "{bnot} {lloyd} {uniform}");
 }

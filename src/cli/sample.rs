@@ -3,9 +3,10 @@ use super::common::Common;
 use super::target::TargetArgs;
 use anyhow::{Context, Result, bail};
 use clap::Args;
-use conemosaic::geometry::Window;
+use conemosaic::batch::Region;
+use conemosaic::geometry::{Rectangle, Window};
 use conemosaic::image;
-use conemosaic::mosaic::io::{format_plain_points, write_plain_points};
+use conemosaic::mosaic::io::{ReadOptions, format_plain_points, read_outline, write_plain_points};
 use conemosaic::report::{counted, table};
 use conemosaic::sample::{Density, Sampler, sampler, samplers};
 use rand::SeedableRng;
@@ -13,17 +14,18 @@ use rand_chacha::ChaCha8Rng;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Draws points in the unit square from a sampler
+/// Draws points from a sampler, in the unit square or another window
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   conemosaic sample --list
   conemosaic sample dart-throwing -n 1024 --seed 7 --out points.csv
   conemosaic sample bnot -n 1024 --steps 20 --torus
+  conemosaic sample deering -n 1500 --window 150x150 --set eccentricity=0.3
   conemosaic sample bnot -n 5000 --density picture.png --out stipples.csv
   conemosaic sample --target-pcf measured/retina.pcf.csv -n 1024 --out like_retina.csv
 
-Writes x,y in [0, 1)², to the terminal without --out.")]
+Writes x,y in [0, 1)² or the window, to the terminal without --out.")]
 pub struct Sample {
     /// Name of the sampler
     #[arg(required_unless_present_any = ["list", "target_pcf", "target_spectrum"])]
@@ -31,6 +33,11 @@ pub struct Sample {
     /// Number of points; a lattice makes the nearest number it can
     #[arg(short, long, value_name = "N", required_unless_present = "list")]
     n: Option<usize>,
+    /// Where points are drawn: unit (square), WxH (an image of that size, whose pixels have centres at whole numbers: −0.5 to
+    /// W − 0.5, as for `measure --window`) or X0,Y0,X1,Y1, or a FILE of corners: CSV of x,y, WebPlotDigitizer project or
+    /// ImageJ ROI
+    #[arg(long, value_name = "WINDOW", default_value = "unit", allow_hyphen_values = true)]
+    window: Region,
     /// Opposite edges are the same place: lattices close on themselves (Poisson disks always do)
     #[arg(long)]
     torus: bool,
@@ -40,7 +47,7 @@ pub struct Sample {
     /// Steps of a relaxation: short for --set steps=K
     #[arg(long, value_name = "K")]
     steps: Option<usize>,
-    /// Points as dense as this PNG or TIFF is bright, stretched over the unit square [default: even density]
+    /// Points as dense as this PNG or TIFF is bright, stretched over the window [default: even density]
     ///
     /// Its grey values, 0 to 1, are densities relative to each other; below 1/1000 of the greatest they count as that.
     #[arg(long, value_name = "FILE")]
@@ -62,7 +69,7 @@ impl Sample {
             let _ = writeln!(std::io::stdout(), "{}", list());
             return Ok(Done::Completely);
         };
-        let window = if self.torus { Window::unit_torus() } else { Window::unit_square() };
+        let window = self.window()?;
         let shaped = self.target.sampler()?;
         let default: &dyn Sampler = match (&shaped, &self.name) {
             (Some(shaped), _) => shaped,
@@ -86,6 +93,22 @@ impl Sample {
             }
         }
         Ok(Done::Completely)
+    }
+
+    fn window(&self) -> Result<Window> {
+        let bounds = match &self.window {
+            Region::Unit => Rectangle::new(0., 0., 1., 1.)?,
+            Region::Size(w, h) => Rectangle::new(-0.5, -0.5, w - 0.5, h - 0.5)?,
+            Region::Edges([x0, y0, x1, y1]) => Rectangle::new(*x0, *y0, *x1, *y1)?,
+            Region::File(path) if self.torus => {
+                bail!("the polygon of {} has no opposite edges: --torus goes with rectangles", path.display())
+            }
+            Region::File(path) => return Ok(read_outline(path, &ReadOptions::default())?.window),
+            Region::Auto | Region::Image => {
+                bail!("there is no image here: --window needs unit, WxH, X0,Y0,X1,Y1 or a file of corners")
+            }
+        };
+        Ok(if self.torus { Window::Torus(bounds) } else { Window::Rectangle(bounds) })
     }
 
     /// The sampler with what is set and the density, if anything is.

@@ -191,4 +191,16 @@ mod tests {
         println!("{found:?}");
         assert!(found.is_sorted() && (1.7..2.).contains(&found[0]), "{found:?}");
     }
+
+    #[test]
+    fn peripheral_cones_keep_seven_micrometres_apart() {
+        assert!([0., 0.5, 1.5].iter().all(|&mm| MinimalSpacing::mean_at(mm) == 0.7));
+        // at 10 mm 4450 cones per mm² have a spacing of 16.1 µm
+        assert!((MinimalSpacing::mean_at(10.) - 7. / 16.109).abs() < 1e-4);
+        let at = MinimalSpacing::DEFAULT.configure(&[("eccentricity", "10")]).unwrap();
+        let set = MinimalSpacing { mean: MinimalSpacing::mean_at(10.), ..MinimalSpacing::DEFAULT };
+        let sample =
+            |model: &dyn Sampler| model.sample(99, &torus(1.), &mut ChaCha8Rng::seed_from_u64(1)).unwrap();
+        assert_eq!(sample(&*at), sample(&set));
+    }
 }

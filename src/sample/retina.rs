@@ -80,6 +80,8 @@ impl Retina {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Window;
+    use rand::SeedableRng;
 
     #[test]
     fn density_is_the_published_one_and_falls_from_the_fovea_to_the_periphery() {
@@ -102,5 +104,38 @@ mod tests {
         }
         let even = Retina::around(None, 1.);
         assert_eq!((even.size([9., 9.]), even.largest([9., 9.]), even.fovea()), (1., 1., 0.));
+    }
+
+    /// Cones in the square of these half sides whose middle is this far from the fovea, all in mm.
+    fn cones(eccentricity: f64, half: f64) -> f64 {
+        let step = half / 100.;
+        let along = |k: i32| (f64::from(k) + 0.5) * step;
+        let places = (-100..100).flat_map(|i| (-100..100).map(move |j| (along(i), along(j))));
+        places.map(|(x, y)| cones_per_mm2((eccentricity + x).hypot(y)) * step * step).sum()
+    }
+
+    #[test]
+    fn models_of_a_place_on_the_retina_have_its_gradient_of_density() {
+        let n = 4000;
+        for model in ["ahumada", "deering"].map(|name| crate::sample::sampler(name).unwrap()) {
+            for mm in [0., 0.15, 1.] {
+                let model = model.configure(&[("eccentricity", &mm.to_string())]).unwrap();
+                let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+                let points = model.sample(n, &Window::unit_square(), &mut rng).unwrap();
+                assert_eq!(points.len(), n);
+                // the square that n cones lie in
+                let (mut low, mut high) = (0., 9.);
+                while high - low > 1e-6 {
+                    let half = (low + high) / 2.;
+                    if cones(mm, half) < n as f64 { low = half } else { high = half }
+                }
+                let inner = points.iter().filter(|p| (p.x - 0.5).abs().max((p.y - 0.5).abs()) < 0.25).count();
+                let expected = cones(mm, low / 2.);
+                println!("{} {mm} mm: {inner} in the inner quarter, {expected:.0} expected", model.name());
+                assert!((inner as f64 / expected - 1.).abs() < 0.04);
+                let left = points.iter().filter(|p| p.x < 0.5).count() as f64 / n as f64;
+                assert!(if mm == 0. { (left - 0.5).abs() < 0.02 } else { left > 0.51 }, "{mm}: {left}");
+            }
+        }
     }
 }
