@@ -175,7 +175,7 @@ impl Polygon {
     }
 
     /// The intervals of x, rising, in which the horizontal line at `y` runs inside.
-    pub(super) fn chords(&self, y: f64, chords: &mut Vec<(f64, f64)>) {
+    pub(crate) fn chords(&self, y: f64, chords: &mut Vec<(f64, f64)>) {
         let mut crossings: Vec<f64> = Vec::new();
         self.shape.tree.visit(
             |b| b.y0 <= y && y <= b.y1,

@@ -1,6 +1,6 @@
 use super::{
-    Deviation, Histogram, Moments, NearestNeighbours, Pcf, PcfOptions, StatsError, Trend, VoronoiSummary,
-    interior, moments, nearest_neighbours, pcf, trend, voronoi,
+    Deviation, Histogram, Inhomogeneous, Moments, NearestNeighbours, Pcf, PcfOptions, StatsError, Trend,
+    VoronoiSummary, inhomogeneous, interior, moments, nearest_neighbours, pcf, trend, voronoi,
 };
 use crate::mosaic::Mosaic;
 use serde::{Deserialize, Serialize};
@@ -31,6 +31,8 @@ pub struct Measures {
     pub voronoi: VoronoiSummary,
     /// Whether density varies across the window.
     pub trend: Trend,
+    /// Where the trend is significant: second-order functions that allow for it.
+    pub inhomogeneous: Option<Inhomogeneous>,
     /// Pair correlation function, or why there is none.
     pub pcf: Result<Pcf, StatsError>,
 }
@@ -44,13 +46,18 @@ pub fn measure(mosaic: &Mosaic, options: &MeasureOptions) -> Measures {
         .zip(&neighbours.distances)
         .filter_map(|(keep, &d)| keep.then_some(d))
         .collect();
+    let trend = trend(points, window);
     Measures {
         deviation: options.deviation,
         nearest: moments(&neighbours.distances, options.deviation),
         nearest_interior: moments(&inside, options.deviation),
         histogram: Histogram::new(&neighbours.distances),
         voronoi: voronoi(points, window).summary(),
-        trend: trend(points, window),
+        inhomogeneous: trend
+            .significant
+            .then(|| inhomogeneous(points, window, &options.pcf, None).ok())
+            .flatten(),
+        trend,
         pcf: pcf(points, window, &options.pcf),
         neighbours,
     }

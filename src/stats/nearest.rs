@@ -43,6 +43,20 @@ pub struct Moments {
     pub ri: Option<f64>,
 }
 
+impl Moments {
+    /// The same values with the other divisor; `None` where that is not positive.
+    pub fn with_divisor(self, from: Deviation, to: Deviation) -> Self {
+        let divisor = |d: Deviation| match d {
+            Deviation::Sample => self.n.saturating_sub(1) as f64,
+            Deviation::Population => self.n as f64,
+        };
+        let factor = (divisor(from) / divisor(to)).sqrt();
+        let factor = Some(factor).filter(|f| f.is_finite() && *f > 0.);
+        let sd = self.sd.zip(factor).map(|(sd, f)| sd * f);
+        Self { sd, ri: self.ri.zip(factor).map(|(ri, f)| ri / f), ..self }
+    }
+}
+
 /// Relative deviation below which values are equal up to rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -75,6 +89,19 @@ mod tests {
         assert_eq!((sample.n, sample.mean, sample.sd), (5, Some(3.), Some(2.5f64.sqrt())));
         assert_eq!(sample.ri, Some(3. / 2.5f64.sqrt()));
         assert_eq!(moments(&values, Deviation::Population).sd, Some(2f64.sqrt()));
+    }
+
+    #[test]
+    fn divisors_convert_into_each_other() {
+        let values = [1., 2., 3., 4., 5.];
+        let [sample, population] = [Deviation::Sample, Deviation::Population].map(|d| moments(&values, d));
+        let found = sample.with_divisor(Deviation::Sample, Deviation::Population);
+        assert!((found.sd.unwrap() - population.sd.unwrap()).abs() < 1e-15);
+        assert!((found.ri.unwrap() - population.ri.unwrap()).abs() < 1e-15);
+        assert_eq!(
+            moments(&[2.], Deviation::Population).with_divisor(Deviation::Population, Deviation::Sample).sd,
+            None
+        );
     }
 
     #[test]

@@ -19,6 +19,8 @@ pub(super) struct PairGrid {
     starts: Vec<usize>,
     xs: Vec<f64>,
     ys: Vec<f64>,
+    /// Which of the points given each sorted point is.
+    given: Vec<usize>,
     reach: f64,
 }
 
@@ -45,32 +47,44 @@ impl PairGrid {
         }
         let mut next = starts.clone();
         let (mut xs, mut ys) = (vec![0.; points.len()], vec![0.; points.len()]);
-        for p in points {
+        let mut given = vec![0; points.len()];
+        for (index, p) in points.iter().enumerate() {
             let slot = &mut next[cell_of(p)];
             xs[*slot] = p.x;
             ys[*slot] = p.y;
+            given[*slot] = index;
             *slot += 1;
         }
-        Self { x0, y0, width, height, torus, columns, rows, starts, xs, ys, reach }
+        Self { x0, y0, width, height, torus, columns, rows, starts, xs, ys, given, reach }
     }
 
     pub(super) fn rows(&self) -> usize {
         self.rows
     }
 
-    /// Visits each pair once, from the point that lies in one of the cell rows `rows`: the first point, and the way from
-    /// it to the second.
-    pub(super) fn visit(&self, rows: std::ops::Range<usize>, mut pair: impl FnMut(Point, f64, f64)) {
+    /// The points given, in the order in which they are visited.
+    pub(super) fn sorted<T: Copy>(&self, of_points: &[T]) -> Vec<T> {
+        self.given.iter().map(|&index| of_points[index]).collect()
+    }
+
+    /// A sorted point.
+    pub(super) fn point(&self, i: usize) -> Point {
+        Point::new(self.xs[i], self.ys[i])
+    }
+
+    /// Visits each pair once, from the point that lies in one of the cell rows `rows`: both as sorted points, and the way
+    /// from the first to the second.
+    pub(super) fn visit(&self, rows: std::ops::Range<usize>, mut pair: impl FnMut(usize, usize, f64, f64)) {
         let (cell_width, cell_height) = (self.width / self.columns as f64, self.height / self.rows as f64);
         // Rounding must not leave out a pair at the very reach.
         let reach = self.reach * (1. + 1e-9);
         let reach2 = self.reach * self.reach;
-        let mut scan = |from: Point, first: usize, last: usize, shift_x: f64, shift_y: f64| {
-            let (x, y) = (from.x - shift_x, from.y - shift_y);
-            for (px, py) in self.xs[first..last].iter().zip(&self.ys[first..last]) {
+        let mut scan = |from: usize, first: usize, last: usize, shift_x: f64, shift_y: f64| {
+            let (x, y) = (self.xs[from] - shift_x, self.ys[from] - shift_y);
+            for (k, (px, py)) in self.xs[first..last].iter().zip(&self.ys[first..last]).enumerate() {
                 let (dx, dy) = (px - x, py - y);
                 if dx * dx + dy * dy <= reach2 {
-                    pair(from, dx, dy);
+                    pair(from, first + k, dx, dy);
                 }
             }
         };
@@ -79,13 +93,12 @@ impl PairGrid {
             for column in 0..self.columns {
                 let cell = row * self.columns + column;
                 for i in self.starts[cell]..self.starts[cell + 1] {
-                    let from = Point::new(self.xs[i], self.ys[i]);
-                    let (x, y) = (from.x - self.x0, from.y - self.y0);
+                    let (x, y) = (self.xs[i] - self.x0, self.ys[i] - self.y0);
                     // Half of the plane: the rest of this row to the right, then the rows below.
-                    scan(from, i + 1, self.starts[cell + 1], 0., 0.);
+                    scan(i, i + 1, self.starts[cell + 1], 0., 0.);
                     let right = ((x + reach) / cell_width).floor() as isize;
                     self.segments(row, column as isize + 1, right, |first, last, shift| {
-                        self.scan_others(i, first, last, shift, 0., from, &mut scan);
+                        self.scan_others(i, first, last, shift, 0., &mut scan);
                     });
                     for down in 1..=rows_down {
                         let below = row + down;
@@ -101,7 +114,7 @@ impl PairGrid {
                         let right = ((x + half) / cell_width).floor() as isize;
                         let shift_y = (below / self.rows) as f64 * self.height;
                         self.segments(below % self.rows, left, right, |first, last, shift| {
-                            self.scan_others(i, first, last, shift, shift_y, from, &mut scan);
+                            self.scan_others(i, first, last, shift, shift_y, &mut scan);
                         });
                     }
                 }
@@ -110,7 +123,6 @@ impl PairGrid {
     }
 
     /// Scans sorted points `first..last`, without point `i` (which is among them only as its own image).
-    #[allow(clippy::too_many_arguments)]
     #[inline]
     fn scan_others(
         &self,
@@ -119,14 +131,13 @@ impl PairGrid {
         last: usize,
         shift_x: f64,
         shift_y: f64,
-        from: Point,
-        scan: &mut impl FnMut(Point, usize, usize, f64, f64),
+        scan: &mut impl FnMut(usize, usize, usize, f64, f64),
     ) {
         if (first..last).contains(&i) {
-            scan(from, first, i, shift_x, shift_y);
-            scan(from, i + 1, last, shift_x, shift_y);
+            scan(i, first, i, shift_x, shift_y);
+            scan(i, i + 1, last, shift_x, shift_y);
         } else {
-            scan(from, first, last, shift_x, shift_y);
+            scan(i, first, last, shift_x, shift_y);
         }
     }
 

@@ -22,7 +22,7 @@ pub enum Kernel {
 
 impl Kernel {
     /// Bandwidths beyond which a pair does not count.
-    fn reach(self) -> f64 {
+    pub(super) fn reach(self) -> f64 {
         match self {
             Self::Gaussian => 6.5,
             Self::Box => 3f64.sqrt(),
@@ -221,7 +221,7 @@ fn estimate(
         match options.edge {
             EdgeCorrection::SetCovariance if options.r_max * spacing > covered => {
                 let mut far = Smoother::new(&options, spacing);
-                grid.visit(rows, |_, dx, dy| {
+                grid.visit(rows, |_, _, dx, dy| {
                     let d = (dx * dx + dy * dy).sqrt();
                     plain.add(d, 1.);
                     far.add(d, weights.translation(dx, dy));
@@ -229,15 +229,16 @@ fn estimate(
                 weighted = Some(far.sums());
             }
             EdgeCorrection::SetCovariance | EdgeCorrection::Torus | EdgeCorrection::None => {
-                grid.visit(rows, |_, dx, dy| plain.add((dx * dx + dy * dy).sqrt(), 1.));
+                grid.visit(rows, |_, _, dx, dy| plain.add((dx * dx + dy * dy).sqrt(), 1.));
             }
             EdgeCorrection::Translation => {
-                grid.visit(rows, |_, dx, dy| {
+                grid.visit(rows, |_, _, dx, dy| {
                     plain.add((dx * dx + dy * dy).sqrt(), weights.translation(dx, dy));
                 });
             }
-            EdgeCorrection::Isotropic => grid.visit(rows, |from, dx, dy| {
+            EdgeCorrection::Isotropic => grid.visit(rows, |from, _, dx, dy| {
                 let d = (dx * dx + dy * dy).sqrt();
+                let from = grid.point(from);
                 plain.add(d, weights.isotropic(from, Point::new(from.x + dx, from.y + dy), d));
             }),
         }
@@ -274,7 +275,7 @@ fn estimate(
 }
 
 /// Sums Σ weight · k(r − d) over pairs, at the left edges of the bins.
-struct Smoother {
+pub(super) struct Smoother {
     kernel: Kernel,
     bins: usize,
     first: f64,
@@ -287,7 +288,7 @@ struct Smoother {
 }
 
 impl Smoother {
-    fn new(options: &PcfOptions, spacing: f64) -> Self {
+    pub(super) fn new(options: &PcfOptions, spacing: f64) -> Self {
         let bin_width = options.bin_width() * spacing;
         let bandwidth = options.bandwidth * spacing;
         let mut smoother = Self {
@@ -319,7 +320,7 @@ impl Smoother {
     }
 
     #[inline]
-    fn add(&mut self, d: f64, weight: f64) {
+    pub(super) fn add(&mut self, d: f64, weight: f64) {
         match self.kernel {
             Kernel::Gaussian => {
                 let at = (d - self.first) * (self.per_bin as f64 / self.bin_width) + self.lead as f64;
@@ -351,7 +352,7 @@ impl Smoother {
         }
     }
 
-    fn sums(self) -> Vec<f64> {
+    pub(super) fn sums(self) -> Vec<f64> {
         if self.kernel != Kernel::Gaussian {
             return self.nodes;
         }

@@ -1,0 +1,262 @@
+use crate::geometry::{Point, Window};
+use crate::mosaic::hexagonal_spacing;
+
+/// The default bandwidth: this share of the window's shorter side, as in spatstat, but at least so many spacings: fewer
+/// would follow single points.
+const SHARE_OF_SIDE: f64 = 1. / 8.;
+const LEAST_SPACINGS: f64 = 2.5;
+/// Grid nodes a bandwidth, and bandwidths after which the kernel ends.
+const NODES: f64 = 6.;
+const REACH: f64 = 4.;
+/// Rows that the cover of a node's cell is summed over.
+const ROWS: usize = 8;
+/// The least intensity, as a share of the mean.
+const LEAST_SHARE: f64 = 0.01;
+
+/// Standard deviation of the kernel where none is given, in units of the coordinates: an eighth of the shorter side of
+/// the window, at least 2.5 hexagonal spacings.
+pub fn default_intensity_bandwidth(n: usize, window: &Window) -> f64 {
+    let bounds = window.bounds();
+    let spacing = hexagonal_spacing(n, window.area()).unwrap_or_default();
+    (SHARE_OF_SIDE * bounds.width().min(bounds.height())).max(LEAST_SPACINGS * spacing)
+}
+
+/// Intensity λ(x) at every point, in points per squared unit, from the *other* points: a Gaussian kernel of standard
+/// deviation `bandwidth` over them, divided by its share within the window (Diggle 1985; leave-one-out as in Baddeley,
+/// Møller & Waagepetersen 2000), scaled so that Σ 1/λ is the window's area, at least 1 % of the mean.
+///
+/// The sums are made on a grid of six nodes a bandwidth, linear in the number of points; that errs by less than 1 %.
+pub(super) fn intensity_at_points(points: &[Point], window: &Window, bandwidth: f64) -> Vec<f64> {
+    let grid = Grid::new(window, bandwidth);
+    let mut counts = vec![0.; grid.columns * grid.rows];
+    let places: Vec<Place> = points.iter().map(|&p| grid.place(p)).collect();
+    for place in &places {
+        place.corners(&grid).for_each(|(node, weight)| counts[node] += weight);
+    }
+    let counts = grid.smoothed(&counts);
+    let cover = grid.smoothed(&grid.cover(window));
+    let cell = grid.step.0 * grid.step.1;
+    let least = LEAST_SHARE * points.len() as f64 / window.area();
+    let mut intensity: Vec<f64> = places
+        .iter()
+        .map(|place| {
+            let at = |field: &[f64]| place.corners(&grid).map(|(node, w)| w * field[node]).sum::<f64>();
+            let own = own_share(&grid.kernel.0, place.x.1) * own_share(&grid.kernel.1, place.y.1);
+            ((at(&counts) - own) / (cell * at(&cover))).max(least)
+        })
+        .collect();
+    let scale = intensity.iter().map(|l| 1. / l).sum::<f64>() / window.area();
+    intensity.iter_mut().for_each(|l| *l *= scale);
+    intensity
+}
+
+/// What a point gives to its own place, along one axis: spread over two nodes, smoothed, and read from both.
+fn own_share(kernel: &[f64], t: f64) -> f64 {
+    let next = kernel.get(1).copied().unwrap_or_default();
+    ((1. - t) * (1. - t) + t * t) * kernel[0] + 2. * t * (1. - t) * next
+}
+
+/// Nodes over the window's bounds, one more on every side; on a torus they close on themselves.
+struct Grid {
+    origin: (f64, f64),
+    step: (f64, f64),
+    columns: usize,
+    rows: usize,
+    torus: bool,
+    /// Weights at 0, 1, 2 … nodes along x and y; over both sides their sum is 1.
+    kernel: (Vec<f64>, Vec<f64>),
+}
+
+/// The node before a point, and how far the point is on the way to the next, along each axis.
+struct Place {
+    x: (usize, f64),
+    y: (usize, f64),
+}
+
+impl Place {
+    /// The four nodes around the point, and their weights.
+    fn corners(&self, grid: &Grid) -> impl Iterator<Item = (usize, f64)> + use<> {
+        let (columns, rows) = (grid.columns, grid.rows);
+        let ((column, t), (row, u)) = (self.x, self.y);
+        [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().map(move |(right, down)| {
+            let weight = if right == 1 { t } else { 1. - t } * if down == 1 { u } else { 1. - u };
+            ((row + down) % rows * columns + (column + right) % columns, weight)
+        })
+    }
+}
+
+impl Grid {
+    fn new(window: &Window, bandwidth: f64) -> Self {
+        let bounds = window.bounds();
+        let torus = window.is_torus();
+        let along = |from: f64, length: f64| {
+            let cells = (length * NODES / bandwidth).ceil().max(1.);
+            let step = length / cells;
+            let nodes = cells as usize + if torus { 0 } else { 3 };
+            let mut kernel: Vec<f64> = (0..=(REACH * bandwidth / step) as usize)
+                .map(|k| (-0.5 * (k as f64 * step / bandwidth).powi(2)).exp())
+                .collect();
+            let sum = 2. * kernel.iter().sum::<f64>() - kernel[0];
+            kernel.iter_mut().for_each(|k| *k /= sum);
+            (from - if torus { 0. } else { step }, step, nodes, kernel)
+        };
+        let (x, step_x, columns, kernel_x) = along(bounds.x0(), bounds.width());
+        let (y, step_y, rows, kernel_y) = along(bounds.y0(), bounds.height());
+        Self { origin: (x, y), step: (step_x, step_y), columns, rows, torus, kernel: (kernel_x, kernel_y) }
+    }
+
+    fn place(&self, p: Point) -> Place {
+        let along = |v: f64, from: f64, step: f64, nodes: usize| {
+            let at = ((v - from) / step).max(0.);
+            let node = (at as usize).min(nodes - 1);
+            (node, (at - node as f64).min(1.))
+        };
+        Place {
+            x: along(p.x, self.origin.0, self.step.0, self.columns),
+            y: along(p.y, self.origin.1, self.step.1, self.rows),
+        }
+    }
+
+    /// How much of each node's cell lies in the window.
+    fn cover(&self, window: &Window) -> Vec<f64> {
+        let bounds = window.bounds();
+        let mut cover = vec![1.; self.columns * self.rows];
+        if self.torus {
+            return cover;
+        }
+        let mut chords = Vec::new();
+        for (row, cells) in cover.chunks_mut(self.columns).enumerate() {
+            cells.fill(0.);
+            for part in 0..ROWS {
+                let offset = (part as f64 + 0.5) / ROWS as f64 - 0.5;
+                let y = self.origin.1 + (row as f64 + offset) * self.step.1;
+                chords.clear();
+                match window {
+                    Window::Polygon(polygon) => polygon.chords(y, &mut chords),
+                    _ if y > bounds.y0() && y < bounds.y1() => chords.push((bounds.x0(), bounds.x1())),
+                    _ => {}
+                }
+                for (column, cell) in cells.iter_mut().enumerate() {
+                    let left = self.origin.0 + (column as f64 - 0.5) * self.step.0;
+                    let right = left + self.step.0;
+                    let inside: f64 = chords.iter().map(|c| (c.1.min(right) - c.0.max(left)).max(0.)).sum();
+                    *cell += inside / (self.step.0 * ROWS as f64);
+                }
+            }
+        }
+        cover
+    }
+
+    fn smoothed(&self, field: &[f64]) -> Vec<f64> {
+        let mut across = vec![0.; field.len()];
+        for (from, to) in field.chunks(self.columns).zip(across.chunks_mut(self.columns)) {
+            for (column, value) in to.iter_mut().enumerate() {
+                *value = self.weighed(&self.kernel.0, column, self.columns, |k| from[k]);
+            }
+        }
+        let mut down = vec![0.; field.len()];
+        for (index, value) in down.iter_mut().enumerate() {
+            let (row, column) = (index / self.columns, index % self.columns);
+            *value = self.weighed(&self.kernel.1, row, self.rows, |k| across[k * self.columns + column]);
+        }
+        down
+    }
+
+    /// Σ kernel · value around `at`; beyond the ends of a bounded grid there is nothing.
+    fn weighed(&self, kernel: &[f64], at: usize, nodes: usize, value: impl Fn(usize) -> f64) -> f64 {
+        let mut sum = kernel[0] * value(at);
+        for (k, weight) in kernel.iter().enumerate().skip(1) {
+            if self.torus {
+                sum += weight * (value((at + k) % nodes) + value((at + nodes - k % nodes) % nodes));
+                continue;
+            }
+            if at + k < nodes {
+                sum += weight * value(at + k);
+            }
+            if at >= k {
+                sum += weight * value(at - k);
+            }
+        }
+        sum
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample::sampler;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    fn uniform(n: usize, window: &Window) -> Vec<Point> {
+        sampler("uniform").unwrap().sample(n, window, &mut ChaCha8Rng::seed_from_u64(4)).unwrap()
+    }
+
+    /// Every pair, exact kernel, the share of the kernel within the window by counting.
+    fn direct(points: &[Point], window: &Window, bandwidth: f64) -> Vec<f64> {
+        let bounds = window.bounds();
+        let kernel = |a: Point, b: Point| {
+            let d2 = (a.x - b.x).powi(2) + (a.y - b.y).powi(2);
+            (-0.5 * d2 / (bandwidth * bandwidth)).exp() / (std::f64::consts::TAU * bandwidth * bandwidth)
+        };
+        let steps = 200;
+        let cell = bounds.area() / f64::from(steps * steps);
+        let places: Vec<Point> = (0..steps * steps)
+            .map(|k| {
+                let (i, j) = (f64::from(k % steps) + 0.5, f64::from(k / steps) + 0.5);
+                let (x, y) = (i / f64::from(steps) * bounds.width(), j / f64::from(steps) * bounds.height());
+                Point::new(bounds.x0() + x, bounds.y0() + y)
+            })
+            .filter(|&p| window.contains(p))
+            .collect();
+        let mut found: Vec<f64> = points
+            .iter()
+            .enumerate()
+            .map(|(i, &p)| {
+                let others = points.iter().enumerate().filter(|&(j, _)| j != i);
+                let sum: f64 = others.map(|(_, &q)| kernel(p, q)).sum();
+                sum / (cell * places.iter().map(|&q| kernel(p, q)).sum::<f64>())
+            })
+            .collect();
+        let scale = found.iter().map(|l| 1. / l).sum::<f64>() / window.area();
+        found.iter_mut().for_each(|l| *l *= scale);
+        found
+    }
+
+    #[test]
+    fn grid_agrees_with_every_pair_within_two_percent() {
+        let corners = [(0., 0.), (3., 0.), (3., 1.), (1., 1.), (1., 2.), (0., 2.)];
+        let ring = corners.iter().map(|&(x, y)| Point::new(x, y)).collect();
+        for window in [Window::rectangle(2., 1., 5., 3.).unwrap(), Window::polygon(vec![ring]).unwrap()] {
+            let points = uniform(300, &window);
+            let found = intensity_at_points(&points, &window, 0.25);
+            for (a, b) in found.iter().zip(direct(&points, &window, 0.25)) {
+                assert!((a / b - 1.).abs() < 0.02, "{a} {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_linear_trend_is_followed() {
+        let window = Window::unit_square();
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        let mut points = uniform(6000, &window);
+        points.retain(|p| rng.random::<f64>() < 1. - 0.6 * p.x);
+        let intensity = intensity_at_points(&points, &window, 0.08);
+        for (p, found) in points.iter().zip(intensity).filter(|(p, _)| (0.1..0.9).contains(&p.x)) {
+            let expected = 6000. * (1. - 0.6 * p.x);
+            assert!((found / expected - 1.).abs() < 0.25, "at {}: {found}, {expected}", p.x);
+        }
+    }
+
+    #[test]
+    fn a_torus_has_no_border() {
+        let points = uniform(400, &Window::unit_torus());
+        let moved: Vec<Point> =
+            points.iter().map(|p| Point::new((p.x + 0.5).fract(), (p.y + 0.25).fract())).collect();
+        let [a, b] = [&points, &moved].map(|p| intensity_at_points(p, &Window::unit_torus(), 0.125));
+        for (a, b) in a.iter().zip(&b) {
+            assert!((a / b - 1.).abs() < 0.02, "{a} {b}");
+        }
+    }
+}
