@@ -135,7 +135,16 @@ fn compare_keeps_the_samplers_asked_for_in_their_order() {
     let row = &place.table("out/l_infinity.csv")[0];
     assert_eq!((row["file"].as_str(), row["closest_sampler"].as_str()), ("a.csv", "jittered"));
     assert!(number(row, "jittered") < number(row, "square"));
-    assert_eq!(place.names("out"), ["l_infinity.csv", "options.json"]);
+    let files = [
+        "a.envelope.csv",
+        "a.verdict.svg",
+        "finding.csv",
+        "l_infinity.csv",
+        "options.json",
+        "regularity.csv",
+        "verdicts.csv",
+    ];
+    assert_eq!(place.names("out"), files);
 }
 
 #[test]

@@ -1,18 +1,15 @@
 use super::failures::write_failures;
-use super::measured::{distances, not_compared, pcf_table, record_of, warnings_of};
+use super::measured::{pcf_table, record_of, warnings_of};
 use super::outputs::OutputFolder;
 use super::region::{Region, Regions};
 use super::work::for_each;
 use super::{BatchError, Failure, Input, Progress, ScaleSource};
-use crate::compare::References;
-use crate::geometry::Window;
+use crate::geometry::{Point, Window};
 use crate::mosaic::io::{ReadOptions, read_coordinates};
 use crate::mosaic::{LengthUnit, Mosaic};
-use crate::report::{Cell, CoordinatesRecord, PowerScale, counted, spectrum_png};
-use crate::sample::Sampler;
+use crate::report::{Cell, CoordinatesRecord, FindingRecord, PowerScale, counted, spectrum_png};
 use crate::stats::{MeasureOptions, Measures, SpectrumOptions, StatsError, measure, spectrum};
 use std::path::Path;
-use std::sync::Arc;
 
 /// How coordinate files are read and measured.
 #[derive(Clone)]
@@ -38,6 +35,8 @@ pub struct CoordinatesOutcome {
     pub records: Vec<CoordinatesRecord>,
     /// Files without results.
     pub failures: Vec<Failure>,
+    /// How regularity hangs together with the distance to each sampler; empty where nothing was compared.
+    pub findings: Vec<FindingRecord>,
 }
 
 /// Writes `summary.csv` (one row a file), `NAME.pcf.csv` (r in hexagonal spacings, g), and `NAME.spectrum.csv` and `.png` if
@@ -57,7 +56,7 @@ pub fn measure_files(
         let (mosaic, outside) = load(input, options, &regions)?;
         let measures = measure(&mosaic, &options.measure);
         let mut record = record(input, &mosaic, outside, &measures, Vec::new());
-        let (header, rows) = pcf_table(measures.pcf.as_ref().ok(), &[]);
+        let (header, rows) = pcf_table(&measures, &[]);
         out.write_table(&format!("{}.pcf.csv", input.name), &header, &rows)?;
         if let Some((power, scale)) = &options.spectrum
             && let Err(missing) = write_spectrum(&out, &input.name, &mosaic, power, *scale)?
@@ -71,7 +70,7 @@ pub fn measure_files(
     out.write_table("summary.csv", &CoordinatesRecord::header(), &rows)?;
     out.write("options.json", &options_json(options, serde_json::Value::Null)?)?;
     write_failures(&out, &failures)?;
-    Ok(CoordinatesOutcome { records, failures })
+    Ok(CoordinatesOutcome { records, failures, findings: Vec::new() })
 }
 
 /// Writes `NAME.spectrum.csv` (frequency in √density, power, anisotropy in dB) and `NAME.spectrum.png`, or says why there is none.
@@ -97,45 +96,11 @@ fn write_spectrum(
     Ok(Ok(()))
 }
 
-/// Writes `l_infinity.csv`: one row a file, one column a sampler.
-///
-/// # Errors
-/// If the file of a window cannot be read or `out` cannot be written to. Files that fail are in the outcome and in `failures.csv`.
-pub fn compare_files(
-    inputs: &[Input],
-    options: &CoordinatesOptions,
-    samplers: &[&'static dyn Sampler],
-    seed: u64,
-    out: &Path,
-    progress: &dyn Progress,
-) -> Result<CoordinatesOutcome, BatchError> {
-    let regions = Regions::new(&options.region, &options.read)?;
-    let out = OutputFolder::create(out)?;
-    let references = References::new(samplers.to_vec(), options.measure.pcf, seed);
-    let (records, failures) = for_each(inputs, progress, |input| {
-        let (mosaic, outside) = load(input, options, &regions)?;
-        let measures = measure(&mosaic, &options.measure);
-        let curves = match &measures.pcf {
-            Ok(_) => references.curves(mosaic.len(), mosaic.window()).unwrap_or_default(),
-            Err(_) => Arc::default(),
-        };
-        let mut record = record(input, &mosaic, outside, &measures, distances(&measures, &curves)?);
-        record.warnings.extend(not_compared(&measures, samplers, &curves));
-        let closest = record.mosaic.closest_sampler().unwrap_or("none");
-        let line = format!("{}, closest to {closest}", line_about(&record));
-        Ok((record, line))
-    });
-    let names: Vec<String> = samplers.iter().map(|s| s.name().to_owned()).collect();
-    let rows: Vec<_> = records.iter().map(|r| r.distance_row(&names)).collect();
-    out.write_table("l_infinity.csv", &CoordinatesRecord::distance_header(&names), &rows)?;
-    let samplers = serde_json::json!({ "names": names, "seed": seed });
-    out.write("options.json", &options_json(options, samplers)?)?;
-    write_failures(&out, &failures)?;
-    Ok(CoordinatesOutcome { records, failures })
-}
-
 /// How coordinates were read and measured, and what they were compared with.
-fn options_json(options: &CoordinatesOptions, samplers: serde_json::Value) -> Result<Vec<u8>, BatchError> {
+pub(super) fn options_json(
+    options: &CoordinatesOptions,
+    samplers: serde_json::Value,
+) -> Result<Vec<u8>, BatchError> {
     let mut json = serde_json::to_vec_pretty(&serde_json::json!({
         "program": "conemosaic",
         "version": env!("CARGO_PKG_VERSION"),
@@ -151,12 +116,12 @@ fn options_json(options: &CoordinatesOptions, samplers: serde_json::Value) -> Re
     Ok(json)
 }
 
-fn line_about(record: &CoordinatesRecord) -> String {
+pub(super) fn line_about(record: &CoordinatesRecord) -> String {
     let ri = record.mosaic.nearest.ri.map(|ri| format!(", RI {ri:.2}")).unwrap_or_default();
     format!("{}{ri}", counted(record.mosaic.n, "point"))
 }
 
-fn record(
+pub(super) fn record(
     input: &Input,
     mosaic: &Mosaic,
     outside: usize,
@@ -172,7 +137,7 @@ fn record(
 }
 
 /// The mosaic in a coordinate file, and how many of its points lie outside the window.
-fn load(
+pub(super) fn load(
     input: &Input,
     options: &CoordinatesOptions,
     regions: &Regions,
@@ -183,6 +148,11 @@ fn load(
         _ => file.unit.unwrap_or(LengthUnit::Pixel),
     };
     let (window, scale) = regions.of(&input.path, unit, &options.scales)?;
+    let mut points = file.points;
+    let expansion = options.scales.expansion();
+    if unit == LengthUnit::Micrometre && expansion != 1. {
+        points.iter_mut().for_each(|p| *p = Point::new(p.x * expansion, p.y * expansion));
+    }
     let window = match window {
         Window::Polygon(_) if options.torus => {
             return Err(BatchError::NoTorus { file: input.path.clone() });
@@ -190,6 +160,6 @@ fn load(
         window if options.torus => Window::Torus(window.bounds()),
         window => window,
     };
-    Mosaic::new(file.points, window, unit, scale)
+    Mosaic::new(points, window, unit, scale)
         .map_err(|source| BatchError::Mosaic { file: input.path.clone(), source })
 }

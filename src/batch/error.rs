@@ -74,6 +74,12 @@ pub enum BatchError {
         /// The file.
         file: PathBuf,
     },
+    /// A shrinkage without a scale to apply it to.
+    #[error("{file}: --shrinkage changes micrometres, but no scale is known: give --um-per-px or another of the scale options", file = file.display())]
+    ShrinkageWithoutScale {
+        /// The file.
+        file: PathBuf,
+    },
     /// An input lies where results take the place of what is there.
     #[error("{file} lies in {folder}, which results are written to: choose another --out folder", folder = folder.display())]
     Overlap {

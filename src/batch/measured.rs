@@ -5,7 +5,7 @@ use crate::geometry::Window;
 use crate::mosaic::Mosaic;
 use crate::report::{Cell, MosaicRecord, SamplerDistance, counted};
 use crate::sample::Sampler;
-use crate::stats::{Measures, Pcf};
+use crate::stats::Measures;
 
 /// Fewer cones than this leave every statistic uncertain: the RI of 30 points scatters by about 15 %.
 const FEW: usize = 30;
@@ -36,6 +36,7 @@ pub(super) fn record_of(
         voronoi: measures.voronoi,
         trend: measures.trend,
         l_infinity,
+        verdicts: Vec::new(),
     }
 }
 
@@ -51,10 +52,14 @@ pub(super) fn distances(
         .collect()
 }
 
-/// Columns r, g, and one g a sampler; no rows where the function is not defined.
-pub(super) fn pcf_table(pcf: Option<&Pcf>, curves: &[ReferenceCurve]) -> (Vec<String>, Vec<Vec<Cell>>) {
+/// Columns r, g, where density varies those that allow for it, and one g a sampler; no rows where the function is not
+/// defined.
+pub(super) fn pcf_table(measures: &Measures, curves: &[ReferenceCurve]) -> (Vec<String>, Vec<Vec<Cell>>) {
+    let pcf = measures.pcf.as_ref().ok();
+    let varying: Vec<(&str, &[f64])> = measures.inhomogeneous.iter().flat_map(|f| f.columns()).collect();
     let header = ["r".to_owned(), "g".to_owned()]
         .into_iter()
+        .chain(varying.iter().map(|(name, _)| (*name).to_owned()))
         .chain(curves.iter().map(|c| format!("g_{}", c.sampler.replace('-', "_"))))
         .collect();
     let rows = pcf
@@ -63,6 +68,7 @@ pub(super) fn pcf_table(pcf: Option<&Pcf>, curves: &[ReferenceCurve]) -> (Vec<St
         .map(|(pcf, k)| {
             [pcf.r[k].into(), pcf.g[k].into()]
                 .into_iter()
+                .chain(varying.iter().map(|(_, values)| values.get(k).copied().into()))
                 .chain(curves.iter().map(|c| c.pcf.g.get(k).copied().into()))
                 .collect()
         })
@@ -104,7 +110,12 @@ pub(super) fn warnings_of(
     }
     if record.trend.significant {
         let ratio = record.trend.density_ratio.map(|r| format!(" about {r:.1}:1")).unwrap_or_default();
-        warnings.push(format!("density varies{ratio} across the window: g(r) assumes that it does not"));
+        let remedy = match measures.inhomogeneous {
+            Some(_) => "; g_inhomogeneous and g_locally_scaled beside it allow for that",
+            None => "",
+        };
+        warnings
+            .push(format!("density varies{ratio} across the window: g(r) assumes that it does not{remedy}"));
     }
     if let Err(error) = &measures.pcf {
         warnings.push(format!("no pair correlation function: {error}"));

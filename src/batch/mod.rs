@@ -1,11 +1,13 @@
 //! Folders of files: finds them, names them, gives them their scale, works through them on all cores, keeps
 //! failures apart. Knows nothing of mathematics.
 
+mod comparison;
 mod coordinates;
 mod crop;
 mod detection;
 mod error;
 mod failures;
+mod image_figure;
 mod image_window;
 mod inputs;
 mod measured;
@@ -16,9 +18,11 @@ mod region;
 mod run;
 mod scales;
 mod validation;
+mod verdicts;
 mod work;
 
-pub use coordinates::{CoordinatesOptions, CoordinatesOutcome, compare_files, measure_files};
+pub use comparison::{CompareOptions, compare_files};
+pub use coordinates::{CoordinatesOptions, CoordinatesOutcome, measure_files};
 pub use crop::Crop;
 pub use detection::{DetectionExtras, DetectionOutcome, detect_files};
 pub use error::BatchError;

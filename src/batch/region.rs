@@ -115,6 +115,7 @@ impl<'a> Regions<'a> {
         };
         let scale = match unit {
             LengthUnit::Unit => None,
+            LengthUnit::Micrometre if scales.is_unknown() => None,
             LengthUnit::Pixel | LengthUnit::Micrometre => {
                 scales.scale_of(file, width.round().max(1.) as usize)?
             }
@@ -126,6 +127,10 @@ impl<'a> Regions<'a> {
         let window = match (given, unit) {
             (LengthUnit::Pixel, LengthUnit::Micrometre) => window.scaled(um_per_px()?)?,
             (LengthUnit::Micrometre, LengthUnit::Pixel) => window.scaled(1. / um_per_px()?)?,
+            // as its coordinates, see `load`
+            (LengthUnit::Micrometre, LengthUnit::Micrometre) if scales.expansion() != 1. => {
+                window.scaled(scales.expansion())?
+            }
             _ => window,
         };
         Ok((window, scale))

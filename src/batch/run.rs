@@ -1,18 +1,18 @@
 use super::detection::{describe, detect_in, overlay_of, read_image, write_detections};
 use super::failures::write_failures;
+use super::image_figure::figure;
 use super::image_window::ImageWindows;
 use super::measured::{distances, not_compared, pcf_table, record_of, warnings_of};
 use super::outputs::OutputFolder;
+use super::verdicts::{self, envelope_table, verdicts_on};
 use super::work::for_each;
 use super::{BatchError, Crop, Failure, ImageWindow, Input, Progress, ScaleSource};
-use crate::compare::{ReferenceCurve, References};
+use crate::compare::{ReferenceCurve, References, SamplerVerdict, VerdictOptions};
 use crate::detect::{DetectOptions, Detections, weights};
 use crate::geometry::Window;
 use crate::image::Plane;
 use crate::mosaic::{LengthUnit, Mosaic, Scale};
-use crate::report::{
-    Curve, DetectionRecord, ImageRecord, MosaicFigure, MosaicRecord, ReferenceLine, mosaic_figure, page,
-};
+use crate::report::{DetectionRecord, ImageRecord, VerdictRecord, page};
 use crate::sample::Sampler;
 use crate::stats::{Histogram, MeasureOptions, Measures, PcfOptions, measure};
 use serde::Serialize;
@@ -26,6 +26,8 @@ const IMAGES: &str = "images";
 const METRICS: &str = "metrics.json";
 /// What an image's folder holds.
 const FILES: [&str; 5] = ["points.csv", "overlay.png", "pcf.csv", METRICS, "figure.svg"];
+/// And with verdicts.
+const VERDICT_FILES: [&str; 2] = ["envelope.csv", "verdict.svg"];
 
 /// Options of the main job.
 #[derive(Clone)]
@@ -36,6 +38,8 @@ pub struct RunOptions {
     pub measure: MeasureOptions,
     /// What they are compared with.
     pub samplers: Vec<&'static dyn Sampler>,
+    /// Simulate each sampler at every mosaic's own n and window; `None`: distances only.
+    pub verdict: Option<VerdictOptions>,
     /// Seed of the samplers.
     pub seed: u64,
     /// Where scales come from.
@@ -110,6 +114,7 @@ pub fn run_files(
     progress: &dyn Progress,
 ) -> Result<RunOutcome, BatchError> {
     let started = Instant::now();
+    options.verdict.iter().try_for_each(VerdictOptions::validate)?;
     refuse_overlap(inputs, &out.join(IMAGES))?;
     let windows = ImageWindows::new(&options.window, options.crop.as_ref())?;
     let out = OutputFolder::create(out)?;
@@ -118,7 +123,7 @@ pub fn run_files(
     let (done, failures) = for_each(inputs, progress, |input| {
         one_image(input, options, &windows, &references, &images).inspect_err(|_| {
             // results of an earlier run would look like this one's; what cannot be removed is not ours
-            let _ = images.remove_results(&input.name, &FILES);
+            let _ = images.remove_results(&input.name, &known_files());
         })
     });
     write_failures(&out, &failures)?;
@@ -126,6 +131,17 @@ pub fn run_files(
     let samplers: Vec<String> = options.samplers.iter().map(|s| s.name().to_owned()).collect();
     let rows: Vec<_> = done.iter().map(|d| d.record.row(&samplers)).collect();
     out.write_table("summary.csv", &ImageRecord::header(&samplers), &rows)?;
+    if options.verdict.is_some() {
+        let verdicts = |d: &Done| {
+            let record = &d.record;
+            record.mosaic.verdicts.iter().map(|v| v.row(&record.file)).collect::<Vec<_>>()
+        };
+        out.write_table(
+            "verdicts.csv",
+            &VerdictRecord::header(),
+            &done.iter().flat_map(verdicts).collect::<Vec<_>>(),
+        )?;
+    }
     let records: Vec<ImageRecord> = done.iter().map(|d| d.record.clone()).collect();
     let reasons: Vec<(&str, &str)> = failures.iter().map(|f| (f.file.as_str(), f.reason.as_str())).collect();
     out.write("index.html", page(&records, &reasons, &samplers).as_bytes())?;
@@ -187,11 +203,15 @@ fn one_image(
         Ok(_) => references.curves(mosaic.len(), &window).unwrap_or_default(),
         Err(_) => Arc::default(),
     };
-    let mosaic_record = record_of(&mosaic, &measures, distances(&measures, &curves)?);
+    let (verdicts, no_verdicts) =
+        verdicts_on(&mosaic, &measures, &options.samplers, options.verdict.as_ref(), options.seed);
+    let mut mosaic_record = record_of(&mosaic, &measures, distances(&measures, &curves)?);
+    mosaic_record.verdicts = verdicts::records(&verdicts);
     lap(&mut seconds.compare);
 
     let mut warnings = warnings_of(Some(&found), &mosaic_record, &measures);
     warnings.extend(not_compared(&measures, &options.samplers, &curves));
+    warnings.extend(no_verdicts);
     let record = ImageRecord {
         file: input.path.display().to_string(),
         name: input.name.clone(),
@@ -216,8 +236,9 @@ fn one_image(
         warnings,
         mosaic: mosaic_record,
     };
-    images.replace_folder(&input.name, &FILES, |folder| {
-        write_image_folder(folder, &image, &found, &mosaic, &measures, &curves, &record)
+    images.replace_folder(&input.name, &known_files(), |folder| {
+        write_image_folder(folder, &image, &found, &mosaic, &measures, &curves, &record)?;
+        write_verdicts(folder, &measures, &verdicts, &record.name)
     })?;
     lap(&mut seconds.report);
     let line = describe(&found);
@@ -234,6 +255,25 @@ fn one_image(
     Ok((Done { record, seconds: Some(seconds) }, line))
 }
 
+/// Every file that an image's folder of results may hold.
+fn known_files() -> Vec<&'static str> {
+    [&FILES[..], &VERDICT_FILES].concat()
+}
+
+fn write_verdicts(
+    folder: &OutputFolder,
+    measures: &Measures,
+    verdicts: &[SamplerVerdict],
+    name: &str,
+) -> Result<(), BatchError> {
+    if verdicts.is_empty() {
+        return Ok(());
+    }
+    let (header, rows) = envelope_table(measures, verdicts);
+    folder.write_table("envelope.csv", &header, &rows)?;
+    folder.write("verdict.svg", verdicts::figure(name, measures, verdicts)?.as_bytes())
+}
+
 fn write_image_folder(
     folder: &OutputFolder,
     image: &Plane,
@@ -245,7 +285,7 @@ fn write_image_folder(
 ) -> Result<(), BatchError> {
     write_detections(&folder.join("points.csv"), &found.cones, mosaic.scale())?;
     folder.write("overlay.png", &overlay_of(image, found)?)?;
-    let (header, rows) = pcf_table(measures.pcf.as_ref().ok(), curves);
+    let (header, rows) = pcf_table(measures, curves);
     folder.write_table("pcf.csv", &header, &rows)?;
     folder.write(METRICS, &metrics_json(record, measures, curves)?)?;
     let figure = figure(&record.name, Some(image), mosaic, measures, &record.mosaic, curves)?;
@@ -268,42 +308,6 @@ fn metrics_json(
     Ok(json)
 }
 
-/// The paper's row for a mosaic.
-fn figure(
-    title: &str,
-    picture: Option<&Plane>,
-    mosaic: &Mosaic,
-    measures: &Measures,
-    record: &MosaicRecord,
-    curves: &[ReferenceCurve],
-) -> Result<String, BatchError> {
-    let references: Vec<ReferenceLine> = curves
-        .iter()
-        .map(|c| ReferenceLine {
-            name: &c.sampler,
-            r: &c.pcf.r,
-            g: &c.pcf.g,
-            l_infinity: record.l_infinity.iter().find(|d| d.sampler == c.sampler).map(|d| d.l_infinity),
-        })
-        .collect();
-    Ok(mosaic_figure(&MosaicFigure {
-        title,
-        picture,
-        points: mosaic.points(),
-        window: mosaic.window(),
-        unit: mosaic.unit(),
-        um_per_unit: mosaic.micrometres_per_unit(),
-        nn: &measures.neighbours.distances,
-        nn_mean: measures.nearest.mean,
-        nn_sd: measures.nearest.sd,
-        ri: measures.nearest.ri,
-        histogram_edges: &measures.histogram.edges,
-        histogram_counts: &measures.histogram.counts,
-        pcf: measures.pcf.as_ref().ok().map(|p| Curve { r: &p.r, g: &p.g }),
-        references: &references,
-    })?)
-}
-
 /// What identifies the options that one image's results depend on, the networks' weights among them.
 fn fingerprint(options: &RunOptions, scale: Option<Scale>, window: &Window) -> Result<String, BatchError> {
     let samplers: Vec<&str> = options.samplers.iter().map(|s| s.name()).collect();
@@ -312,6 +316,7 @@ fn fingerprint(options: &RunOptions, scale: Option<Scale>, window: &Window) -> R
         &options.detect,
         &options.measure,
         samplers,
+        options.verdict,
         options.seed,
         scale,
         window,
@@ -329,6 +334,10 @@ fn earlier(images: &OutputFolder, input: &Input, sha256: &str, options_sha256: &
     }
     let text = fs::read(folder.join(METRICS)).ok()?;
     let record: ImageRecord = serde_json::from_slice(&text).ok()?;
+    let files_of_verdicts = || VERDICT_FILES.iter().all(|file| folder.join(file).is_file());
+    if !record.mosaic.verdicts.is_empty() && !files_of_verdicts() {
+        return None;
+    }
     let same = record.sha256 == sha256 && record.options_sha256 == options_sha256;
     same.then(|| ImageRecord { file: input.path.display().to_string(), name: input.name.clone(), ..record })
 }
@@ -355,6 +364,7 @@ fn run_json(
             "detect": options.detect,
             "measure": options.measure,
             "samplers": options.samplers.iter().map(|s| s.name()).collect::<Vec<_>>(),
+            "verdict": options.verdict,
             "window": options.window.to_string(),
             "crop": options.crop.map(|c| c.to_string()),
             "scale": options.scales.describe(),

@@ -24,6 +24,13 @@ pub enum ScaleSource {
         /// Whether an image may be missing from it.
         optional: bool,
     },
+    /// Of tissue that has shrunk by this share of its living length, 0–.9: what another source says of the slide.
+    Shrunk {
+        /// The scale of the slide.
+        slide: Box<Self>,
+        /// Share of the living length that is lost.
+        shrinkage: f64,
+    },
 }
 
 impl ScaleSource {
@@ -34,10 +41,30 @@ impl ScaleSource {
             Self::Given(scale) => format!("{} µm/px for all images", scale.micrometres_per_pixel()),
             Self::FieldWidth { um, .. } => format!("fields {um} µm wide"),
             Self::Table { table, .. } => format!("table of {} identifiers", table.len()),
+            Self::Shrunk { slide, shrinkage } => {
+                format!("{}; tissue shrunk by {} % of its length", slide.describe(), 100. * shrinkage)
+            }
         }
     }
 
-    /// The scale of an image of `width` px.
+    /// Whether no scale is given for any image.
+    pub fn is_unknown(&self) -> bool {
+        match self {
+            Self::Unknown => true,
+            Self::Shrunk { slide, .. } => slide.is_unknown(),
+            Self::Given(_) | Self::FieldWidth { .. } | Self::Table { .. } => false,
+        }
+    }
+
+    /// Living length over length on the slide: 1 unless tissue has shrunk.
+    pub fn expansion(&self) -> f64 {
+        match self {
+            Self::Shrunk { shrinkage, .. } => 1. / (1. - shrinkage),
+            _ => 1.,
+        }
+    }
+
+    /// The scale of an image of `width` px: micrometres of living tissue.
     ///
     /// # Errors
     /// If the table has no row for it, or several.
@@ -47,6 +74,16 @@ impl ScaleSource {
             Self::Given(scale) => Ok(Some(*scale)),
             Self::FieldWidth { um, um_per_degree } => {
                 Ok(Some(Scale::new(um / width as f64, *um_per_degree)?))
+            }
+            Self::Shrunk { slide, .. } if slide.is_unknown() => {
+                Err(BatchError::ShrinkageWithoutScale { file: path.to_owned() })
+            }
+            Self::Shrunk { slide, .. } => {
+                let scale = slide.scale_of(path, width)?;
+                let alive = |s: Scale| {
+                    Scale::new(s.micrometres_per_pixel() * self.expansion(), s.micrometres_per_degree())
+                };
+                Ok(scale.map(alive).transpose()?)
             }
             Self::Table { table, optional } => {
                 let name = path.file_name().unwrap_or_default().to_string_lossy();

@@ -5,7 +5,8 @@ use super::short_table;
 use super::{Done, compare::samplers_named};
 use anyhow::{Result, bail};
 use clap::Args;
-use conemosaic::batch::{Crop, ImageWindow, RunOptions, RunOutcome, ScaleSource, image_files, run_files};
+use conemosaic::batch::{Crop, ImageWindow, RunOptions, RunOutcome, image_files, run_files};
+use conemosaic::compare::VerdictOptions;
 use conemosaic::report::{Cell, by_need, counted, expected_errors, significant};
 use conemosaic::stats::MeasureOptions;
 use std::path::PathBuf;
@@ -24,6 +25,8 @@ Writes to report/:
   images/NAME/figure.svg    picture, points, nearest neighbours, g(r)
   images/NAME/pcf.csv       g(r) of the mosaic and the samplers (r in spacings)
   images/NAME/metrics.json  everything measured
+  verdicts.csv              with --verdict: one row an image and sampler; and of each image
+                            envelope.csv and verdict.svg
   run.json                  version, options, seed, hashes of the inputs, timings
   failures.csv              images that failed, if any; then the exit code is 2")]
 pub struct Run {
@@ -39,6 +42,13 @@ pub struct Run {
     /// `conemosaic sample --list`]
     #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
     samplers: Vec<String>,
+    /// Also simulate every sampler at each mosaic's own number of cones and window: the p-value of each, and the
+    /// distances at which it differs
+    #[arg(long)]
+    verdict: bool,
+    /// Simulations of each sampler for --verdict (39–9999)
+    #[arg(long, value_name = "N", requires = "verdict", default_value_t = VerdictOptions::default().simulations)]
+    simulations: usize,
     /// The area that counts, for cones as for density: auto (all that was imaged: black margins and the corners between
     /// tiles of a montage are left out), image (all of it), WxH (centred) or X0,Y0,X1,Y1, in px, or in µm with um behind
     /// it, or a FILE of corners: CSV of x,y in px (x_um,y_um: in µm; a blank line or a column “ring” parts rings, rings
@@ -61,6 +71,9 @@ impl Run {
             detect: self.detect.options()?,
             measure: MeasureOptions::default(),
             samplers: samplers_named(&self.samplers)?,
+            verdict: self
+                .verdict
+                .then(|| VerdictOptions { simulations: self.simulations, ..VerdictOptions::default() }),
             seed: common.seed,
             scales: self.scale.source()?,
             window: self.window.clone(),
@@ -74,7 +87,7 @@ impl Run {
         };
         for (option, rectangle) in window.into_iter().chain(options.crop.iter().map(|crop| ("--crop", crop)))
         {
-            if matches!(options.scales, ScaleSource::Unknown) && rectangle.in_micrometres() {
+            if options.scales.is_unknown() && rectangle.in_micrometres() {
                 bail!("{option} {rectangle} needs a scale: give --um-per-px or another of the scale options");
             }
         }

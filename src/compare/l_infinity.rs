@@ -39,6 +39,12 @@ pub enum CompareError {
         /// Why.
         source: StatsError,
     },
+    /// Too few or too many simulations, or a level that is none.
+    #[error("a verdict of {found} simulations: it needs 39 to 9999, and a level between 0 and 0.5")]
+    Simulations {
+        /// How many were asked for.
+        found: usize,
+    },
     /// A sampler stopped without a result, by a fault of its own.
     #[error("sampler {sampler} stopped without a result: please report it with the command you ran")]
     Interrupted {

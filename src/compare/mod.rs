@@ -13,6 +13,7 @@ mod reliability;
 mod sign_flip;
 mod summary;
 mod validation;
+mod verdict;
 
 pub use agreement::{Agreement, agreement};
 pub use bootstrap::{Interval, RESAMPLES, bootstrap};
@@ -26,6 +27,7 @@ pub use reliability::{Reliability, ReliabilityBin, reliability};
 pub use sign_flip::sign_flip_test;
 pub use summary::{Summary, intervals, summarise};
 pub use validation::{Rates, Score, validate};
+pub use verdict::{Envelope, SamplerVerdict, VerdictOptions, verdict};
 
 /// The middle value, or the mean of the two middle ones; `None` without values.
 fn median(values: &mut [f64]) -> Option<f64> {

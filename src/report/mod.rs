@@ -4,6 +4,7 @@ mod cell;
 mod csv;
 mod error;
 mod figure;
+mod finding;
 mod grey;
 mod ink;
 mod overlay;
@@ -13,14 +14,16 @@ mod spectrum;
 mod table;
 mod validation;
 mod validation_page;
+mod verdict;
 
 pub use cell::Cell;
 pub use csv::write_csv;
 pub use error::ReportError;
 pub use figure::{
-    AgreementLine, AgreementPanel, Curve, FrocLine, MosaicFigure, ReferenceLine, ReliabilityFigure,
-    agreement_figure, froc_figure, mosaic_figure, reliability_figure,
+    AgreementLine, AgreementPanel, Curve, EnvelopePanel, FrocLine, MosaicFigure, ReferenceLine,
+    ReliabilityFigure, agreement_figure, envelope_figure, froc_figure, mosaic_figure, reliability_figure,
 };
+pub use finding::FindingRecord;
 pub use overlay::{MarkKind, OverlayMark, encode_png, overlay, overlay_with_border};
 pub use page::{expected_errors, page};
 pub use record::{CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord, SamplerDistance, by_need};
@@ -30,3 +33,4 @@ pub use validation::{
     TextTable, accuracy_table, agreement_table, comparison_table, group_table, threshold_table,
 };
 pub use validation_page::{ScoredImage, ValidationPage, validation_page};
+pub use verdict::VerdictRecord;

@@ -121,6 +121,10 @@ fn one(k: usize, record: &ImageRecord) -> Markup {
             @for warning in &record.warnings { p.warning { "⚠ " (warning) } }
             @if record.mosaic.outline.is_some() { p.lead { (outlined(record)) } }
             figure { img loading="lazy" src=(format!("{folder}/figure.svg")) alt=(format!("Figure of {}", record.name)); }
+            @if !record.mosaic.verdicts.is_empty() {
+                ul.verdicts { @for verdict in &record.mosaic.verdicts { li { (verdict.words()) } } }
+                figure { img loading="lazy" src=(format!("{folder}/verdict.svg")) alt=(format!("g(r) of {} in the envelopes of samplers", record.name)); }
+            }
             nav {
                 @for (file, words) in
                     [("overlay.png", "cones on the image"), ("points.csv", "points"), ("pcf.csv", "g(r)"), ("metrics.json", "all numbers")]

@@ -1,6 +1,6 @@
 //! What is known of one mosaic, in the form in which it is written to files.
 
-use super::Cell;
+use super::{Cell, VerdictRecord};
 use crate::detect::{Detector, Modality, Polarity};
 use crate::geometry::Polygon;
 use crate::mosaic::LengthUnit;
@@ -39,6 +39,9 @@ pub struct MosaicRecord {
     pub trend: Trend,
     /// Distance of pair correlation functions to each sampler, in the order of the samplers.
     pub l_infinity: Vec<SamplerDistance>,
+    /// What simulations of each sampler say of it, if that was asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub verdicts: Vec<VerdictRecord>,
 }
 
 /// l-infinity distance of a mosaic's pair correlation function to the mean one of a sampler.
@@ -276,6 +279,30 @@ impl CoordinatesRecord {
             .chain(cells(ORDER_COLUMNS, &self.mosaic))
             .chain([self.warnings.join("; ").as_str().into()])
             .collect()
+    }
+
+    /// Columns of `regularity.csv`, in the form of Table 1 of Lanaro et al. (population deviation), and with the sample's.
+    pub fn regularity_header() -> Vec<String> {
+        ["file", "unit", "nn_mean", "nn_sd_population", "ri_population", "nn_sd_sample", "ri_sample", "n"]
+            .map(str::to_owned)
+            .into()
+    }
+
+    /// The row under [`Self::regularity_header`]: nearest-neighbour distances of all points.
+    pub fn regularity_row(&self) -> Vec<Cell> {
+        let nearest = self.mosaic.nearest;
+        let [population, sample] = [Deviation::Population, Deviation::Sample]
+            .map(|d| nearest.with_divisor(self.mosaic.deviation, d));
+        vec![
+            self.file.as_str().into(),
+            self.mosaic.unit.symbol().into(),
+            nearest.mean.into(),
+            population.sd.into(),
+            population.ri.into(),
+            sample.sd.into(),
+            sample.ri.into(),
+            nearest.n.into(),
+        ]
     }
 
     /// Columns of `l_infinity.csv`: the file, one column a sampler, then what helps to read them.

@@ -3,7 +3,7 @@ use base64::prelude::BASE64_STANDARD;
 use kuva::backend::svg::SvgBackend;
 use kuva::render::axis::add_axes_and_grid;
 use kuva::render::layout::{ComputedLayout, Layout};
-use kuva::render::render::{Primitive, Scene, TextAnchor};
+use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 use std::fmt::Write;
 
 /// Width of the page in canvas units: a quarter of a millimetre each, so that it prints 180 mm wide and a text of
@@ -144,6 +144,23 @@ impl Canvas {
             stroke_width: width,
             stroke_dasharray: dash.map(str::to_owned),
         });
+    }
+
+    /// A filled outline.
+    pub(super) fn polygon(&mut self, corners: &[(f64, f64)], colour: &str) {
+        let mut d = String::with_capacity(16 * corners.len());
+        for (k, (x, y)) in corners.iter().enumerate() {
+            let _ = write!(d, "{}{x:.2} {y:.2} ", if k == 0 { 'M' } else { 'L' });
+        }
+        d.push('Z');
+        self.scene.add(Primitive::Path(Box::new(PathData {
+            d,
+            fill: Some(colour.into()),
+            stroke: "none".into(),
+            stroke_width: 0.,
+            opacity: None,
+            stroke_dasharray: None,
+        })));
     }
 
     pub(super) fn bar(&mut self, area: Area, colour: &str) {

@@ -13,7 +13,7 @@ const SPIKE_FLOOR: f64 = 3.;
 const LINE: f64 = 11.;
 const SWATCH: f64 = 15.;
 
-fn style(index: usize) -> (&'static str, Option<&'static str>) {
+pub(super) fn style(index: usize) -> (&'static str, Option<&'static str>) {
     (COLOURS[index % COLOURS.len()], DASHES[(index + index / COLOURS.len()) % DASHES.len()])
 }
 
@@ -97,13 +97,13 @@ fn finite(curve: Curve<'_>) -> impl Iterator<Item = (f64, f64)> {
 }
 
 /// Up to the next half spacing where that is near: bins named by their left edges end a hair before a tick.
-fn axis_end(r_max: f64) -> f64 {
+pub(super) fn axis_end(r_max: f64) -> f64 {
     let tick = (r_max * 2.).ceil() / 2.;
     if tick - r_max < 0.03 * r_max { tick } else { r_max }
 }
 
 /// The stretches of a curve without gaps, up to `r_max` and cut where they leave 0..`g_max`.
-fn runs(curve: Curve, r_max: f64, g_max: f64) -> Vec<Vec<(f64, f64)>> {
+pub(super) fn runs(curve: Curve, r_max: f64, g_max: f64) -> Vec<Vec<(f64, f64)>> {
     let mut runs = vec![vec![]];
     let points: Vec<_> = curve.r.iter().copied().zip(curve.g.iter().copied()).collect();
     for pair in points.windows(2) {

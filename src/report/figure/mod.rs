@@ -4,6 +4,7 @@
 mod agreement;
 mod canvas;
 mod correlation;
+mod envelope;
 mod field;
 mod froc;
 mod neighbours;
@@ -17,6 +18,7 @@ use crate::image::Plane;
 use crate::mosaic::LengthUnit;
 pub use agreement::{AgreementLine, AgreementPanel, agreement_figure};
 use canvas::{Anchor, Canvas, Style};
+pub use envelope::{EnvelopePanel, envelope_figure};
 pub use froc::{FrocLine, froc_figure};
 use page::Page;
 pub use reliability::{ReliabilityFigure, reliability_figure};

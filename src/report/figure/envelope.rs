@@ -1,0 +1,118 @@
+use super::canvas::{self, Anchor, Area, Canvas, FRAME, INK, Ranges, Style, round_above};
+use super::correlation::axis_end;
+use super::page::{LEFT_EDGE, TITLE_BASELINE};
+use super::{Curve, ReportError};
+
+/// Read by screen readers.
+const DESCRIPTION: &str = "The pair correlation function of a mosaic (black) in the global 95 % envelope of simulations of \
+    each sampler (band) around their mean (thin line): one panel a sampler. Where the curve leaves the band it is drawn red.";
+
+const COLUMNS: usize = 3;
+const PANEL: (f64, f64) = (184., 118.);
+const AXIS_ROOM: f64 = 44.;
+const ROW_HEAD: f64 = 30.;
+const AXIS_DEPTH: f64 = 36.;
+const BAND: &str = "#9ecae1";
+const MEAN: &str = "#0072B2";
+const OUTSIDE: &str = "#D55E00";
+
+/// One sampler's panel. All curves are on the same distances.
+#[derive(Clone, Copy, Debug)]
+pub struct EnvelopePanel<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Above the panel, behind the name: the p-value.
+    pub note: &'a str,
+    /// Mean of the simulations.
+    pub mean: &'a [f64],
+    /// Lower edge of the envelope.
+    pub low: &'a [f64],
+    /// Upper edge of the envelope.
+    pub high: &'a [f64],
+}
+
+/// The mosaic's pair correlation function in the envelope of each sampler, as a self-contained SVG, 180 mm wide.
+///
+/// # Errors
+/// If curves differ in length.
+pub fn envelope_figure(title: &str, mosaic: Curve, panels: &[EnvelopePanel]) -> Result<String, ReportError> {
+    let bins = mosaic.r.len();
+    for (name, curve) in [("the mosaic", mosaic.g)]
+        .into_iter()
+        .chain(panels.iter().flat_map(|p| [p.mean, p.low, p.high].map(|curve| (p.name, curve))))
+    {
+        if curve.len() != bins {
+            return Err(ReportError::Curve { name: name.to_owned(), r: bins, g: curve.len() });
+        }
+    }
+    let rows = panels.len().div_ceil(COLUMNS).max(1);
+    let row_height = ROW_HEAD + PANEL.1 + AXIS_DEPTH;
+    let mut canvas = Canvas::new(TITLE_BASELINE + 4. + rows as f64 * row_height);
+    let fitted = canvas::fit(title, Style::Title, canvas::PAGE_WIDTH - 2. * LEFT_EDGE);
+    canvas.text(LEFT_EDGE, TITLE_BASELINE, &fitted, Style::Title, Anchor::Start);
+    let highest = panels.iter().flat_map(|p| p.high).chain(mosaic.g).copied().filter(|v| v.is_finite());
+    let highest = highest.fold(1., f64::max) * 1.05;
+    let x = (0., axis_end(mosaic.r.last().copied().unwrap_or(1.)));
+    for (k, panel) in panels.iter().enumerate() {
+        let area = Area {
+            x: AXIS_ROOM + (k % COLUMNS) as f64 * (PANEL.0 + AXIS_ROOM + 6.),
+            y: TITLE_BASELINE + 4. + ROW_HEAD + (k / COLUMNS) as f64 * row_height,
+            width: PANEL.0,
+            height: PANEL.1,
+        };
+        let heading = format!("{}  {}", panel.name, panel.note);
+        canvas.text(area.x, area.y - 7., &heading, Style::Axis, Anchor::Start);
+        draw(&mut canvas, area, Ranges { x, y: (0., highest) }, mosaic, panel);
+    }
+    Ok(canvas.into_svg(title, DESCRIPTION))
+}
+
+fn draw(canvas: &mut Canvas, area: Area, ranges: Ranges, mosaic: Curve, panel: &EnvelopePanel) {
+    let step = round_above(ranges.y.1 / 4.);
+    let place = canvas.axes(area, ranges, ("r / hexagonal spacing", "g(r)"), step);
+    let along = |values: &[f64]| -> Vec<(f64, f64)> {
+        mosaic.r.iter().zip(values).map(|(&r, &g)| place(r, g)).collect()
+    };
+    let band: Vec<_> = along(panel.low).into_iter().chain(along(panel.high).into_iter().rev()).collect();
+    canvas.polygon(&band, BAND);
+    canvas.line(place(ranges.x.0, 1.), place(ranges.x.1, 1.), FRAME, 0.6);
+    canvas.polyline(along(panel.mean), MEAN, 0.8, None);
+    canvas.polyline(along(mosaic.g), INK, 1.6, None);
+    // edges are rounded to three decimals
+    let within = |bin: usize| (panel.low[bin] - 6e-4..=panel.high[bin] + 6e-4).contains(&mosaic.g[bin]);
+    let mut bin = 0;
+    while bin < mosaic.r.len() {
+        let run = (bin..mosaic.r.len()).take_while(|&b| !within(b)).count();
+        if run > 0 {
+            // half a bin on either side, so that a single bin is seen
+            let span = bin.saturating_sub(1)..(bin + run + 1).min(mosaic.r.len());
+            let points = span.map(|b| place(mosaic.r[b], mosaic.g[b])).collect();
+            canvas.polyline(points, OUTSIDE, 2.2, None);
+        }
+        bin += run + 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panel_a_sampler_and_red_only_where_the_curve_leaves_the_band() {
+        let r: Vec<f64> = (0..20).map(|k| 0.15 + 0.1 * f64::from(k)).collect();
+        let (low, mean, high) = (vec![0.8; 20], vec![1.; 20], vec![1.2; 20]);
+        let panel = EnvelopePanel { name: "bnot", note: "p = 0.3", mean: &mean, low: &low, high: &high };
+        let drawn = |g: &[f64], panels: &[EnvelopePanel]| {
+            envelope_figure("a", Curve { r: &r, g }, panels).unwrap().to_uppercase()
+        };
+        let inside = drawn(&mean, &[panel; 4]);
+        assert_eq!(inside.matches("BNOT  P = 0.3").count(), 4);
+        assert!(!inside.contains(OUTSIDE) && inside.contains(&BAND.to_uppercase()));
+        let mut g = mean.clone();
+        g[7] = 2.;
+        assert!(drawn(&g, &[panel]).contains(OUTSIDE));
+        let svg = envelope_figure("a", Curve { r: &r, g: &g }, &[panel]).unwrap();
+        roxmltree::Document::parse(&svg).unwrap();
+        assert!(envelope_figure("a", Curve { r: &r, g: &[1.] }, &[panel]).is_err());
+    }
+}

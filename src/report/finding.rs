@@ -1,0 +1,76 @@
+use super::{Cell, counted, significant};
+use crate::stats::{FEWEST_PAIRS, RankCorrelation};
+
+/// How the regularity of mosaics hangs together with their distance to a sampler: the main finding of Lanaro et al. is
+/// that the more regular ones are nearer to BNOT and farther from dart throwing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FindingRecord {
+    /// Name of the sampler.
+    pub sampler: String,
+    /// Mosaics that have both numbers.
+    pub mosaics: usize,
+    /// Spearman's ρ between regularity index and l-infinity, and its permutation p-value; `None` if not defined.
+    pub correlation: Option<RankCorrelation>,
+}
+
+impl FindingRecord {
+    /// Columns of `finding.csv`.
+    pub fn header() -> Vec<String> {
+        ["sampler", "mosaics", "spearman_rho_of_ri_and_l_infinity", "p_value", "in_words"]
+            .map(str::to_owned)
+            .into()
+    }
+
+    /// The row under [`Self::header`].
+    pub fn row(&self) -> Vec<Cell> {
+        vec![
+            self.sampler.as_str().into(),
+            self.mosaics.into(),
+            self.correlation.map(|c| c.rho).into(),
+            self.correlation.map(|c| c.p_value).into(),
+            self.words().as_str().into(),
+        ]
+    }
+
+    /// Why there is no correlation, if there is none.
+    pub fn reason(&self) -> String {
+        if self.mosaics < FEWEST_PAIRS {
+            let found = counted(self.mosaics, "mosaic");
+            format!("not tested, {found} with a regularity index: it needs {FEWEST_PAIRS}")
+        } else {
+            "not tested: the mosaics do not differ".to_owned()
+        }
+    }
+
+    /// One sentence, or why there is none.
+    pub fn words(&self) -> String {
+        let sampler = &self.sampler;
+        let Some(c) = self.correlation else { return format!("{sampler}: {}", self.reason()) };
+        let direction = if c.rho < 0. { "nearer to" } else { "farther from" };
+        let numbers =
+            format!("ρ = {:.2}, p = {}, {}", c.rho, significant(c.p_value, 2), counted(c.n, "mosaic"));
+        if c.p_value <= 0.05 {
+            format!("more regular mosaics are {direction} {sampler}: {numbers}")
+        } else {
+            format!("regularity says nothing of the distance to {sampler}: {numbers}")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_say_which_way_or_why_not() {
+        let record = |mosaics, correlation| FindingRecord { sampler: "bnot".into(), mosaics, correlation };
+        let strong = RankCorrelation { n: 19, rho: -0.7, p_value: 0.001 };
+        assert_eq!(
+            record(19, Some(strong)).words(),
+            "more regular mosaics are nearer to bnot: ρ = -0.70, p = 0.0010, 19 mosaics"
+        );
+        assert!(record(3, None).words().contains("3 mosaics"));
+        assert!(record(9, None).words().contains("do not differ"));
+        assert_eq!(record(3, None).row().len(), FindingRecord::header().len());
+    }
+}

@@ -1,0 +1,178 @@
+use super::{Cell, significant};
+use crate::compare::SamplerVerdict;
+use serde::{Deserialize, Serialize};
+
+/// What simulations of a sampler say of one mosaic.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VerdictRecord {
+    /// Name of the sampler.
+    pub sampler: String,
+    /// Whether the mosaic could be a realisation of it: `p_envelope` is above `level`.
+    pub alike: bool,
+    /// p-value of the global envelope test of g (extreme rank length).
+    pub p_envelope: f64,
+    /// p-value of l-infinity: the mosaic's rank among the simulations.
+    pub p_l_infinity: f64,
+    /// l-infinity between the mosaic and the mean of the simulations.
+    pub l_infinity: f64,
+    /// Median l-infinity of one simulation to the mean of all other curves.
+    pub l_infinity_usual: f64,
+    /// The value that 95 % of them stay within.
+    pub l_infinity_most: f64,
+    /// Distances, in hexagonal spacings, from–to, at which g is outside the envelope.
+    pub outside: Vec<(f64, f64)>,
+    /// Mean regularity index of the simulations (all points, sample deviation).
+    pub ri_mean: Option<f64>,
+    /// Its standard deviation over the simulations.
+    pub ri_sd: Option<f64>,
+    /// Number of simulations.
+    pub simulations: usize,
+    /// Fewest and most points of a simulation.
+    pub points: (usize, usize),
+    /// Level of the test and of the envelope.
+    pub level: f64,
+}
+
+/// Stretches nearer than this, in spacings, are told as one; more of them than this are not told.
+const NEAR: f64 = 0.05;
+const MOST_STRETCHES: usize = 3;
+
+impl From<&SamplerVerdict> for VerdictRecord {
+    fn from(v: &SamplerVerdict) -> Self {
+        Self {
+            sampler: v.sampler.clone(),
+            alike: v.alike(),
+            p_envelope: v.p_envelope,
+            p_l_infinity: v.p_l_infinity,
+            l_infinity: v.l_infinity,
+            l_infinity_usual: v.l_infinity_usual,
+            l_infinity_most: v.l_infinity_most,
+            outside: v.outside.clone(),
+            ri_mean: v.ri.mean,
+            ri_sd: v.ri.sd,
+            simulations: v.simulations,
+            points: v.points,
+            level: v.level,
+        }
+    }
+}
+
+impl VerdictRecord {
+    /// “as bridson: p = 0.31”, or “differs from bnot: p = 0.005, at r = 0.9–1.1 s”.
+    pub fn words(&self) -> String {
+        let p = significant(self.p_envelope, 2);
+        if self.alike {
+            return format!("as {}: p = {p}", self.sampler);
+        }
+        let place = self.place();
+        let place = if place.is_empty() { String::new() } else { format!(", at r = {place} s") };
+        format!("differs from {}: p = {p}{place}", self.sampler)
+    }
+
+    /// The widest stretches outside the envelope, in rising order, in spacings.
+    fn place(&self) -> String {
+        let mut stretches: Vec<(f64, f64)> = Vec::new();
+        for &(from, to) in &self.outside {
+            match stretches.last_mut() {
+                Some((_, end)) if from - *end < NEAR => *end = to,
+                _ => stretches.push((from, to)),
+            }
+        }
+        let more = stretches.len() > MOST_STRETCHES;
+        stretches.sort_by(|a, b| (b.1 - b.0).total_cmp(&(a.1 - a.0)));
+        stretches.truncate(MOST_STRETCHES);
+        stretches.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut words: Vec<String> = stretches
+            .iter()
+            .map(|(from, to)| {
+                let (from, to) = (format!("{from:.2}"), format!("{to:.2}"));
+                if from == to { from } else { format!("{from}–{to}") }
+            })
+            .collect();
+        if more {
+            words.push("…".to_owned());
+        }
+        words.join(", ")
+    }
+
+    /// Columns of `verdicts.csv`.
+    pub fn header() -> Vec<String> {
+        [
+            "file",
+            "sampler",
+            "verdict",
+            "p_envelope",
+            "outside_r_in_spacings",
+            "l_infinity",
+            "p_l_infinity",
+            "l_infinity_usual",
+            "l_infinity_95_percent",
+            "ri_mean",
+            "ri_sd",
+            "simulations",
+            "points_min",
+            "points_max",
+        ]
+        .map(str::to_owned)
+        .into()
+    }
+
+    /// The row under [`Self::header`] for the mosaic of this file.
+    pub fn row(&self, file: &str) -> Vec<Cell> {
+        let outside: Vec<String> =
+            self.outside.iter().map(|(from, to)| format!("{from:.4}–{to:.4}")).collect();
+        vec![
+            file.into(),
+            self.sampler.as_str().into(),
+            if self.alike { "as" } else { "differs" }.into(),
+            self.p_envelope.into(),
+            outside.join(" ").as_str().into(),
+            self.l_infinity.into(),
+            self.p_l_infinity.into(),
+            self.l_infinity_usual.into(),
+            self.l_infinity_most.into(),
+            self.ri_mean.into(),
+            self.ri_sd.into(),
+            self.simulations.into(),
+            self.points.0.into(),
+            self.points.1.into(),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(p_envelope: f64, outside: Vec<(f64, f64)>) -> VerdictRecord {
+        VerdictRecord {
+            sampler: "bnot".into(),
+            alike: p_envelope > 0.05,
+            p_envelope,
+            p_l_infinity: 0.2,
+            l_infinity: 0.3,
+            l_infinity_usual: 0.1,
+            l_infinity_most: 0.2,
+            outside,
+            ri_mean: Some(21.),
+            ri_sd: None,
+            simulations: 199,
+            points: (300, 300),
+            level: 0.05,
+        }
+    }
+
+    #[test]
+    fn words_say_how_likely_and_where() {
+        assert_eq!(record(0.312, vec![]).words(), "as bnot: p = 0.31");
+        let near = vec![(0.9, 1.0), (1.02, 1.1), (1.7, 1.7)];
+        assert_eq!(record(0.005, near).words(), "differs from bnot: p = 0.0050, at r = 0.90–1.10, 1.70 s");
+        let many = (0..6).map(|k| (f64::from(k) * 0.3, f64::from(k) * 0.31)).collect();
+        assert!(record(0.01, many).words().ends_with("0.90–0.93, 1.20–1.24, 1.50–1.55, … s"));
+    }
+
+    #[test]
+    fn a_row_has_a_cell_for_every_column() {
+        assert_eq!(record(0.01, vec![(0.5, 0.6)]).row("a.csv").len(), VerdictRecord::header().len());
+    }
+}
