@@ -398,8 +398,8 @@ fn published_marks_are_found_as_well_as_is_asked() {
     }
 }
 
-const COMMANDS: [&str; 8] =
-    ["run", "detect", "measure", "compare", "validate", "sample", "render", "completions"];
+const COMMANDS: [&str; 9] =
+    ["run", "detect", "measure", "compare", "validate", "sample", "paper", "render", "completions"];
 
 #[test]
 fn every_command_has_help_with_an_example_that_fits_a_terminal() {

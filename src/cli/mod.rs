@@ -6,6 +6,7 @@ mod compare;
 mod completions;
 mod detect;
 mod measure;
+mod paper;
 mod progress;
 mod render;
 mod run;
@@ -50,6 +51,7 @@ enum Command {
     Validate(validate::Validate),
     Sample(sample::Sample),
     Render(Box<render::Render>),
+    Paper(paper::Paper),
     Completions(completions::Completions),
 }
 
@@ -82,6 +84,7 @@ pub fn main() -> ExitCode {
         Command::Compare(command) => command.execute(common),
         Command::Validate(command) => command.execute(common),
         Command::Sample(command) => command.execute(common),
+        Command::Paper(command) => command.execute(common),
         Command::Render(command) => command.execute(common),
         Command::Completions(command) => command.execute(&mut self::command()),
     });

@@ -8,6 +8,7 @@ mod froc;
 mod groups;
 mod l_infinity;
 mod matching;
+pub mod paper;
 mod reference;
 mod reliability;
 mod sign_flip;

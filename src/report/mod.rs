@@ -2,6 +2,7 @@
 
 mod cell;
 mod csv;
+mod document;
 mod error;
 mod figure;
 mod finding;
@@ -9,6 +10,8 @@ mod grey;
 mod ink;
 mod overlay;
 mod page;
+mod paper;
+mod paper_page;
 mod record;
 mod spectrum;
 mod table;
@@ -18,14 +21,17 @@ mod verdict;
 
 pub use cell::Cell;
 pub use csv::write_csv;
+pub use document::{Document, Headline, Section};
 pub use error::ReportError;
 pub use figure::{
     AgreementLine, AgreementPanel, Curve, EnvelopePanel, FrocLine, MosaicFigure, ReferenceLine,
-    ReliabilityFigure, agreement_figure, envelope_figure, froc_figure, mosaic_figure, reliability_figure,
+    ReliabilityFigure, SamplerPanel, agreement_figure, envelope_figure, froc_figure, mosaic_figure,
+    reliability_figure, samplers_figure,
 };
 pub use finding::FindingRecord;
 pub use overlay::{MarkKind, OverlayMark, encode_png, overlay, overlay_with_border};
 pub use page::{expected_errors, page};
+pub use paper::PaperResults;
 pub use record::{CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord, SamplerDistance, by_need};
 pub use spectrum::{PowerScale, spectrum_png};
 pub use table::{counted, significant, table};

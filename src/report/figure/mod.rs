@@ -11,6 +11,7 @@ mod neighbours;
 mod page;
 mod panels;
 mod reliability;
+mod samplers;
 
 use super::ReportError;
 use crate::geometry::{Point, Window};
@@ -22,6 +23,7 @@ pub use envelope::{EnvelopePanel, envelope_figure};
 pub use froc::{FrocLine, froc_figure};
 use page::Page;
 pub use reliability::{ReliabilityFigure, reliability_figure};
+pub use samplers::{SamplerPanel, samplers_figure};
 
 /// Read by screen readers, and by whoever wonders what ℓ∞ is.
 const DESCRIPTION: &str = "One cone mosaic: its picture, its points, its nearest-neighbour distances with the Gaussian \

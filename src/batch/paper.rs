@@ -1,0 +1,272 @@
+use super::outputs::OutputFolder;
+use super::{BatchError, Progress};
+use crate::compare::paper::{
+    FIGURE_1_SAMPLERS, Pattern, PrintedDistances, TABLE_1_SAMPLERS, TABLE_2_SAMPLERS, distance_between,
+    made_row, mean_curve, pattern, printed_distances, printed_regularity, tightest, with_bandwidth,
+};
+use crate::compare::{CompareError, l_infinity};
+use crate::geometry::Window;
+use crate::report::{
+    Cell, Curve, FindingRecord, PaperResults, PowerScale, SamplerPanel, counted, samplers_figure,
+    spectrum_png,
+};
+use crate::sample::{Sampler, as_reference, sampler};
+use crate::stats::{Pcf, PowerSpectrum, SpectrumOptions, rank_correlation, spectrum};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Points of the mean curves and of the patterns of Figure 1, and of its spectra.
+const POINTS: usize = 1024;
+const SPECTRUM_POINTS: usize = 4096;
+/// How far the spectra go, in √n.
+const MAX_FREQUENCY: f64 = 2.5;
+
+/// Bandwidths, in spacings, at which Table 2 is held against our samplers.
+const BANDWIDTHS: [f64; 7] = [0.05, 0.07, 0.09, 0.1, 0.12, 0.15, 0.2];
+
+/// A piece of work.
+#[derive(Clone, Copy)]
+enum Task {
+    /// Pattern number `k` of about `n` points of a sampler.
+    Pattern { sampler: &'static dyn Sampler, n: usize, k: usize },
+    /// The spectrum of one pattern on the torus.
+    Spectrum { sampler: &'static dyn Sampler },
+}
+
+enum Made {
+    Pattern(Pattern),
+    Spectrum(PowerSpectrum),
+}
+
+/// Patterns by sampler and number of points, and spectra by sampler.
+#[derive(Default)]
+struct Everything {
+    patterns: BTreeMap<(&'static str, usize), Vec<Pattern>>,
+    spectra: BTreeMap<&'static str, PowerSpectrum>,
+}
+
+/// Re-makes the samplers' rows of Table 1, Figure 1 and the distances between the samplers of Table 2 of Lanaro et al., from
+/// `patterns` patterns each (at least 2), into `out`: `index.html`, `paper.md`, `figure1.svg` and tables as CSV.
+///
+/// # Errors
+/// If a sampler is missing or makes no pattern, or `out` cannot be written to.
+pub fn remake_paper(
+    patterns: usize,
+    seed: u64,
+    out: &Path,
+    progress: &dyn Progress,
+) -> Result<PaperResults, BatchError> {
+    let tasks = tasks(patterns)?;
+    let out = OutputFolder::create(out)?;
+    progress.begin(tasks.len());
+    let made: Result<Vec<_>, CompareError> =
+        tasks.par_iter().map(|task| work(task, seed, progress).map(|made| (*task, made))).collect();
+    progress.end();
+    let mut all = Everything::default();
+    for (task, made) in made? {
+        match (task, made) {
+            (Task::Pattern { sampler, n, .. }, Made::Pattern(pattern)) => {
+                all.patterns.entry((sampler.name(), n)).or_default().push(pattern);
+            }
+            (Task::Spectrum { sampler }, Made::Spectrum(spectrum)) => {
+                all.spectra.insert(sampler.name(), spectrum);
+            }
+            _ => {}
+        }
+    }
+    let results = results(&all, patterns, seed)?;
+    write(&all, &results, &out)?;
+    Ok(results)
+}
+
+/// The longest first, so that no core waits for one at the end.
+fn tasks(patterns: usize) -> Result<Vec<Task>, BatchError> {
+    let named = |name: &str| {
+        sampler(name)
+            .map(as_reference)
+            .map_err(|source| CompareError::Sample { sampler: name.to_owned(), source })
+    };
+    let mut tasks = Vec::new();
+    for name in FIGURE_1_SAMPLERS {
+        tasks.push(Task::Spectrum { sampler: named(name)? });
+    }
+    let mut sets: Vec<(&str, usize)> = TABLE_1_SAMPLERS.iter().map(|&(_, name, n)| (name, n)).collect();
+    sets.extend(FIGURE_1_SAMPLERS.map(|name| (name, POINTS)));
+    sets.sort_by_key(|&(name, n)| (std::cmp::Reverse(n), name));
+    sets.dedup();
+    for (name, n) in sets {
+        let sampler = named(name)?;
+        tasks.extend((0..patterns).map(|k| Task::Pattern { sampler, n, k }));
+    }
+    Ok(tasks)
+}
+
+fn work(task: &Task, seed: u64, progress: &dyn Progress) -> Result<Made, CompareError> {
+    match *task {
+        Task::Pattern { sampler, n, k } => {
+            let made = pattern(sampler, n, k, seed)?;
+            let ri = made.nearest.ri.map(|ri| format!(", RI {ri:.2}")).unwrap_or_default();
+            progress.done(&format!("{} {n}", sampler.name()), Ok(&format!("pattern {}{ri}", k + 1)));
+            Ok(Made::Pattern(made))
+        }
+        Task::Spectrum { sampler } => {
+            let window = Window::unit_torus();
+            let name = || sampler.name().to_owned();
+            let points = sampler
+                .sample(SPECTRUM_POINTS, &window, &mut ChaCha8Rng::seed_from_u64(seed))
+                .map_err(|source| CompareError::Sample { sampler: name(), source })?;
+            let found = spectrum(&points, &window, &SpectrumOptions { max_frequency: MAX_FREQUENCY })
+                .map_err(|source| CompareError::Stats { sampler: name(), source })?;
+            progress.done(sampler.name(), Ok(&format!("spectrum of {}", counted(points.len(), "point"))));
+            Ok(Made::Spectrum(found))
+        }
+    }
+}
+
+impl Everything {
+    fn of(&self, sampler: &'static str, n: usize) -> &[Pattern] {
+        self.patterns.get(&(sampler, n)).map_or(&[], Vec::as_slice)
+    }
+
+    fn curves(&self, sampler: &'static str) -> Vec<&Pcf> {
+        self.of(sampler, POINTS).iter().map(|p| &p.pcf).collect()
+    }
+}
+
+fn results(all: &Everything, patterns: usize, seed: u64) -> Result<PaperResults, BatchError> {
+    let regularity = printed_regularity();
+    let rows = TABLE_1_SAMPLERS.iter().filter_map(|&(name, sampler, n)| {
+        let printed = regularity.iter().find(|r| r.name == name)?.clone();
+        Some(made_row(printed, sampler, n, &all.of(sampler, n).iter().collect::<Vec<_>>()))
+    });
+    let [bnot, darts, jittered] = TABLE_2_SAMPLERS.map(|name| all.curves(name));
+    let distances = [
+        distance_between(&bnot, &darts)?,
+        distance_between(&bnot, &jittered)?,
+        distance_between(&darts, &jittered)?,
+    ];
+    let printed = printed_distances();
+    let between = distances.map(|d| d.l_infinity);
+    let findings = TABLE_2_SAMPLERS.iter().enumerate().map(|(column, sampler)| {
+        let both = printed.iter().filter_map(|d| {
+            let row = regularity.iter().find(|r| r.name == d.name)?;
+            Some((row.ri, d.l_infinity[column]))
+        });
+        let pairs: Vec<(f64, f64)> = both.collect();
+        let correlation = rank_correlation(&pairs, &mut ChaCha8Rng::seed_from_u64(seed));
+        FindingRecord { sampler: (*sampler).to_owned(), mosaics: pairs.len(), correlation }
+    });
+    let curves = FIGURE_1_SAMPLERS
+        .iter()
+        .filter_map(|name| Some(((*name).to_owned(), mean_curve(&all.curves(name))?)));
+    Ok(PaperResults {
+        rows: rows.collect(),
+        distances,
+        tightest: printed.iter().map(|row| tightest(row, &between)).collect(),
+        bandwidths: bandwidths(all, &printed)?,
+        findings: findings.collect(),
+        curves: curves.collect(),
+        printed,
+        patterns,
+        seed,
+    })
+}
+
+/// Of each bandwidth the distances between the samplers of Table 2, and how many of its rows hold with them.
+fn bandwidths(
+    all: &Everything,
+    printed: &[PrintedDistances],
+) -> Result<Vec<(f64, [f64; 3], usize)>, BatchError> {
+    let at = |&width: &f64| -> Result<_, CompareError> {
+        let mut means = Vec::new();
+        for name in TABLE_2_SAMPLERS {
+            let curves = all.of(name, POINTS).iter().map(|p| with_bandwidth(p, width));
+            let curves = curves
+                .collect::<Result<Vec<_>, _>>()
+                .map_err(|source| CompareError::Stats { sampler: name.to_owned(), source })?;
+            means.extend(mean_curve(&curves.iter().collect::<Vec<_>>()));
+        }
+        let [bnot, darts, jittered] = &means[..] else { return Err(CompareError::TooFewPoints { found: 0 }) };
+        let distances = [l_infinity(bnot, darts)?, l_infinity(bnot, jittered)?, l_infinity(darts, jittered)?];
+        let holds = printed.iter().filter(|row| tightest(row, &distances).room >= 0.).count();
+        Ok((width, distances, holds))
+    };
+    Ok(BANDWIDTHS.par_iter().map(at).collect::<Result<Vec<_>, _>>()?)
+}
+
+fn write(all: &Everything, results: &PaperResults, out: &OutputFolder) -> Result<(), BatchError> {
+    for (file, (header, rows)) in [
+        ("table1.csv", results.table1()),
+        ("table2_samplers.csv", results.table2()),
+        ("triangle.csv", results.triangles()),
+        ("bandwidths.csv", results.bandwidth_table()),
+        ("finding.csv", (FindingRecord::header(), results.findings.iter().map(FindingRecord::row).collect())),
+        (
+            "pcf.csv",
+            curves_table(
+                "r_in_hexagonal_spacings",
+                results.curves.iter().map(|(n, c)| (n.as_str(), &c.r, &c.g)),
+            ),
+        ),
+        (
+            "spectra.csv",
+            curves_table(
+                "frequency_in_sqrt_n",
+                all.spectra.iter().map(|(n, s)| (*n, &s.frequency, &s.power)),
+            ),
+        ),
+    ] {
+        out.write_table(file, &header, &rows)?;
+    }
+    let figure = figure(all, results)?;
+    out.write("figure1.svg", figure.as_bytes())?;
+    let made = format!(
+        "Made by conemosaic {} paper, seed {}, {} a sampler and number of points. The same seed makes the same page.",
+        env!("CARGO_PKG_VERSION"),
+        results.seed,
+        counted(results.patterns, "pattern"),
+    );
+    let document = results.document(figure, made);
+    out.write("paper.md", document.to_markdown().as_bytes())?;
+    out.write("index.html", document.to_html().as_bytes())
+}
+
+/// One column of abscissae, then one a curve; a curve that ends earlier leaves empty cells.
+fn curves_table<'a>(
+    abscissa: &str,
+    curves: impl Iterator<Item = (&'a str, &'a Vec<f64>, &'a Vec<f64>)>,
+) -> (Vec<String>, Vec<Vec<Cell>>) {
+    let curves: Vec<_> = curves.collect();
+    let header =
+        [abscissa.to_owned()].into_iter().chain(curves.iter().map(|c| c.0.replace('-', "_"))).collect();
+    let longest = curves.iter().map(|c| c.1).max_by_key(|x| x.len());
+    let rows = longest.into_iter().flatten().enumerate().map(|(k, x)| {
+        [Cell::from(*x)].into_iter().chain(curves.iter().map(|c| c.2.get(k).copied().into())).collect()
+    });
+    (header, rows.collect())
+}
+
+fn figure(all: &Everything, results: &PaperResults) -> Result<String, BatchError> {
+    let mut pictures = BTreeMap::new();
+    for (name, spectrum) in &all.spectra {
+        pictures.insert(*name, spectrum_png(spectrum, PowerScale::Linear)?);
+    }
+    let panels: Vec<SamplerPanel> = FIGURE_1_SAMPLERS
+        .iter()
+        .zip(&results.curves)
+        .filter_map(|(name, (_, pcf))| {
+            let spectrum = all.spectra.get(name)?;
+            Some(SamplerPanel {
+                name,
+                points: &all.of(name, POINTS).first()?.points,
+                spectrum: pictures.get(name)?,
+                pcf: Curve { r: &pcf.r, g: &pcf.g },
+                radial: Curve { r: &spectrum.frequency, g: &spectrum.power },
+            })
+        })
+        .collect();
+    Ok(samplers_figure("Figure 1: six point samplers", &panels)?)
+}

@@ -1,0 +1,28 @@
+//! The tables of Lanaro et al. about samplers: as printed, and re-made.
+
+mod printed;
+mod remake;
+mod triangle;
+
+pub use printed::{PrintedDistances, PrintedRegularity, printed_distances, printed_regularity};
+pub use remake::{
+    DistanceBetween, MadeRow, Pattern, distance_between, made_row, mean_curve, pattern, peak, with_bandwidth,
+};
+pub use triangle::{Tightest, allowed, tightest};
+
+/// Rows of Table 1 that are samplers: the name printed, ours, and the number of points asked for.
+pub const TABLE_1_SAMPLERS: [(&str, &str, usize); 7] = [
+    ("GN_512", "green", 512),
+    ("GN_1024", "green", 1024),
+    ("PN_512", "pink", 512),
+    ("PN_1024", "pink", 1024),
+    ("BNOT_1050", "bnot", 1050),
+    ("BNOT_2050", "bnot", 2050),
+    ("BNOT_4050", "bnot", 4050),
+];
+
+/// The columns of Table 2, in its order: samplers of 1024 points.
+pub const TABLE_2_SAMPLERS: [&str; 3] = ["bnot", "dart-throwing", "jittered"];
+
+/// The samplers of Figure 1, in its order.
+pub const FIGURE_1_SAMPLERS: [&str; 6] = ["uniform", "green", "pink", "jittered", "dart-throwing", "bnot"];

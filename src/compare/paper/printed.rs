@@ -1,0 +1,84 @@
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+
+const TABLE_1: &str = include_str!("../../../fixtures/paper/table1.csv");
+const TABLE_2: &str = include_str!("../../../fixtures/paper/table2.csv");
+
+/// A row of Table 1 of Lanaro et al.: nearest-neighbour distances of a mosaic (µm) or of a sampler (unit square), with
+/// population deviation.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct PrintedRegularity {
+    /// Name of the mosaic or of the point set.
+    #[serde(rename = "mosaic")]
+    pub name: String,
+    /// Mean distance.
+    pub mean: f64,
+    /// Standard deviation.
+    pub sd: f64,
+    /// Regularity index.
+    pub ri: f64,
+}
+
+/// A row of Table 2: l-infinity between the pair correlation functions of a mosaic and of three samplers of 1024 points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PrintedDistances {
+    /// Name of the mosaic.
+    pub name: String,
+    /// To each of [`super::TABLE_2_SAMPLERS`].
+    pub l_infinity: [f64; 3],
+}
+
+/// Table 1: 19 mosaics and 7 sets of samplers.
+pub fn printed_regularity() -> Vec<PrintedRegularity> {
+    rows(TABLE_1)
+}
+
+/// Table 2: 20 mosaics.
+pub fn printed_distances() -> Vec<PrintedDistances> {
+    let rows: Vec<(String, f64, f64, f64)> = rows(TABLE_2);
+    rows.into_iter().map(|(name, b, d, j)| PrintedDistances { name, l_infinity: [b, d, j] }).collect()
+}
+
+/// The tables are part of the program and tested: no row is lost.
+fn rows<T: DeserializeOwned>(text: &str) -> Vec<T> {
+    csv::Reader::from_reader(text.as_bytes()).deserialize().flatten().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::paper::TABLE_1_SAMPLERS;
+    use crate::stats::rank_correlation;
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+
+    #[test]
+    fn tables_are_complete_and_their_indexes_are_mean_over_deviation() {
+        let regularity = printed_regularity();
+        assert_eq!((regularity.len(), printed_distances().len()), (26, 20));
+        for row in &regularity {
+            // as exact as the printed digits of the deviation
+            assert!((row.mean / row.sd / row.ri - 1.).abs() < 1e-4, "{row:?}");
+        }
+        for (name, ..) in TABLE_1_SAMPLERS {
+            assert!(regularity.iter().any(|row| row.name == name), "{name}");
+        }
+    }
+
+    /// The paper's main finding, on its own numbers.
+    #[test]
+    fn the_more_regular_printed_mosaics_are_nearer_to_bnot_and_farther_from_dart_throwing() {
+        let regularity = printed_regularity();
+        let pairs = |column: usize| -> Vec<(f64, f64)> {
+            let both = printed_distances().into_iter().filter_map(|d| {
+                let row = regularity.iter().find(|r| r.name == d.name)?;
+                Some((row.ri, d.l_infinity[column]))
+            });
+            both.collect()
+        };
+        let of = |column| rank_correlation(&pairs(column), &mut ChaCha8Rng::seed_from_u64(1)).unwrap();
+        assert_eq!(of(0).n, 19);
+        assert!(of(0).rho < -0.6 && of(0).p_value < 0.01, "{:?}", of(0));
+        assert!(of(1).rho > 0.6 && of(1).p_value < 0.01, "{:?}", of(1));
+    }
+}

@@ -1,0 +1,64 @@
+use super::printed::PrintedDistances;
+
+/// The triangle inequality that a row of Table 2 comes nearest to breaking.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tightest {
+    /// Name of the mosaic.
+    pub mosaic: String,
+    /// The two samplers, as columns of Table 2.
+    pub between: [usize; 2],
+    /// Room left: negative where the inequality is broken, by so much.
+    pub room: f64,
+}
+
+/// l-infinity is a metric: with d₁ and d₂ the printed distances of a mosaic to two samplers, the distance D between those
+/// satisfies |d₁ − d₂| ≤ D ≤ d₁ + d₂. Of the distances `between` the columns (0, 1), (0, 2), (1, 2), the pair with least room.
+pub fn tightest(row: &PrintedDistances, between: &[f64; 3]) -> Tightest {
+    let rooms = PAIRS.into_iter().zip(between).map(|([a, b], &distance)| {
+        let [low, high] = limits(row, [a, b]);
+        Tightest { mosaic: row.name.clone(), between: [a, b], room: (distance - low).min(high - distance) }
+    });
+    let none = Tightest { mosaic: row.name.clone(), between: PAIRS[0], room: f64::INFINITY };
+    rooms.fold(none, |least, next| if next.room < least.room { next } else { least })
+}
+
+/// The distances between two samplers that all rows allow: from, to.
+pub fn allowed(rows: &[PrintedDistances], pair: [usize; 2]) -> [f64; 2] {
+    rows.iter()
+        .map(|row| limits(row, pair))
+        .fold([0., f64::INFINITY], |[low, high], next| [low.max(next[0]), high.min(next[1])])
+}
+
+const PAIRS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
+
+fn limits(row: &PrintedDistances, [a, b]: [usize; 2]) -> [f64; 2] {
+    let (a, b) = (row.l_infinity[a], row.l_infinity[b]);
+    [(a - b).abs(), a + b]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::paper::printed_distances;
+
+    #[test]
+    fn every_printed_row_allows_the_distances_measured_between_our_samplers() {
+        for row in printed_distances() {
+            let least = tightest(&row, &[1.01, 1.38, 0.73]);
+            assert!(least.room > 0., "{least:?}");
+        }
+        let of_bnot = allowed(&printed_distances(), [0, 1]);
+        assert!(
+            (of_bnot[0] - 0.753_856).abs() < 1e-9 && (of_bnot[1] - 1.026_518).abs() < 1e-9,
+            "{of_bnot:?}"
+        );
+    }
+
+    #[test]
+    fn a_distance_beyond_a_row_is_told_by_how_much() {
+        let row = PrintedDistances { name: "a".into(), l_infinity: [0.5, 0.4, 0.9] };
+        let found = tightest(&row, &[1., 1., 1.]);
+        assert_eq!(found.between, [0, 1]);
+        assert!((found.room + 0.1).abs() < 1e-12);
+    }
+}
