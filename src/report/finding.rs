@@ -52,7 +52,7 @@ impl FindingRecord {
         if c.p_value <= 0.05 {
             format!("more regular mosaics are {direction} {sampler}: {numbers}")
         } else {
-            format!("regularity says nothing of the distance to {sampler}: {numbers}")
+            format!("no correlation of regularity with the distance to {sampler} is shown: {numbers}")
         }
     }
 }

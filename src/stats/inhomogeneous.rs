@@ -184,7 +184,7 @@ mod tests {
         let found = inhomogeneous(&points, &window, &options, None).unwrap();
         let stationary = pcf(&points, &window, &options).unwrap().g;
         for curve in [&found.g, &found.g_scaled] {
-            assert!(worst(&[curve.clone()], &found.r, |_| 0.) > 1.3);
+            assert!(worst(std::slice::from_ref(curve), &found.r, |_| 0.) > 1.3);
             let away = curve.iter().zip(&stationary).map(|(a, b)| (a - b).abs()).fold(0., f64::max);
             assert!(away < 0.12, "{away}");
         }

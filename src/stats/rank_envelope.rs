@@ -43,7 +43,7 @@ pub fn rank_envelope(observed: &[f64], simulated: &[&[f64]], level: f64) -> Opti
     }
     let mut ranks = vec![Vec::with_capacity(bins); count];
     let mut order: Vec<usize> = (0..count).collect();
-    for bin in 0..bins {
+    (0..bins).for_each(|bin| {
         order.sort_unstable_by(|&a, &b| curves[a][bin].total_cmp(&curves[b][bin]));
         let mut first = 0;
         while first < count {
@@ -55,7 +55,7 @@ pub fn rank_envelope(observed: &[f64], simulated: &[&[f64]], level: f64) -> Opti
             order[first..first + tied].iter().for_each(|&c| ranks[c].push(rank));
             first += tied;
         }
-    }
+    });
     ranks.iter_mut().for_each(|r| r.sort_unstable());
     let mut extremes: Vec<&Vec<usize>> = ranks.iter().collect();
     extremes.sort_unstable();
