@@ -1,5 +1,5 @@
 use super::failures::write_failures;
-use super::measured::{pcf_table, record_of, warnings_of};
+use super::measured::{functions_table, pcf_table, points_table, record_of, warnings_of};
 use super::outputs::OutputFolder;
 use super::region::{Region, Regions};
 use super::work::for_each;
@@ -8,7 +8,9 @@ use crate::geometry::{Point, Window};
 use crate::mosaic::io::{ReadOptions, read_coordinates};
 use crate::mosaic::{LengthUnit, Mosaic};
 use crate::report::{Cell, CoordinatesRecord, FindingRecord, PowerScale, counted, spectrum_png};
-use crate::stats::{MeasureOptions, Measures, SpectrumOptions, StatsError, measure, spectrum};
+use crate::stats::{
+    FunctionOptions, MeasureOptions, Measures, SpectrumOptions, StatsError, functions, measure, spectrum,
+};
 use std::path::Path;
 
 /// How coordinate files are read and measured.
@@ -26,6 +28,8 @@ pub struct CoordinatesOptions {
     pub measure: MeasureOptions,
     /// Power spectra to be written, by [`measure_files`], and how they are drawn.
     pub spectrum: Option<(SpectrumOptions, PowerScale)>,
+    /// Distances at which G, F, J, K, L and g are written, by [`measure_files`], with a table of points.
+    pub functions: Option<FunctionOptions>,
 }
 
 /// What came of measuring or comparing coordinate files.
@@ -58,6 +62,12 @@ pub fn measure_files(
         let mut record = record(input, &mosaic, outside, &measures, Vec::new());
         let (header, rows) = pcf_table(&measures, &[]);
         out.write_table(&format!("{}.pcf.csv", input.name), &header, &rows)?;
+        if let Some(distances) = &options.functions {
+            let (header, rows) = functions_table(&functions(mosaic.points(), mosaic.window(), distances)?);
+            out.write_table(&format!("{}.functions.csv", input.name), &header, &rows)?;
+            let (header, rows) = points_table(&mosaic, &measures);
+            out.write_table(&format!("{}.points.csv", input.name), &header, &rows)?;
+        }
         if let Some((power, scale)) = &options.spectrum
             && let Err(missing) = write_spectrum(&out, &input.name, &mosaic, power, *scale)?
         {
@@ -109,6 +119,7 @@ pub(super) fn options_json(
         "torus": options.torus,
         "scale": options.scales.describe(),
         "measure": options.measure,
+        "functions": options.functions,
         "spectrum": options.spectrum.map(|(spectrum, _)| spectrum),
         "samplers": samplers,
     }))?;

@@ -164,6 +164,9 @@ pub enum BatchError {
     /// See [`CompareError`].
     #[error(transparent)]
     Compare(#[from] CompareError),
+    /// Functions of distance cannot be computed as asked.
+    #[error(transparent)]
+    Stats(#[from] crate::stats::StatsError),
     /// See [`MatchError`].
     #[error(transparent)]
     Match(#[from] MatchError),

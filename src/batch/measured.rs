@@ -5,7 +5,7 @@ use crate::geometry::Window;
 use crate::mosaic::Mosaic;
 use crate::report::{Cell, MosaicRecord, SamplerDistance, counted};
 use crate::sample::Sampler;
-use crate::stats::Measures;
+use crate::stats::{Functions, Measures};
 
 /// Fewer cones than this leave every statistic uncertain: the RI of 30 points scatters by about 15 %.
 const FEW: usize = 30;
@@ -33,6 +33,8 @@ pub(super) fn record_of(
         deviation: measures.deviation,
         nearest: measures.nearest,
         nearest_interior: measures.nearest_interior,
+        nearest_bound: measures.nearest_bound,
+        clark_evans: measures.clark_evans,
         voronoi: measures.voronoi,
         trend: measures.trend,
         l_infinity,
@@ -121,4 +123,59 @@ pub(super) fn warnings_of(
         warnings.push(format!("no pair correlation function: {error}"));
     }
     warnings
+}
+
+/// Columns of `NAME.points.csv`: lengths in the unit of the coordinates, areas in its square. What is not defined (no
+/// neighbour, an infinite cell, a point that coincides with an earlier one) is empty.
+pub(super) fn points_table(mosaic: &Mosaic, measures: &Measures) -> (Vec<String>, Vec<Vec<Cell>>) {
+    let header = [
+        "x",
+        "y",
+        "nndist",
+        "nnwhich",
+        "bdist",
+        "dirichlet_area",
+        "cell_area",
+        "sides",
+        "bound",
+        "icd",
+        "furthest",
+        "psi6",
+    ]
+    .map(str::to_owned)
+    .to_vec();
+    let rows = mosaic
+        .points()
+        .iter()
+        .zip(&measures.cells.cells)
+        .enumerate()
+        .map(|(k, (p, cell))| {
+            vec![
+                p.x.into(),
+                p.y.into(),
+                measures.neighbours.distances.get(k).copied().into(),
+                // rows count from 1, as in R
+                measures.neighbours.indices.get(k).map(|j| j + 1).into(),
+                mosaic.window().border_distance(*p).into(),
+                cell.clipped_area.into(),
+                cell.area.into(),
+                cell.sides.into(),
+                usize::from(cell.bound).into(),
+                cell.inter_cell.into(),
+                cell.furthest.into(),
+                cell.psi6.map(|[re, im]| re.hypot(im)).into(),
+            ]
+        })
+        .collect();
+    (header, rows)
+}
+
+/// Columns of `NAME.functions.csv`.
+pub(super) fn functions_table(functions: &Functions) -> (Vec<String>, Vec<Vec<Cell>>) {
+    let columns = functions.columns();
+    let header = columns.iter().map(|(name, _)| (*name).to_owned()).collect();
+    let rows = (0..functions.r.len())
+        .map(|k| columns.iter().map(|(_, values)| values[k].into()).collect())
+        .collect();
+    (header, rows)
 }

@@ -7,7 +7,9 @@ use clap::Args;
 use conemosaic::batch::{CoordinatesOptions, CoordinatesOutcome, Region, coordinate_files, measure_files};
 use conemosaic::mosaic::io::{Origin, ReadOptions};
 use conemosaic::report::{Cell, CoordinatesRecord, PowerScale, counted};
-use conemosaic::stats::{Deviation, EdgeCorrection, Kernel, MeasureOptions, PcfOptions, SpectrumOptions};
+use conemosaic::stats::{
+    Deviation, EdgeCorrection, FunctionOptions, Kernel, MeasureOptions, PcfOptions, SpectrumOptions,
+};
 use std::path::{Path, PathBuf};
 
 /// How coordinate files are to be understood.
@@ -76,16 +78,17 @@ pub struct PcfArgs {
     /// First bin in s (at least 1.5 bandwidths)
     #[arg(long, value_name = "S", default_value_t = PcfOptions::default().r_min)]
     r_min: f64,
-    /// End of the last bin in s (at most 50)
-    #[arg(long, value_name = "S", default_value_t = PcfOptions::default().r_max)]
-    r_max: f64,
+    /// End of the last bin in s (at most 50; default 2.5); with measure --functions it is their last distance instead, in
+    /// the unit of the coordinates
+    #[arg(long, value_name = "S")]
+    r_max: Option<f64>,
     /// Number of bins (1–2000)
     #[arg(long, value_name = "N", default_value_t = PcfOptions::default().bins)]
     bins: usize,
 }
 
 impl PcfArgs {
-    fn options(&self) -> Result<PcfOptions> {
+    fn options(&self, r_max: Option<f64>) -> Result<PcfOptions> {
         let options = PcfOptions {
             kernel: match self.kernel.as_str() {
                 "box" => Kernel::Box,
@@ -94,7 +97,7 @@ impl PcfArgs {
             },
             bandwidth: self.bandwidth,
             r_min: self.r_min,
-            r_max: self.r_max,
+            r_max: r_max.unwrap_or(PcfOptions::default().r_max),
             bins: self.bins,
             edge: match self.edge.as_str() {
                 "translation" => EdgeCorrection::Translation,
@@ -117,8 +120,9 @@ impl MosaicArgs {
             region: self.window.clone(),
             torus: self.torus,
             scales: self.scale.source()?,
-            measure: MeasureOptions { deviation, pcf: self.pcf.options()? },
+            measure: MeasureOptions { deviation, pcf: self.pcf.options(self.pcf.r_max)? },
             spectrum: None,
+            functions: None,
         })
     }
 }
@@ -135,6 +139,10 @@ Writes to measured/:
   summary.csv    one row a file: n, nearest neighbours, regularity index, density, …
                  (lengths in the unit of the column unit, or of the suffix)
   NAME.pcf.csv   pair correlation function (r in hexagonal spacings, g)
+  NAME.functions.csv, NAME.points.csv
+                 with --functions: G, F, J, K, L and g by distance, columns named as spatstat's corrections (lengths in the
+                 unit of the coordinates); per point its nearest neighbour (row, from 1), border distance, Voronoi cell
+                 (dirichlet_area: within the window), sides, bound, inter-cell distance, |ψ6|
   NAME.spectrum.csv, NAME.spectrum.png   with --spectrum: mean power and anisotropy (dB; 0 without direction) by frequency in
                  √density (√n in the unit square; independent points have power 1), and the plane of wave vectors
   options.json   how it was measured
@@ -155,11 +163,21 @@ pub struct Measure {
     /// Highest frequency of the spectrum in √density (0.1–20)
     #[arg(long, value_name = "F", default_value_t = SpectrumOptions::default().max_frequency, requires = "spectrum", help_heading = "Power spectrum")]
     max_frequency: f64,
+    /// Also write G, F, J, K, L and g of every file, with each edge correction, and a table of its points
+    #[arg(long, help_heading = "Functions of distance")]
+    functions: bool,
+    /// Distance between their rows, in the unit of the coordinates [default: 1/128 of --r-max]
+    #[arg(long, value_name = "STEP", requires = "functions", help_heading = "Functions of distance")]
+    r_step: Option<f64>,
 }
 
 impl Measure {
-    pub fn execute(self, common: &Common) -> Result<Done> {
+    pub fn execute(mut self, common: &Common) -> Result<Done> {
+        let functions = self
+            .functions
+            .then(|| FunctionOptions { r_step: self.r_step, r_max: self.mosaic.pcf.r_max.take() });
         let mut options = self.mosaic.options()?;
+        options.functions = functions;
         if let Some(scale) = &self.spectrum {
             let spectrum = SpectrumOptions { max_frequency: self.max_frequency };
             spectrum.validate()?;

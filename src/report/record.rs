@@ -4,7 +4,7 @@ use super::{Cell, VerdictRecord};
 use crate::detect::{Detector, Modality, Polarity};
 use crate::geometry::Polygon;
 use crate::mosaic::LengthUnit;
-use crate::stats::{Deviation, Moments, Trend, VoronoiSummary};
+use crate::stats::{ClarkEvans, Deviation, Moments, Trend, VoronoiSummary};
 use serde::{Deserialize, Serialize};
 
 /// Points measured in their window, and compared with samplers.
@@ -33,6 +33,10 @@ pub struct MosaicRecord {
     pub nearest: Moments,
     /// The same of points whose distance to the border is at least that to their nearest neighbour.
     pub nearest_interior: Moments,
+    /// The same of points whose Voronoi cell lies strictly inside the window.
+    pub nearest_bound: Moments,
+    /// Mean nearest-neighbour distance over that of independent points.
+    pub clark_evans: ClarkEvans,
     /// Voronoi cells strictly inside the window.
     pub voronoi: VoronoiSummary,
     /// Whether density varies across the window.
@@ -190,6 +194,12 @@ const IMAGE_DETAILS: &[Column<ImageRecord>] = &[
     ("spacing_min_px", |r| r.detection.spacing_range_px[0].into()),
     ("spacing_max_px", |r| r.detection.spacing_range_px[1].into()),
     ("window_area_px2", |r| r.mosaic.window_area.into()),
+    ("density_bound_per_px2", |r| r.mosaic.voronoi.density.into()),
+    ("nn_bound_mean_px", |r| r.mosaic.nearest_bound.mean.into()),
+    ("icd_bound_mean_px", |r| r.mosaic.voronoi.inter_cell.mean.into()),
+    ("furthest_bound_mean_px", |r| r.mosaic.voronoi.furthest.mean.into()),
+    ("icd_all_mean_px", |r| r.mosaic.voronoi.inter_cell_all.mean.into()),
+    ("furthest_all_mean_px", |r| r.mosaic.voronoi.furthest_all.mean.into()),
     ("window_area_mm2", |r| r.mosaic.window_area_mm2().into()),
 ];
 
@@ -207,6 +217,12 @@ const COORDINATE_COLUMNS: &[Column<CoordinatesRecord>] = &[
     ("spacing", |r| r.mosaic.spacing.into()),
     ("nn_mean_um", |r| r.mosaic.in_um(r.mosaic.nearest.mean).into()),
     ("nn_sd_um", |r| r.mosaic.in_um(r.mosaic.nearest.sd).into()),
+    ("density_bound", |r| r.mosaic.voronoi.density.into()),
+    ("nn_bound_mean", |r| r.mosaic.nearest_bound.mean.into()),
+    ("icd_bound_mean", |r| r.mosaic.voronoi.inter_cell.mean.into()),
+    ("furthest_bound_mean", |r| r.mosaic.voronoi.furthest.mean.into()),
+    ("icd_all_mean", |r| r.mosaic.voronoi.inter_cell_all.mean.into()),
+    ("furthest_all_mean", |r| r.mosaic.voronoi.furthest_all.mean.into()),
     ("outside_window", |r| r.outside.into()),
     ("window_area", |r| r.mosaic.window_area.into()),
     ("window_area_mm2", |r| r.mosaic.window_area_mm2().into()),
@@ -221,6 +237,21 @@ const ORDER_COLUMNS: &[Column<MosaicRecord>] = &[
     ("n_bound", |r| r.voronoi.bound.into()),
     ("six_sided_percent", |r| r.voronoi.six_sided_percent.into()),
     ("voronoi_area_cv", |r| r.voronoi.area_cv.into()),
+    ("voronoi_area_ri", |r| r.voronoi.area.ri.into()),
+    ("voronoi_sides_ri", |r| r.voronoi.sides.ri.into()),
+    ("icd_bound_ri", |r| r.voronoi.inter_cell.ri.into()),
+    ("furthest_bound_ri", |r| r.voronoi.furthest.ri.into()),
+    ("psi6_mean", |r| r.voronoi.psi6_mean.into()),
+    ("psi6_global", |r| r.voronoi.psi6_global.into()),
+    ("clark_evans_naive", |r| r.clark_evans.naive.into()),
+    ("clark_evans_donnelly", |r| r.clark_evans.donnelly.into()),
+    ("clark_evans_cdf", |r| r.clark_evans.cdf.into()),
+    ("density_bound_per_mm2", |r| {
+        r.voronoi.density.zip(r.um_per_unit).map(|(d, um)| d * 1e6 / (um * um)).into()
+    }),
+    ("nn_bound_mean_um", |r| r.in_um(r.nearest_bound.mean).into()),
+    ("icd_bound_mean_um", |r| r.in_um(r.voronoi.inter_cell.mean).into()),
+    ("furthest_bound_mean_um", |r| r.in_um(r.voronoi.furthest.mean).into()),
     ("trend_p", |r| r.trend.p_value.into()),
     ("density_ratio", |r| r.trend.density_ratio.into()),
 ];

@@ -1,6 +1,7 @@
 use super::{
-    Deviation, Histogram, Inhomogeneous, Moments, NearestNeighbours, Pcf, PcfOptions, StatsError, Trend,
-    VoronoiSummary, inhomogeneous, interior, moments, nearest_neighbours, pcf, trend, voronoi,
+    ClarkEvans, Deviation, Histogram, Inhomogeneous, Moments, NearestNeighbours, Pcf, PcfOptions, StatsError,
+    Trend, Voronoi, VoronoiSummary, clark_evans::clark_evans, inhomogeneous, interior, moments,
+    nearest_neighbours, pcf, trend, voronoi,
 };
 use crate::mosaic::Mosaic;
 use serde::{Deserialize, Serialize};
@@ -25,8 +26,14 @@ pub struct Measures {
     pub nearest: Moments,
     /// Points whose distance to the border is at least that to their nearest neighbour.
     pub nearest_interior: Moments,
+    /// Points whose Voronoi cell is bound.
+    pub nearest_bound: Moments,
+    /// Mean nearest-neighbour distance over that of independent points.
+    pub clark_evans: ClarkEvans,
     /// Histogram of the nearest-neighbour distances of all points.
     pub histogram: Histogram,
+    /// The Voronoi cell of every point.
+    pub cells: Voronoi,
     /// Voronoi cells strictly inside the window.
     pub voronoi: VoronoiSummary,
     /// Whether density varies across the window.
@@ -47,12 +54,22 @@ pub fn measure(mosaic: &Mosaic, options: &MeasureOptions) -> Measures {
         .filter_map(|(keep, &d)| keep.then_some(d))
         .collect();
     let trend = trend(points, window);
+    let cells = voronoi(points, window);
+    let bound: Vec<f64> = cells
+        .cells
+        .iter()
+        .zip(&neighbours.distances)
+        .filter_map(|(cell, &d)| cell.bound.then_some(d))
+        .collect();
     Measures {
         deviation: options.deviation,
         nearest: moments(&neighbours.distances, options.deviation),
         nearest_interior: moments(&inside, options.deviation),
         histogram: Histogram::new(&neighbours.distances),
-        voronoi: voronoi(points, window).summary(),
+        nearest_bound: moments(&bound, options.deviation),
+        clark_evans: clark_evans(points, window, &neighbours),
+        voronoi: cells.summary(),
+        cells,
         inhomogeneous: trend
             .significant
             .then(|| inhomogeneous(points, window, &options.pcf, None).ok())

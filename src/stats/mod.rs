@@ -3,8 +3,11 @@
 //! Every statistic takes the points and the window they could have been seen in; points must be finite and inside
 //! it, as those of a [`Mosaic`](crate::mosaic::Mosaic) are.
 
+mod cell_area;
+mod clark_evans;
 mod edge_weight;
 mod error;
+mod functions;
 mod histogram;
 mod inhomogeneous;
 mod intensity;
@@ -20,7 +23,9 @@ mod trend;
 mod voronoi;
 
 pub use crate::geometry::{NearestNeighbours, nearest_neighbours};
+pub use clark_evans::ClarkEvans;
 pub use error::StatsError;
+pub use functions::{FirstDistance, FunctionOptions, Functions, functions};
 pub use histogram::Histogram;
 pub use inhomogeneous::{Inhomogeneous, inhomogeneous};
 pub use intensity::default_intensity_bandwidth;

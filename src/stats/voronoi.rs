@@ -1,3 +1,4 @@
+use super::cell_area::clipped_area;
 use super::{Deviation, Moments, moments};
 use crate::geometry::{Point, Window};
 use crate::mosaic::hexagonal_spacing;
@@ -20,6 +21,15 @@ pub struct Cell {
     pub sides: usize,
     /// Cooper et al. (2016): the cell is finite and every vertex lies strictly inside the window.
     pub bound: bool,
+    /// Area of the part inside the window, in squared units of the coordinates (spatstat's Dirichlet area); of infinite
+    /// cells too. `None` for a point that coincides with an earlier one.
+    pub clipped_area: Option<f64>,
+    /// Inter-cell distance: mean distance to the points beyond its sides, its neighbours in the Delaunay triangulation.
+    pub inter_cell: Option<f64>,
+    /// Distance to the farthest of them.
+    pub furthest: Option<f64>,
+    /// Bond-orientational order ψ6: mean of exp(6iθ) over the directions θ to them, real and imaginary part.
+    pub psi6: Option<[f64; 2]>,
 }
 
 /// Voronoi cells of a pattern.
@@ -46,6 +56,18 @@ pub struct VoronoiSummary {
     pub sides: Moments,
     /// Bound cells over their total area, in points per squared unit of the coordinates.
     pub density: Option<f64>,
+    /// Inter-cell distances of the bound cells, in units of the coordinates.
+    pub inter_cell: Moments,
+    /// Distances to the farthest neighbours of the bound cells, in units of the coordinates.
+    pub furthest: Moments,
+    /// Inter-cell distances of all cells: those at the border have neighbours along the hull that are none.
+    pub inter_cell_all: Moments,
+    /// Distances to the farthest neighbours of all cells.
+    pub furthest_all: Moments,
+    /// Mean modulus of ψ6 of the bound cells: 1 where every cell is a regular hexagon.
+    pub psi6_mean: Option<f64>,
+    /// Modulus of their mean ψ6: 1 where all hexagons have one orientation.
+    pub psi6_global: Option<f64>,
 }
 
 impl Voronoi {
@@ -56,6 +78,12 @@ impl Voronoi {
         let sides: Vec<f64> = bound.iter().map(|c| c.sides as f64).collect();
         let six = bound.iter().filter(|c| c.sides == 6).count();
         let area = moments(&areas, Deviation::Sample);
+        let of = |cells: &mut dyn Iterator<Item = &Cell>, value: fn(&Cell) -> Option<f64>| {
+            moments(&cells.filter_map(value).collect::<Vec<f64>>(), Deviation::Sample)
+        };
+        let psi6: Vec<[f64; 2]> = bound.iter().filter_map(|c| c.psi6).collect();
+        let count = psi6.len() as f64;
+        let mean = |part: fn(&[f64; 2]) -> f64| psi6.iter().map(part).sum::<f64>() / count;
         VoronoiSummary {
             n: self.cells.len(),
             bound: bound.len(),
@@ -64,6 +92,12 @@ impl Voronoi {
             area_cv: area.sd.zip(area.mean).map(|(sd, mean)| sd / mean),
             sides: moments(&sides, Deviation::Sample),
             density: area.mean.map(f64::recip),
+            inter_cell: of(&mut bound.iter().copied(), |c| c.inter_cell),
+            furthest: of(&mut bound.iter().copied(), |c| c.furthest),
+            inter_cell_all: of(&mut self.cells.iter(), |c| c.inter_cell),
+            furthest_all: of(&mut self.cells.iter(), |c| c.furthest),
+            psi6_mean: (count > 0.).then(|| mean(|p| p[0].hypot(p[1]))),
+            psi6_global: (count > 0.).then(|| mean(|p| p[0]).hypot(mean(|p| p[1]))),
         }
     }
 }
@@ -109,7 +143,15 @@ pub fn voronoi(points: &[Point], window: &Window) -> Voronoi {
 /// Cells of the first `n` points, and the greatest distance of a vertex of theirs from its point (infinite if one is not
 /// finite).
 fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell>, f64) {
-    const NONE: Cell = Cell { area: None, sides: 0, bound: false };
+    const NONE: Cell = Cell {
+        area: None,
+        sides: 0,
+        bound: false,
+        clipped_area: None,
+        inter_cell: None,
+        furthest: None,
+        psi6: None,
+    };
     let mut cells = vec![NONE; n];
     let mut farthest = 0f64;
     let bounds = window.bounds();
@@ -137,7 +179,21 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
     for ((index, site), vertex) in sites.iter().zip(triangulation.vertices()).filter(|((i, _), _)| *i < n) {
         let mut corners: Vec<[f64; 2]> = Vec::with_capacity(8);
         let mut finite = true;
+        let at = points[*index];
+        let mut adjacent: Vec<Point> = Vec::with_capacity(8);
+        let mut beyond_sides: Vec<Point> = Vec::with_capacity(8);
         for edge in vertex.as_voronoi_face().adjacent_edges() {
+            let ends = edge.as_delaunay_edge();
+            let other = if ends.from() == vertex { ends.to() } else { ends.from() };
+            let other = points[sites[other.index()].0];
+            adjacent.push(other);
+            let side_length = match (edge.from().position(), edge.to().position()) {
+                (Some(a), Some(b)) => apart([a.x, a.y], [b.x, b.y]),
+                _ => f64::INFINITY,
+            };
+            if side_length > same {
+                beyond_sides.push(other);
+            }
             match edge.from() {
                 VoronoiVertex::Inner(face) => {
                     let c = face.circumcenter();
@@ -152,8 +208,11 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
         while corners.len() > 1 && apart(corners[0], corners[corners.len() - 1]) <= same {
             corners.pop();
         }
+        let cell = &mut cells[*index];
+        describe_neighbours(cell, at, &beyond_sides);
         if !finite || corners.len() < 3 {
             farthest = f64::INFINITY;
+            cell.clipped_area = (!window.is_torus()).then(|| clipped_area(window, at, &adjacent));
             continue;
         }
         let reach = corners.iter().map(|&c| apart(c, *site)).fold(0., f64::max);
@@ -174,13 +233,33 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
                 corners.iter().all(|c| c[0] > 0. && c[0] < right && c[1] > 0. && c[1] < bottom)
             }
         };
-        cells[*index] = Cell {
-            area: Some(twice.abs() / 2. * side * side),
-            sides: corners.len(),
-            bound: inside || window.is_torus(),
-        };
+        let area = twice.abs() / 2. * side * side;
+        cell.area = Some(area);
+        cell.sides = corners.len();
+        cell.bound = inside || window.is_torus();
+        let whole = window.is_torus() || window.border_distance(at) >= reach * side;
+        cell.clipped_area = Some(if whole { area } else { clipped_area(window, at, &adjacent) });
     }
     (cells, farthest)
+}
+
+/// Distances and directions from a cell's point to the points beyond its sides.
+fn describe_neighbours(cell: &mut Cell, at: Point, neighbours: &[Point]) {
+    if neighbours.is_empty() {
+        return;
+    }
+    let n = neighbours.len() as f64;
+    let (mut sum, mut furthest, mut psi) = (0., 0f64, [0.; 2]);
+    for p in neighbours {
+        let d = at.distance(*p);
+        sum += d;
+        furthest = furthest.max(d);
+        let (sin, cos) = (6. * (p.y - at.y).atan2(p.x - at.x)).sin_cos();
+        psi = [psi[0] + cos, psi[1] + sin];
+    }
+    cell.inter_cell = Some(sum / n);
+    cell.furthest = Some(furthest);
+    cell.psi6 = Some(psi.map(|v| v / n));
 }
 
 fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
@@ -293,7 +372,8 @@ mod tests {
         let before = voronoi(&points, &Window::unit_square()).cells;
         points.insert(40, points[7]);
         let mut after = voronoi(&points, &Window::unit_square()).cells;
-        assert_eq!(after.remove(40), Cell { area: None, sides: 0, bound: false });
+        let none = after.remove(40);
+        assert_eq!((none.area, none.clipped_area, none.sides, none.bound), (None, None, 0, false));
         for (a, b) in before.iter().zip(&after) {
             assert_eq!((a.sides, a.bound), (b.sides, b.bound));
         }

@@ -1,0 +1,56 @@
+use super::functions::FirstDistance;
+use crate::geometry::{NearestNeighbours, Point, Window};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+
+/// Distances at which G is taken for the cdf rule, as in spatstat.
+const ROWS: usize = 513;
+
+/// The aggregation index of Clark & Evans (1954): mean nearest-neighbour distance over that of independent points of the same
+/// density, 1/(2√λ). 1 for independent points, 2.149 for the triangular lattice. `None` for fewer than two points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ClarkEvans {
+    /// All points, no correction: too large, as neighbours beyond the border are not seen.
+    pub naive: Option<f64>,
+    /// Donnelly (1978): the expectation corrected by the border, 1/(2√λ) + (.0514 + .0412/√n) · perimeter/n. `None` on a
+    /// torus.
+    pub donnelly: Option<f64>,
+    /// Mean of the Kaplan–Meier estimate of G over its 513 left grid ends to √(ln 10⁵/(πλ)).
+    pub cdf: Option<f64>,
+}
+
+pub(super) fn clark_evans(points: &[Point], window: &Window, nearest: &NearestNeighbours) -> ClarkEvans {
+    let n = points.len() as f64;
+    if nearest.distances.is_empty() {
+        return ClarkEvans::default();
+    }
+    let density = n / window.area();
+    let expected = 0.5 / density.sqrt();
+    let mean = nearest.distances.iter().sum::<f64>() / n;
+    let bounds = window.bounds();
+    let perimeter = match window {
+        Window::Torus(_) => None,
+        Window::Rectangle(_) => Some(2. * (bounds.width() + bounds.height())),
+        Window::Polygon(polygon) => {
+            let around = |ring: &Vec<Point>| -> f64 {
+                (0..ring.len()).map(|i| ring[i].distance(ring[(i + 1) % ring.len()])).sum()
+            };
+            Some(polygon.rings().iter().map(around).sum())
+        }
+    };
+    let r_max = (1e5f64.ln() / (PI * density)).sqrt();
+    let r: Vec<f64> = (0..ROWS).map(|k| k as f64 * r_max / (ROWS - 1) as f64).collect();
+    let borders: Vec<f64> = points.iter().map(|&p| window.border_distance(p)).collect();
+    let g = FirstDistance::new(&nearest.distances, &borders, &r, |_| 1.).kaplan_meier;
+    let (mut sum, mut total) = (0., 0.);
+    for k in 1..ROWS {
+        let step = g[k] - g[k - 1];
+        sum += r[k - 1] * step;
+        total += step;
+    }
+    ClarkEvans {
+        naive: Some(mean / expected),
+        donnelly: perimeter.map(|around| mean / (expected + (0.0514 + 0.0412 / n.sqrt()) * around / n)),
+        cdf: (total > 0.).then(|| sum / total / expected),
+    }
+}

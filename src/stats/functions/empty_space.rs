@@ -1,0 +1,64 @@
+use crate::geometry::{Point, Window};
+use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use rayon::prelude::*;
+use std::num::NonZero;
+
+/// Test places along each side of the window's bounds, as in spatstat.
+const PLACES: usize = 128;
+
+/// Distances from the centres of 128 × 128 pixels that cover the window to the nearest point and to the border.
+pub(super) struct EmptySpace {
+    /// To the nearest point; infinite without points.
+    pub distances: Vec<f64>,
+    /// To the border; infinite on a torus.
+    pub borders: Vec<f64>,
+    sorted_borders: Vec<f64>,
+}
+
+pub(super) fn empty_space(points: &[Point], window: &Window) -> EmptySpace {
+    let bounds = window.bounds();
+    let (w, h) = (bounds.width() / PLACES as f64, bounds.height() / PLACES as f64);
+    let places: Vec<Point> = (0..PLACES * PLACES)
+        .map(|i| {
+            let (column, row) = ((i % PLACES) as f64, (i / PLACES) as f64);
+            Point::new(bounds.x0() + (column + 0.5) * w, bounds.y0() + (row + 0.5) * h)
+        })
+        .filter(|&p| window.contains(p))
+        .collect();
+    let coordinates: Vec<[f64; 2]> = points.iter().map(|p| [p.x - bounds.x0(), p.y - bounds.y0()]).collect();
+    let tree = if points.is_empty() { None } else { ImmutableKdTree::new_from_slice(&coordinates).ok() };
+    let sides = [bounds.width(), bounds.height()];
+    let one = NonZero::<usize>::MIN;
+    let distance = |&p: &Point| {
+        let Some(tree): &Option<ImmutableKdTree<f64, 2>> = &tree else { return f64::INFINITY };
+        let at = [p.x - bounds.x0(), p.y - bounds.y0()];
+        let query = tree.query(&at);
+        let found = if window.is_torus() {
+            query.periodic_boundary_condition(&sides).nearest_n::<SquaredEuclidean<f64>>(one).execute()
+        } else {
+            query.nearest_n::<SquaredEuclidean<f64>>(one).execute()
+        };
+        found.first().map_or(f64::INFINITY, |f| window.distance(p, points[f.item as usize]))
+    };
+    let distances = places.par_iter().map(distance).collect();
+    let borders: Vec<f64> = places.par_iter().map(|&p| window.border_distance(p)).collect();
+    let mut sorted_borders = borders.clone();
+    sorted_borders.sort_by(f64::total_cmp);
+    EmptySpace { distances, borders, sorted_borders }
+}
+
+impl EmptySpace {
+    /// Area of the window without a margin of width `r`: exact for rectangles, by the pixels for polygons.
+    pub(super) fn eroded(&self, window: &Window, r: f64) -> f64 {
+        let bounds = window.bounds();
+        match window {
+            Window::Torus(_) => window.area(),
+            Window::Rectangle(_) => (bounds.width() - 2. * r).max(0.) * (bounds.height() - 2. * r).max(0.),
+            Window::Polygon(_) => {
+                let all = self.sorted_borders.len();
+                let left = all - self.sorted_borders.partition_point(|&b| b < r);
+                window.area() * left as f64 / all.max(1) as f64
+            }
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! Functions of distance: G, F, J, K, L and g, with the edge corrections and the binning of spatstat 3.0 (Baddeley,
+//! Rubak & Turner 2015), so that values can be compared digit by digit.
+
+mod empty_space;
+mod first_distance;
+mod kernel_pcf;
+mod ripley;
+
+pub use first_distance::FirstDistance;
+
+use super::StatsError;
+use crate::geometry::{Point, Window, nearest_neighbours};
+use empty_space::empty_space;
+use ripley::Ripley;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+
+/// More rows than this are refused.
+const MAX_ROWS: f64 = 100_000.;
+/// Rows where only the end of the grid is given.
+const DEFAULT_ROWS: f64 = 128.;
+
+/// Distances at which functions are taken: 0, step, 2 step, … up to `r_max`, in the unit of the coordinates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FunctionOptions {
+    /// Distance between rows; `None`: 128 to `r_max`.
+    pub r_step: Option<f64>,
+    /// The last row is at most here; `None`: a quarter of the shorter side of the window (Ripley's rule), but no more than
+    /// √(1000/(πλ)), where 1000 points are expected within reach, as in spatstat.
+    pub r_max: Option<f64>,
+}
+
+impl FunctionOptions {
+    /// The distances, in the unit of the coordinates.
+    ///
+    /// # Errors
+    /// If a number is not positive, or there would be more than 100 000 rows.
+    pub fn distances(&self, points: usize, window: &Window) -> Result<Vec<f64>, StatsError> {
+        let positive = |option, value: f64| {
+            let ok = value.is_finite() && value > 0.;
+            if ok { Ok(value) } else { Err(StatsError::Option { option, value, range: "a positive length" }) }
+        };
+        let bounds = window.bounds();
+        let rule = (bounds.width().min(bounds.height()) / 4.)
+            .min((1000. * window.area() / (PI * points.max(1) as f64)).sqrt());
+        let r_max = positive("r_max", self.r_max.unwrap_or(rule))?;
+        let step = positive("r_step", self.r_step.unwrap_or(r_max / DEFAULT_ROWS))?;
+        let rows = (r_max / step * (1. + 1e-12)).floor() + 1.;
+        if rows > MAX_ROWS {
+            let range = "at most 100000: take a larger step";
+            return Err(StatsError::Option { option: "number of rows of the functions", value: rows, range });
+        }
+        Ok((0..rows as usize).map(|k| k as f64 * step).collect())
+    }
+}
+
+/// Functions of distance, all at the same distances. A value that is not defined (no points at risk, r = 0 of g) is NaN.
+#[derive(Clone, Debug)]
+pub struct Functions {
+    /// Distances r, in the unit of the coordinates.
+    pub r: Vec<f64>,
+    /// G: distribution of the distance from a point to its nearest neighbour; `None` for fewer than two points.
+    pub g: Option<FirstDistance>,
+    /// F: distribution of the distance from any place to the nearest point; `None` without points.
+    pub f: Option<FirstDistance>,
+    /// What G and F are of independent points of that density: 1 − exp(−λπr²).
+    pub poisson: Vec<f64>,
+    ripley: Option<Ripley>,
+}
+
+/// All functions of a pattern.
+///
+/// On a torus nothing is hidden: all corrections agree.
+///
+/// # Errors
+/// If the distances are out of range, or a point is not inside the window.
+pub fn functions(
+    points: &[Point],
+    window: &Window,
+    options: &FunctionOptions,
+) -> Result<Functions, StatsError> {
+    let r = options.distances(points.len(), window)?;
+    if let Some((index, p)) =
+        points.iter().enumerate().find(|(_, p)| !(p.is_finite() && window.contains(**p)))
+    {
+        return Err(StatsError::Outside { index, x: p.x, y: p.y });
+    }
+    let density = points.len() as f64 / window.area();
+    let nearest = nearest_neighbours(points, window).distances;
+    let empty = empty_space(points, window);
+    let g = (!nearest.is_empty()).then(|| {
+        let borders: Vec<f64> = points.iter().map(|&p| window.border_distance(p)).collect();
+        FirstDistance::new(&nearest, &borders, &r, |r| empty.eroded(window, r))
+    });
+    let f = (!points.is_empty())
+        .then(|| FirstDistance::new(&empty.distances, &empty.borders, &r, |r| empty.eroded(window, r)));
+    Ok(Functions {
+        poisson: r.iter().map(|r| -(-density * PI * r * r).exp_m1()).collect(),
+        ripley: (points.len() > 1).then(|| Ripley::new(points, window, &r)),
+        g,
+        f,
+        r,
+    })
+}
+
+impl Functions {
+    /// Names and values of all columns, in the order of a table; names are those of spatstat with the function's before.
+    /// Distances and L are in the unit of the coordinates, K in its square, the others are numbers.
+    pub fn columns(&self) -> Vec<(&'static str, Vec<f64>)> {
+        let nan = || vec![f64::NAN; self.r.len()];
+        let of = |d: &Option<FirstDistance>, pick: fn(&FirstDistance) -> &Vec<f64>| {
+            d.as_ref().map_or_else(nan, |d| pick(d).clone())
+        };
+        let j = |pick: fn(&FirstDistance) -> &Vec<f64>| match (&self.g, &self.f) {
+            (Some(g), Some(f)) => pick(g)
+                .iter()
+                .zip(pick(f))
+                // J = (1 − G)/(1 − F) (van Lieshout & Baddeley 1996), where F < 1
+                .map(|(g, f)| if 1. - f > 1e-12 { (1. - g) / (1. - f) } else { f64::NAN })
+                .collect(),
+            _ => nan(),
+        };
+        let k = |pick: fn(&Ripley) -> &Vec<f64>| self.ripley.as_ref().map_or_else(nan, |k| pick(k).clone());
+        let l = |pick: fn(&Ripley) -> &Vec<f64>| k(pick).iter().map(|k| (k / PI).sqrt()).collect();
+        vec![
+            ("r", self.r.clone()),
+            ("G_none", of(&self.g, |d| &d.none)),
+            ("G_rs", of(&self.g, |d| &d.reduced_sample)),
+            ("G_km", of(&self.g, |d| &d.kaplan_meier)),
+            ("G_han", of(&self.g, |d| &d.hanisch)),
+            ("G_theo", self.poisson.clone()),
+            ("F_none", of(&self.f, |d| &d.none)),
+            ("F_rs", of(&self.f, |d| &d.reduced_sample)),
+            ("F_km", of(&self.f, |d| &d.kaplan_meier)),
+            ("F_han", of(&self.f, |d| &d.hanisch)),
+            ("J_none", j(|d| &d.none)),
+            ("J_rs", j(|d| &d.reduced_sample)),
+            ("J_km", j(|d| &d.kaplan_meier)),
+            ("J_han", j(|d| &d.hanisch)),
+            ("K_none", k(|k| &k.none)),
+            ("K_border", k(|k| &k.border)),
+            ("K_iso", k(|k| &k.isotropic)),
+            ("K_trans", k(|k| &k.translation)),
+            ("K_theo", self.r.iter().map(|r| PI * r * r).collect()),
+            ("L_none", l(|k| &k.none)),
+            ("L_border", l(|k| &k.border)),
+            ("L_iso", l(|k| &k.isotropic)),
+            ("L_trans", l(|k| &k.translation)),
+            ("pcf_trans_divr", k(|k| &k.g_translation.by_r)),
+            ("pcf_iso_divr", k(|k| &k.g_isotropic.by_r)),
+            ("pcf_trans_divd", k(|k| &k.g_translation.by_d)),
+            ("pcf_iso_divd", k(|k| &k.g_isotropic.by_d)),
+        ]
+    }
+}
+
+/// Index of the first of the `r` that is at least `d`; `r` begins with 0 and is even.
+fn first_at_least(r: &[f64], d: f64) -> usize {
+    let step = r.get(1).copied().unwrap_or(f64::INFINITY);
+    let mut k = ((d / step).floor().max(0.) as usize).min(r.len());
+    while k > 0 && r[k - 1] >= d {
+        k -= 1;
+    }
+    while k < r.len() && r[k] < d {
+        k += 1;
+    }
+    k
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn column(functions: &Functions, name: &str) -> Vec<f64> {
+        functions.columns().into_iter().find(|(n, _)| *n == name).unwrap().1
+    }
+
+    #[test]
+    fn the_square_lattice_on_a_torus_in_closed_form() {
+        let points: Vec<Point> =
+            (0..100).map(|i| Point::new(f64::from(i % 10) + 0.5, f64::from(i / 10) + 0.5)).collect();
+        let window = Window::Torus(crate::geometry::Rectangle::new(0., 0., 10., 10.).unwrap());
+        let options = FunctionOptions { r_step: Some(0.1), r_max: Some(1.5) };
+        let found = functions(&points, &window, &options).unwrap();
+        for name in ["G_none", "G_rs", "G_km", "G_han"] {
+            let g = column(&found, name);
+            assert!((g[9], g[11]) == (0., 1.), "{name} {} {}", g[9], g[11]);
+        }
+        // 4 neighbours at 1, 4 at √2, of 99 others on an area of 100
+        for name in ["K_none", "K_border", "K_iso", "K_trans"] {
+            let k = column(&found, name);
+            let lambda = if name == "K_border" { 1. } else { 0.99 };
+            assert!((k[12] - 4. / lambda).abs() < 1e-9 && (k[15] - 8. / lambda).abs() < 1e-9, "{name} {k:?}");
+        }
+        let f = column(&found, "F_km");
+        assert!((f[4] - PI * 0.16).abs() < 0.02 && f[8] == 1., "{f:?}");
+    }
+
+    #[test]
+    fn what_is_not_defined_is_not_a_number_and_the_rest_is() {
+        let window = Window::rectangle(0., 0., 4., 3.).unwrap();
+        let options = FunctionOptions::default();
+        for n in 0..4 {
+            let points: Vec<Point> = (0..n).map(|i| Point::new(f64::from(i), 1.)).collect();
+            let found = functions(&points, &window, &options).unwrap();
+            assert_eq!(column(&found, "F_none")[5].is_nan(), n == 0);
+            assert_eq!(column(&found, "G_none")[5].is_nan(), n < 2);
+            assert_eq!(column(&found, "K_iso")[5].is_nan(), n < 2);
+            assert_eq!(column(&found, "pcf_iso_divd")[5].is_nan(), n < 2);
+        }
+        let bad = FunctionOptions { r_step: Some(0.), r_max: None };
+        assert!(functions(&[], &window, &bad).is_err());
+        let fine = FunctionOptions { r_step: Some(1e-9), r_max: None };
+        assert!(functions(&[], &window, &fine).is_err());
+    }
+
+    proptest! {
+        #[test]
+        fn any_small_pattern_has_distributions_between_0_and_1(
+            raw in prop::collection::vec((0..7u8, 0..7u8), 0..30), torus: bool,
+        ) {
+            let bounds = crate::geometry::Rectangle::new(0., 0., 6., 6.).unwrap();
+            let window = if torus { Window::Torus(bounds) } else { Window::Rectangle(bounds) };
+            let points: Vec<Point> =
+                raw.iter().map(|&(x, y)| Point::new(f64::from(x), f64::from(y))).collect();
+            let options = FunctionOptions { r_step: None, r_max: Some(5.) };
+            for (name, values) in functions(&points, &window, &options).unwrap().columns() {
+                let ok = |v: &f64| match name.as_bytes()[0] {
+                    b'G' | b'F' => v.is_nan() || (-1e-12..=1. + 1e-12).contains(v),
+                    _ => v.is_nan() || (*v >= 0. && v.is_finite()),
+                };
+                prop_assert!(values.iter().all(ok), "{name} {values:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,134 @@
+use super::first_at_least;
+use super::kernel_pcf::{Binned, PcfCurves};
+use crate::geometry::{Point, Window};
+use crate::stats::edge_weight::EdgeWeights;
+use crate::stats::pairs::PairGrid;
+use rayon::prelude::*;
+
+/// Parts of a large pattern that may run in parallel; sums are taken in their order.
+const CHUNKS: usize = 32;
+const CHUNKED_FROM: usize = 2048;
+
+/// K (Ripley 1977) and g with several edge corrections: none, border, translation (Ohser & Stoyan 1981), isotropic
+/// (Ripley 1976). λ² is n(n−1)/A²; the border correction takes λ = n/A and the points with b ≥ r.
+#[derive(Clone, Debug)]
+pub(super) struct Ripley {
+    pub none: Vec<f64>,
+    pub border: Vec<f64>,
+    pub translation: Vec<f64>,
+    pub isotropic: Vec<f64>,
+    pub g_translation: PcfCurves,
+    pub g_isotropic: PcfCurves,
+}
+
+/// Sums over the pairs of one part of the pattern, by the first row that reaches them.
+struct Sums {
+    none: Vec<u64>,
+    /// Pairs seen from a point whose border distance is at least r: begun at a row, ended before another.
+    border: Vec<i64>,
+    translation: Vec<f64>,
+    isotropic: Vec<f64>,
+    g_translation: Binned,
+    g_isotropic: Binned,
+}
+
+impl Ripley {
+    /// Of at least two points, all inside the window.
+    pub(super) fn new(points: &[Point], window: &Window, r: &[f64]) -> Self {
+        let (n, area, rows) = (points.len(), window.area(), r.len());
+        let density = n as f64 / area;
+        let empty = Binned::new(r[rows - 1], density);
+        let torus = window.is_torus();
+        let grid = PairGrid::new(points, window, torus, r[rows - 1] + empty.half_width());
+        let weights = EdgeWeights::new(window);
+        // Rows that the border distance of each point reaches; sorted as the grid's points.
+        let seen_from: Vec<usize> =
+            (0..n).map(|i| rows_up_to(r, window.border_distance(grid.point(i)))).collect();
+        let chunks = if n < CHUNKED_FROM { 1 } else { CHUNKS.min(grid.rows()) };
+        let sums_of = |chunk: usize| {
+            let part = chunk * grid.rows() / chunks..(chunk + 1) * grid.rows() / chunks;
+            let mut sums = Sums {
+                none: vec![0; rows + 1],
+                border: vec![0; rows + 1],
+                translation: vec![0.; rows + 1],
+                isotropic: vec![0.; rows + 1],
+                g_translation: empty.clone(),
+                g_isotropic: empty.clone(),
+            };
+            grid.visit(part, |i, j, dx, dy| {
+                let d = (dx * dx + dy * dy).sqrt();
+                let from = grid.point(i);
+                let to = Point::new(from.x + dx, from.y + dy);
+                let (translation, isotropic) = if torus {
+                    (1., 1.)
+                } else {
+                    (weights.translation(dx, dy), weights.isotropic(from, to, d))
+                };
+                // A pair was visited once and counts in both orders.
+                sums.g_translation.add(d, 2. * translation);
+                sums.g_isotropic.add(d, 2. * isotropic);
+                let at = first_at_least(r, d);
+                if at == rows {
+                    return;
+                }
+                sums.none[at] += 2;
+                sums.translation[at] += 2. * translation;
+                sums.isotropic[at] += 2. * isotropic;
+                for end in [seen_from[i], seen_from[j]] {
+                    if at < end {
+                        sums.border[at] += 1;
+                        sums.border[end] -= 1;
+                    }
+                }
+            });
+            sums
+        };
+        let parts: Vec<Sums> =
+            if chunks > 1 { (0..chunks).into_par_iter().map(sums_of).collect() } else { vec![sums_of(0)] };
+
+        let per_pair = area / (n as f64 * (n - 1) as f64);
+        let cumulated = |at_row: &dyn Fn(&Sums, usize) -> f64| {
+            let mut sum = 0.;
+            let mut up_to = |k| {
+                sum += parts.iter().map(|s| at_row(s, k)).sum::<f64>();
+                sum
+            };
+            (0..rows).map(&mut up_to).collect::<Vec<f64>>()
+        };
+        let k_of = |at_row: &dyn Fn(&Sums, usize) -> f64| {
+            cumulated(at_row).into_iter().map(|pairs| pairs * per_pair).collect::<Vec<f64>>()
+        };
+        let mut ends = vec![0usize; rows + 1];
+        for &end in &seen_from {
+            ends[end] += 1;
+        }
+        let mut left = n;
+        let border = cumulated(&|s, k| s.border[k] as f64)
+            .into_iter()
+            .enumerate()
+            .map(|(k, pairs)| {
+                left -= ends[k];
+                if left > 0 { pairs / (density * left as f64) } else { f64::NAN }
+            })
+            .collect();
+        let (mut g_translation, mut g_isotropic) = (empty.clone(), empty);
+        for part in &parts {
+            g_translation.merge(&part.g_translation);
+            g_isotropic.merge(&part.g_isotropic);
+        }
+        Self {
+            none: k_of(&|s, k| s.none[k] as f64),
+            border,
+            translation: k_of(&|s, k| s.translation[k]),
+            isotropic: k_of(&|s, k| s.isotropic[k]),
+            g_translation: g_translation.curves(r, per_pair),
+            g_isotropic: g_isotropic.curves(r, per_pair),
+        }
+    }
+}
+
+/// How many of the `r` are at most `b`.
+fn rows_up_to(r: &[f64], b: f64) -> usize {
+    let k = first_at_least(r, b);
+    if k < r.len() && r[k] <= b { k + 1 } else { k }
+}
