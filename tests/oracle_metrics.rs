@@ -2,7 +2,7 @@
 
 use conemosaic::geometry::{Point, Window};
 use conemosaic::mosaic::{LengthUnit, Mosaic};
-use conemosaic::stats::{FunctionOptions, MeasureOptions, functions, measure};
+use conemosaic::stats::{FunctionOptions, MeasureOptions, functions, measure, nearest_neighbours};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -57,7 +57,8 @@ fn functions_of_distance_are_those_of_spatstat() {
             let window = window(&table(&format!("{mosaic}.spatstat_points{suffix}.csv")).unwrap());
             let r = column(&theirs, "r");
             let options = FunctionOptions { r_step: Some(r[1]), r_max: r.last().copied() };
-            let ours = functions(&points(&sites), &window, &options).unwrap();
+            let sites = points(&sites);
+            let ours = functions(&sites, &window, &nearest_neighbours(&sites, &window), &options).unwrap();
             assert_eq!(ours.r.len(), r.len());
             let ours: BTreeMap<_, _> = ours.columns().into_iter().collect();
             for name in theirs.keys().filter(|name| *name != "r") {

@@ -3,15 +3,13 @@ use super::failures::write_failures;
 use super::measured::{distances, not_compared};
 use super::outputs::OutputFolder;
 use super::region::Regions;
-use super::verdicts::{self, envelope_table, verdicts_on};
+use super::verdicts::{self, verdicts_on};
 use super::work::for_each;
 use super::{BatchError, Input, Progress};
 use crate::compare::{References, VerdictOptions};
-use crate::report::{CoordinatesRecord, FindingRecord, VerdictRecord};
+use crate::report::{CoordinatesRecord, FindingRecord};
 use crate::sample::Sampler;
-use crate::stats::{measure, rank_correlation};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
+use crate::stats::measure;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -56,12 +54,7 @@ pub fn compare_files(
         let (verdicts, none) = verdicts_on(&mosaic, &measures, samplers, with.verdict.as_ref(), seed);
         record.warnings.extend(none);
         record.mosaic.verdicts = verdicts::records(&verdicts);
-        if !verdicts.is_empty() {
-            let (header, rows) = envelope_table(&measures, &verdicts);
-            out.write_table(&format!("{}.envelope.csv", input.name), &header, &rows)?;
-            let figure = verdicts::figure(&input.name, &measures, &verdicts)?;
-            out.write(&format!("{}.verdict.svg", input.name), figure.as_bytes())?;
-        }
+        verdicts::write(&out, &format!("{}.", input.name), &input.name, &measures, &verdicts)?;
         let closest = record.mosaic.closest_sampler().unwrap_or("none");
         let line = format!("{}, closest to {closest}", line_about(&record));
         Ok((record, line))
@@ -75,9 +68,9 @@ pub fn compare_files(
     let rows: Vec<_> = findings.iter().map(FindingRecord::row).collect();
     out.write_table("finding.csv", &FindingRecord::header(), &rows)?;
     if with.verdict.is_some() {
-        let rows: Vec<_> =
-            records.iter().flat_map(|r| r.mosaic.verdicts.iter().map(|v| v.row(&r.file))).collect();
-        out.write_table("verdicts.csv", &VerdictRecord::header(), &rows)?;
+        let found = records.iter().map(|r| (r.file.as_str(), r.mosaic.verdicts.as_slice()));
+        let (header, rows) = verdicts::table(found);
+        out.write_table("verdicts.csv", &header, &rows)?;
     }
     let samplers = serde_json::json!({ "names": names, "seed": seed, "verdict": with.verdict });
     out.write("options.json", &options_json(options, samplers)?)?;
@@ -93,8 +86,7 @@ fn findings(records: &[CoordinatesRecord], samplers: &[String], seed: u64) -> Ve
             Some((r.mosaic.nearest.ri?, distance.l_infinity))
         };
         let pairs: Vec<(f64, f64)> = records.iter().filter_map(both).collect();
-        let correlation = rank_correlation(&pairs, &mut ChaCha8Rng::seed_from_u64(seed));
-        FindingRecord { sampler: sampler.clone(), mosaics: pairs.len(), correlation }
+        FindingRecord::of(sampler, &pairs, seed)
     };
     samplers.iter().map(of).collect()
 }

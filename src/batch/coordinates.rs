@@ -63,7 +63,8 @@ pub fn measure_files(
         let (header, rows) = pcf_table(&measures, &[]);
         out.write_table(&format!("{}.pcf.csv", input.name), &header, &rows)?;
         if let Some(distances) = &options.functions {
-            let (header, rows) = functions_table(&functions(mosaic.points(), mosaic.window(), distances)?);
+            let found = functions(mosaic.points(), mosaic.window(), &measures.neighbours, distances)?;
+            let (header, rows) = functions_table(&found);
             out.write_table(&format!("{}.functions.csv", input.name), &header, &rows)?;
             let (header, rows) = points_table(&mosaic, &measures);
             out.write_table(&format!("{}.points.csv", input.name), &header, &rows)?;

@@ -1,4 +1,5 @@
 use super::BatchError;
+use super::outputs::series_table;
 use crate::compare::{ReferenceCurve, l_infinity};
 use crate::detect::Detections;
 use crate::geometry::Window;
@@ -57,25 +58,15 @@ pub(super) fn distances(
 /// Columns r, g, where density varies those that allow for it, and one g a sampler; no rows where the function is not
 /// defined.
 pub(super) fn pcf_table(measures: &Measures, curves: &[ReferenceCurve]) -> (Vec<String>, Vec<Vec<Cell>>) {
-    let pcf = measures.pcf.as_ref().ok();
-    let varying: Vec<(&str, &[f64])> = measures.inhomogeneous.iter().flat_map(|f| f.columns()).collect();
-    let header = ["r".to_owned(), "g".to_owned()]
-        .into_iter()
-        .chain(varying.iter().map(|(name, _)| (*name).to_owned()))
-        .chain(curves.iter().map(|c| format!("g_{}", c.sampler.replace('-', "_"))))
-        .collect();
-    let rows = pcf
-        .into_iter()
-        .flat_map(|pcf| (0..pcf.r.len()).map(move |k| (pcf, k)))
-        .map(|(pcf, k)| {
-            [pcf.r[k].into(), pcf.g[k].into()]
-                .into_iter()
-                .chain(varying.iter().map(|(_, values)| values.get(k).copied().into()))
-                .chain(curves.iter().map(|c| c.pcf.g.get(k).copied().into()))
-                .collect()
-        })
-        .collect();
-    (header, rows)
+    let (r, g) = measures.pcf.as_ref().map_or((&[][..], &[][..]), |pcf| (&pcf.r, &pcf.g));
+    let varying = measures.inhomogeneous.iter().flat_map(|f| f.columns());
+    let samplers = curves.iter().map(|c| (format!("g_{}", c.sampler.replace('-', "_")), c.pcf.g.as_slice()));
+    series_table(
+        [("r".to_owned(), r), ("g".to_owned(), g)]
+            .into_iter()
+            .chain(varying.map(|(name, values)| (name.to_owned(), values)))
+            .chain(samplers),
+    )
 }
 
 /// A warning for every sampler that cannot fill the mosaic's window.
@@ -173,9 +164,5 @@ pub(super) fn points_table(mosaic: &Mosaic, measures: &Measures) -> (Vec<String>
 /// Columns of `NAME.functions.csv`.
 pub(super) fn functions_table(functions: &Functions) -> (Vec<String>, Vec<Vec<Cell>>) {
     let columns = functions.columns();
-    let header = columns.iter().map(|(name, _)| (*name).to_owned()).collect();
-    let rows = (0..functions.r.len())
-        .map(|k| columns.iter().map(|(_, values)| values[k].into()).collect())
-        .collect();
-    (header, rows)
+    series_table(columns.iter().map(|(name, values)| ((*name).to_owned(), values.as_slice())))
 }

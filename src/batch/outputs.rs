@@ -95,6 +95,17 @@ fn remove_folder(path: &Path) -> io::Result<()> {
     }
 }
 
+/// A table whose columns are series of numbers: as many rows as the first has; one that is shorter, and a value that is not
+/// defined, leaves empty cells.
+pub(super) fn series_table<'a>(
+    columns: impl IntoIterator<Item = (String, &'a [f64])>,
+) -> (Vec<String>, Vec<Vec<Cell>>) {
+    let (header, columns): (Vec<String>, Vec<&[f64]>) = columns.into_iter().unzip();
+    let rows = columns.first().map_or(0, |first| first.len());
+    let row = |k: usize| columns.iter().map(|values| values.get(k).copied().into()).collect();
+    (header, (0..rows).map(row).collect())
+}
+
 /// Permissions alone do not tell (read-only file systems, quotas): write and remove.
 fn tempfile_probe(folder: &Path) -> io::Result<()> {
     let probe = folder.join(format!(".conemosaic-{}", std::process::id()));

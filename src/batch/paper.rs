@@ -1,17 +1,17 @@
-use super::outputs::OutputFolder;
+use super::outputs::{OutputFolder, series_table};
 use super::{BatchError, Progress};
 use crate::compare::paper::{
     FIGURE_1_SAMPLERS, Pattern, PrintedDistances, TABLE_1_SAMPLERS, TABLE_2_SAMPLERS, distance_between,
-    made_row, mean_curve, pattern, printed_distances, printed_regularity, tightest, with_bandwidth,
+    made_row, pattern, printed_distances, printed_regularity, tightest, with_bandwidth,
 };
-use crate::compare::{CompareError, l_infinity};
+use crate::compare::{CompareError, draw, l_infinity, mean_curve, of_sampler};
 use crate::geometry::Window;
 use crate::report::{
     Cell, Curve, FindingRecord, PaperResults, PowerScale, SamplerPanel, counted, samplers_figure,
     spectrum_png,
 };
 use crate::sample::{Sampler, as_reference, sampler};
-use crate::stats::{Pcf, PowerSpectrum, SpectrumOptions, rank_correlation, spectrum};
+use crate::stats::{Pcf, PowerSpectrum, SpectrumOptions, spectrum};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -114,12 +114,9 @@ fn work(task: &Task, seed: u64, progress: &dyn Progress) -> Result<Made, Compare
         }
         Task::Spectrum { sampler } => {
             let window = Window::unit_torus();
-            let name = || sampler.name().to_owned();
-            let points = sampler
-                .sample(SPECTRUM_POINTS, &window, &mut ChaCha8Rng::seed_from_u64(seed))
-                .map_err(|source| CompareError::Sample { sampler: name(), source })?;
+            let points = draw(sampler, SPECTRUM_POINTS, &window, &mut ChaCha8Rng::seed_from_u64(seed))?;
             let found = spectrum(&points, &window, &SpectrumOptions { max_frequency: MAX_FREQUENCY })
-                .map_err(|source| CompareError::Stats { sampler: name(), source })?;
+                .map_err(of_sampler(sampler.name()))?;
             progress.done(sampler.name(), Ok(&format!("spectrum of {}", counted(points.len(), "point"))));
             Ok(Made::Spectrum(found))
         }
@@ -156,8 +153,7 @@ fn results(all: &Everything, patterns: usize, seed: u64) -> Result<PaperResults,
             Some((row.ri, d.l_infinity[column]))
         });
         let pairs: Vec<(f64, f64)> = both.collect();
-        let correlation = rank_correlation(&pairs, &mut ChaCha8Rng::seed_from_u64(seed));
-        FindingRecord { sampler: (*sampler).to_owned(), mosaics: pairs.len(), correlation }
+        FindingRecord::of(sampler, &pairs, seed)
     });
     let curves = FIGURE_1_SAMPLERS
         .iter()
@@ -184,9 +180,7 @@ fn bandwidths(
         let mut means = Vec::new();
         for name in TABLE_2_SAMPLERS {
             let curves = all.of(name, POINTS).iter().map(|p| with_bandwidth(p, width));
-            let curves = curves
-                .collect::<Result<Vec<_>, _>>()
-                .map_err(|source| CompareError::Stats { sampler: name.to_owned(), source })?;
+            let curves = curves.collect::<Result<Vec<_>, _>>().map_err(of_sampler(name))?;
             means.extend(mean_curve(&curves.iter().collect::<Vec<_>>()));
         }
         let [bnot, darts, jittered] = &means[..] else { return Err(CompareError::TooFewPoints { found: 0 }) };
@@ -240,13 +234,9 @@ fn curves_table<'a>(
     curves: impl Iterator<Item = (&'a str, &'a Vec<f64>, &'a Vec<f64>)>,
 ) -> (Vec<String>, Vec<Vec<Cell>>) {
     let curves: Vec<_> = curves.collect();
-    let header =
-        [abscissa.to_owned()].into_iter().chain(curves.iter().map(|c| c.0.replace('-', "_"))).collect();
-    let longest = curves.iter().map(|c| c.1).max_by_key(|x| x.len());
-    let rows = longest.into_iter().flatten().enumerate().map(|(k, x)| {
-        [Cell::from(*x)].into_iter().chain(curves.iter().map(|c| c.2.get(k).copied().into())).collect()
-    });
-    (header, rows.collect())
+    let longest = curves.iter().map(|c| c.1.as_slice()).max_by_key(|x| x.len()).unwrap_or_default();
+    let values = curves.iter().map(|c| (c.0.replace('-', "_"), c.2.as_slice()));
+    series_table([(abscissa.to_owned(), longest)].into_iter().chain(values))
 }
 
 fn figure(all: &Everything, results: &PaperResults) -> Result<String, BatchError> {

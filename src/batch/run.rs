@@ -4,15 +4,15 @@ use super::image_figure::figure;
 use super::image_window::ImageWindows;
 use super::measured::{distances, not_compared, pcf_table, record_of, warnings_of};
 use super::outputs::OutputFolder;
-use super::verdicts::{self, envelope_table, verdicts_on};
+use super::verdicts::{self, verdicts_on};
 use super::work::for_each;
 use super::{BatchError, Crop, Failure, ImageWindow, Input, Progress, ScaleSource};
-use crate::compare::{ReferenceCurve, References, SamplerVerdict, VerdictOptions};
+use crate::compare::{ReferenceCurve, References, VerdictOptions};
 use crate::detect::{DetectOptions, Detections, weights};
 use crate::geometry::Window;
 use crate::image::Plane;
 use crate::mosaic::{LengthUnit, Mosaic, Scale};
-use crate::report::{DetectionRecord, ImageRecord, VerdictRecord, page};
+use crate::report::{DetectionRecord, ImageRecord, page};
 use crate::sample::Sampler;
 use crate::stats::{Histogram, MeasureOptions, Measures, PcfOptions, measure};
 use serde::Serialize;
@@ -26,8 +26,6 @@ const IMAGES: &str = "images";
 const METRICS: &str = "metrics.json";
 /// What an image's folder holds.
 const FILES: [&str; 5] = ["points.csv", "overlay.png", "pcf.csv", METRICS, "figure.svg"];
-/// And with verdicts.
-const VERDICT_FILES: [&str; 2] = ["envelope.csv", "verdict.svg"];
 
 /// Options of the main job.
 #[derive(Clone)]
@@ -132,15 +130,9 @@ pub fn run_files(
     let rows: Vec<_> = done.iter().map(|d| d.record.row(&samplers)).collect();
     out.write_table("summary.csv", &ImageRecord::header(&samplers), &rows)?;
     if options.verdict.is_some() {
-        let verdicts = |d: &Done| {
-            let record = &d.record;
-            record.mosaic.verdicts.iter().map(|v| v.row(&record.file)).collect::<Vec<_>>()
-        };
-        out.write_table(
-            "verdicts.csv",
-            &VerdictRecord::header(),
-            &done.iter().flat_map(verdicts).collect::<Vec<_>>(),
-        )?;
+        let found = done.iter().map(|d| (d.record.file.as_str(), d.record.mosaic.verdicts.as_slice()));
+        let (header, rows) = verdicts::table(found);
+        out.write_table("verdicts.csv", &header, &rows)?;
     }
     let records: Vec<ImageRecord> = done.iter().map(|d| d.record.clone()).collect();
     let reasons: Vec<(&str, &str)> = failures.iter().map(|f| (f.file.as_str(), f.reason.as_str())).collect();
@@ -238,7 +230,7 @@ fn one_image(
     };
     images.replace_folder(&input.name, &known_files(), |folder| {
         write_image_folder(folder, &image, &found, &mosaic, &measures, &curves, &record)?;
-        write_verdicts(folder, &measures, &verdicts, &record.name)
+        verdicts::write(folder, "", &record.name, &measures, &verdicts)
     })?;
     lap(&mut seconds.report);
     let line = describe(&found);
@@ -257,21 +249,7 @@ fn one_image(
 
 /// Every file that an image's folder of results may hold.
 fn known_files() -> Vec<&'static str> {
-    [&FILES[..], &VERDICT_FILES].concat()
-}
-
-fn write_verdicts(
-    folder: &OutputFolder,
-    measures: &Measures,
-    verdicts: &[SamplerVerdict],
-    name: &str,
-) -> Result<(), BatchError> {
-    if verdicts.is_empty() {
-        return Ok(());
-    }
-    let (header, rows) = envelope_table(measures, verdicts);
-    folder.write_table("envelope.csv", &header, &rows)?;
-    folder.write("verdict.svg", verdicts::figure(name, measures, verdicts)?.as_bytes())
+    [&FILES[..], &verdicts::FILES].concat()
 }
 
 fn write_image_folder(
@@ -334,7 +312,7 @@ fn earlier(images: &OutputFolder, input: &Input, sha256: &str, options_sha256: &
     }
     let text = fs::read(folder.join(METRICS)).ok()?;
     let record: ImageRecord = serde_json::from_slice(&text).ok()?;
-    let files_of_verdicts = || VERDICT_FILES.iter().all(|file| folder.join(file).is_file());
+    let files_of_verdicts = || verdicts::FILES.iter().all(|file| folder.join(file).is_file());
     if !record.mosaic.verdicts.is_empty() && !files_of_verdicts() {
         return None;
     }

@@ -1,8 +1,8 @@
-use super::CompareError;
+use super::{CompareError, curve, draw, mean_curve};
 use crate::geometry::{Polygon, Rectangle, Window};
 use crate::mosaic::hexagonal_spacing;
 use crate::sample::{SampleError, Sampler};
-use crate::stats::{Deviation, Pcf, PcfOptions, moments, nearest_neighbours, pcf_on_one_thread};
+use crate::stats::{Deviation, Pcf, PcfOptions, moments, nearest_neighbours};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use sha2::{Digest, Sha256};
@@ -271,9 +271,8 @@ impl Job {
 
     fn attempt(&self, task: usize) -> Result<Realisation, CompareError> {
         let (class, sampler) = (&self.class, self.sampler_of(task));
-        let name = || sampler.name().to_owned();
         let too_thin = || CompareError::Sample {
-            sampler: name(),
+            sampler: sampler.name().to_owned(),
             source: SampleError::TooThin { aspect: f64::INFINITY, max: f64::MAX },
         };
         let window = class.window().ok_or_else(too_thin)?;
@@ -285,14 +284,11 @@ impl Job {
         hash.update(class.seed());
         hash.update(((task % class.realisations()) as u64).to_le_bytes());
         let mut rng = ChaCha8Rng::from_seed(hash.finalize().into());
-        let points = sampler
-            .sample(class.points(), &window, &mut rng)
-            .map_err(|source| CompareError::Sample { sampler: name(), source })?;
+        let points = draw(sampler, class.points(), &window, &mut rng)?;
         if points.len() < 2 {
             return Ok(Realisation { pcf: None, ri: None });
         }
-        let pcf = pcf_on_one_thread(&points, &window, &self.setup.options)
-            .map_err(|source| CompareError::Stats { sampler: name(), source })?;
+        let pcf = curve(sampler, &points, &window, &self.setup.options)?;
         let nearest = nearest_neighbours(&points, &window);
         Ok(Realisation { pcf: Some(pcf), ri: moments(&nearest.distances, Deviation::Sample).ri })
     }
@@ -306,19 +302,13 @@ impl Job {
             let patterns = patterns.iter().map(|p| p.as_ref()).collect::<Result<Vec<_>, _>>();
             let patterns = patterns.map_err(Clone::clone)?;
             let pcfs: Vec<&Pcf> = patterns.iter().filter_map(|p| p.pcf.as_ref()).collect();
-            let Some(&first) = pcfs.first() else {
+            let Some(mean) = mean_curve(&pcfs) else {
                 return Err(CompareError::TooFewPoints { found: n.min(1) });
             };
-            let mean = |bin: usize| pcfs.iter().map(|p| p.g[bin]).sum::<f64>() / pcfs.len() as f64;
             let indexes: Vec<f64> = patterns.iter().filter_map(|p| p.ri).collect();
             Ok(ReferenceCurve {
                 sampler: sampler.name().to_owned(),
-                pcf: Pcf {
-                    r: first.r.clone(),
-                    g: (0..first.r.len()).map(mean).collect(),
-                    spacing: hexagonal_spacing(n, 1.).unwrap_or(first.spacing),
-                    options: first.options,
-                },
+                pcf: Pcf { spacing: hexagonal_spacing(n, 1.).unwrap_or(mean.spacing), ..mean },
                 n,
                 realisations: pcfs.len(),
                 ri: moments(&indexes, Deviation::Sample).mean,

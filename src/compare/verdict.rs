@@ -1,9 +1,7 @@
-use super::{CompareError, l_infinity};
+use super::{CompareError, curve, draw, l_infinity};
 use crate::geometry::Window;
 use crate::sample::Sampler;
-use crate::stats::{
-    Deviation, Moments, Pcf, PcfOptions, moments, nearest_neighbours, pcf_on_one_thread, rank_envelope,
-};
+use crate::stats::{Deviation, Moments, Pcf, PcfOptions, moments, nearest_neighbours, rank_envelope};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -119,18 +117,14 @@ pub fn verdict(
     seed: u64,
 ) -> Result<SamplerVerdict, CompareError> {
     options.validate()?;
-    let name = || sampler.name().to_owned();
     let base = seed_of(sampler.name(), n, window, seed);
     let simulations = (0..options.simulations)
         .into_par_iter()
         .map(|k| {
             let mut rng =
                 ChaCha8Rng::from_seed(base.clone().chain_update((k as u64).to_le_bytes()).finalize().into());
-            let points = sampler
-                .sample(n, window, &mut rng)
-                .map_err(|source| CompareError::Sample { sampler: name(), source })?;
-            let pcf = pcf_on_one_thread(&points, window, pcf_options)
-                .map_err(|source| CompareError::Stats { sampler: name(), source })?;
+            let points = draw(sampler, n, window, &mut rng)?;
+            let pcf = curve(sampler, &points, window, pcf_options)?;
             let nearest = nearest_neighbours(&points, window);
             let ri = moments(&nearest.distances, Deviation::Sample).ri;
             Ok(Simulation { pcf, n: points.len(), ri })
@@ -166,7 +160,7 @@ pub fn verdict(
     let indexes: Vec<f64> = simulations.iter().filter_map(|s| s.ri).collect();
     let made = || simulations.iter().map(|s| s.n);
     Ok(SamplerVerdict {
-        sampler: name(),
+        sampler: sampler.name().to_owned(),
         simulations: simulations.len(),
         points: (made().min().unwrap_or(0), made().max().unwrap_or(0)),
         l_infinity: distance,

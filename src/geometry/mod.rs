@@ -1,5 +1,6 @@
 //! Points and the windows in which they could have been seen. Knows nothing of cones, images or files.
 
+mod cell_area;
 mod covariance;
 mod edge_tree;
 mod neighbours;
@@ -10,8 +11,9 @@ pub mod power;
 mod ring;
 mod window;
 
+pub use cell_area::clipped_cell_area;
 pub use covariance::SetCovariance;
-pub use neighbours::{NearestNeighbours, nearest_neighbours};
+pub use neighbours::{NearestNeighbours, distances_to_nearest, nearest_neighbours};
 pub use point::Point;
 pub use polygon::{Polygon, PolygonError};
 pub use ring::Ring;

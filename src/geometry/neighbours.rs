@@ -1,5 +1,6 @@
 use super::{Point, Window};
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use rayon::prelude::*;
 use std::num::NonZero;
 
 /// For every point the nearest other point; both empty for fewer than two points.
@@ -16,30 +17,66 @@ pub struct NearestNeighbours {
 /// Empty for fewer than two points, and if a coordinate is not finite.
 pub fn nearest_neighbours(points: &[Point], window: &Window) -> NearestNeighbours {
     let mut nearest = NearestNeighbours::default();
-    if points.len() < 2 || points.iter().any(|p| !p.is_finite()) {
+    if points.len() < 2 {
         return nearest;
     }
-    let bounds = window.bounds();
-    let sides = [bounds.width(), bounds.height()];
-    let coordinates: Vec<[f64; 2]> = points.iter().map(|p| [p.x - bounds.x0(), p.y - bounds.y0()]).collect();
-    let Ok(tree) = ImmutableKdTree::<f64, 2>::new_from_slice(&coordinates) else { return nearest };
+    let Some(finder) = Finder::new(points, window) else { return nearest };
     // The point itself is one of the two nearest, unless others coincide with it.
     let two = NonZero::<usize>::MIN.saturating_add(1);
-    for (i, at) in coordinates.iter().enumerate() {
-        let query = tree.query(at);
-        let found = if window.is_torus() {
-            query.periodic_boundary_condition(&sides).nearest_n::<SquaredEuclidean<f64>>(two).execute()
-        } else {
-            query.nearest_n::<SquaredEuclidean<f64>>(two).execute()
-        };
-        let Some(j) = found.iter().map(|f| f.item as usize).find(|&j| j != i) else {
+    for (i, &p) in points.iter().enumerate() {
+        let Some(j) = finder.nearest(p, two).find(|&j| j != i) else {
             return NearestNeighbours::default();
         };
         // From the coordinates as given, so that moving the window cannot round the distance.
-        nearest.distances.push(window.distance(points[i], points[j]));
+        nearest.distances.push(window.distance(p, points[j]));
         nearest.indices.push(j);
     }
     nearest
+}
+
+/// Distance from each of `places` to the nearest of `points`, the short way round on a torus; infinite without points,
+/// and if a coordinate of theirs is not finite.
+pub fn distances_to_nearest(places: &[Point], points: &[Point], window: &Window) -> Vec<f64> {
+    let finder = if points.is_empty() { None } else { Finder::new(points, window) };
+    let distance = |&place: &Point| {
+        let found = finder.as_ref().and_then(|f| f.nearest(place, NonZero::<usize>::MIN).next());
+        found.map_or(f64::INFINITY, |j| window.distance(place, points[j]))
+    };
+    places.par_iter().map(distance).collect()
+}
+
+/// The points of a window, to look for those nearest to a place.
+struct Finder<'a> {
+    tree: ImmutableKdTree<f64, 2>,
+    window: &'a Window,
+    origin: [f64; 2],
+    sides: [f64; 2],
+}
+
+impl<'a> Finder<'a> {
+    /// `None` if a coordinate is not finite.
+    fn new(points: &[Point], window: &'a Window) -> Option<Self> {
+        if points.iter().any(|p| !p.is_finite()) {
+            return None;
+        }
+        let bounds = window.bounds();
+        let (origin, sides) = ([bounds.x0(), bounds.y0()], [bounds.width(), bounds.height()]);
+        let coordinates: Vec<[f64; 2]> = points.iter().map(|p| [p.x - origin[0], p.y - origin[1]]).collect();
+        let tree = ImmutableKdTree::new_from_slice(&coordinates).ok()?;
+        Some(Self { tree, window, origin, sides })
+    }
+
+    /// Indices of the `n` nearest points.
+    fn nearest(&self, place: Point, n: NonZero<usize>) -> impl Iterator<Item = usize> {
+        let at = [place.x - self.origin[0], place.y - self.origin[1]];
+        let query = self.tree.query(&at);
+        let found = if self.window.is_torus() {
+            query.periodic_boundary_condition(&self.sides).nearest_n::<SquaredEuclidean<f64>>(n).execute()
+        } else {
+            query.nearest_n::<SquaredEuclidean<f64>>(n).execute()
+        };
+        found.into_iter().map(|f| f.item as usize)
+    }
 }
 
 #[cfg(test)]

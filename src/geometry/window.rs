@@ -145,6 +145,20 @@ impl Window {
         }
     }
 
+    /// Length of the border, holes' included, in units of the coordinates; 0 on a torus, which has none.
+    pub fn perimeter(&self) -> f64 {
+        match self {
+            Self::Rectangle(r) => 2. * (r.width() + r.height()),
+            Self::Torus(_) => 0.,
+            Self::Polygon(polygon) => {
+                let around = |ring: &Ring| -> f64 {
+                    ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| a.distance(*b)).sum()
+                };
+                polygon.rings().iter().map(around).sum()
+            }
+        }
+    }
+
     /// Whether opposite edges are glued.
     pub const fn is_torus(&self) -> bool {
         matches!(self, Self::Torus(_))

@@ -1,5 +1,7 @@
 use super::{Cell, counted, significant};
-use crate::stats::{FEWEST_PAIRS, RankCorrelation};
+use crate::stats::{FEWEST_PAIRS, RankCorrelation, rank_correlation};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
 
 /// How the regularity of mosaics hangs together with their distance to a sampler: the main finding of Lanaro et al. is
 /// that the more regular ones are nearer to BNOT and farther from dart throwing.
@@ -14,6 +16,12 @@ pub struct FindingRecord {
 }
 
 impl FindingRecord {
+    /// From each mosaic's regularity index and distance to the sampler; `seed` is that of the permutations.
+    pub fn of(sampler: &str, pairs: &[(f64, f64)], seed: u64) -> Self {
+        let correlation = rank_correlation(pairs, &mut ChaCha8Rng::seed_from_u64(seed));
+        Self { sampler: sampler.to_owned(), mosaics: pairs.len(), correlation }
+    }
+
     /// Columns of `finding.csv`.
     pub fn header() -> Vec<String> {
         ["sampler", "mosaics", "spearman_rho_of_ri_and_l_infinity", "p_value", "in_words"]

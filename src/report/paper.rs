@@ -2,7 +2,7 @@
 
 use super::{Cell, FindingRecord};
 use crate::compare::paper::{
-    DistanceBetween, MadeRow, PrintedDistances, TABLE_2_SAMPLERS, Tightest, allowed,
+    DistanceBetween, MadeRow, PAIRS, PrintedDistances, TABLE_2_SAMPLERS, Tightest, allowed,
 };
 use crate::stats::Pcf;
 
@@ -28,9 +28,6 @@ pub struct PaperResults {
     /// Seed.
     pub seed: u64,
 }
-
-/// The pairs of columns of Table 2, as distances are listed.
-pub const PAIRS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 
 pub(super) fn pair(columns: [usize; 2]) -> String {
     columns.map(|c| TABLE_2_SAMPLERS[c]).join(" – ")

@@ -1,7 +1,7 @@
 use super::hash_grid::{HashGrid, distance};
 use super::normal::truncated;
 use super::outward::{exactly, ring};
-use super::retina::{FARTHEST, Retina};
+use super::retina::{ECCENTRICITY, Retina};
 use super::{Frame, Parameter, SampleError, Sampler, Values};
 use crate::geometry::Point;
 use rand::Rng;
@@ -77,14 +77,7 @@ static PARAMETERS: [Parameter; 3] = [
         default: "8",
         meaning: "rounds of pushing and pulling after each ring (our choice)",
     },
-    Parameter {
-        name: "eccentricity",
-        unit: "mm",
-        range: (0., FARTHEST),
-        whole: false,
-        default: "none, one mean size",
-        meaning: "where the middle of the window lies, from the fovea: sizes then follow the density of Curcio et al. (1990)",
-    },
+    ECCENTRICITY,
 ];
 
 impl Sampler for Deering {

@@ -1,7 +1,4 @@
-use super::shaped::{NearestTarget, Shaped, TargetCurve};
-use super::{Frame, SampleError, Sampler, Watch};
-use crate::geometry::{Point, Window};
-use rand::Rng;
+use super::shaped::{NearestTarget, Noise, Shaped, TargetCurve};
 use std::sync::LazyLock;
 
 /// g at .15, .244, …, 2.406 spacings, smoothed by a Gaussian of .1: mean of patterns of 512 and of 1024 points, by a reference
@@ -24,29 +21,8 @@ static SHAPED: LazyLock<Shaped> =
 
 /// Green noise (Lau et al. 1999): clusters at a typical distance, so that power gathers in a ring; [`Shaped`] towards the
 /// curves of the patterns of Ahmed et al. (2015).
-#[derive(Clone, Copy, Debug)]
-pub struct Green;
-
-impl Sampler for Green {
-    fn name(&self) -> &'static str {
-        "green"
-    }
-
-    fn about(&self) -> &'static str {
-        "clusters at a typical distance, a ring of power at 0.62 √n: by optimisation towards the PCF and spectrum of Ahmed et al. (2015); exactly n"
-    }
-
-    fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
-        SHAPED.fill(n, frame, rng)
-    }
-
-    fn sample_watched(
-        &self,
-        n: usize,
-        window: &Window,
-        rng: &mut dyn Rng,
-        progress: &mut Watch<'_>,
-    ) -> Result<Vec<Point>, SampleError> {
-        SHAPED.sample_watched(n, window, rng, progress)
-    }
-}
+pub static GREEN: Noise = Noise {
+    name: "green",
+    about: "clusters at a typical distance, a ring of power at 0.62 √n: by optimisation towards the PCF and spectrum of Ahmed et al. (2015); exactly n",
+    shaped: &SHAPED,
+};

@@ -45,14 +45,14 @@ pub use deering::Deering;
 pub use density::Density;
 pub use error::SampleError;
 pub use frame::Frame;
-pub use green::Green;
+pub use green::GREEN;
 pub use jittered::Jittered;
 pub use lloyd::Lloyd;
 pub use minimal_spacing::MinimalSpacing;
 pub use parameter::{Parameter, Values};
-pub use pink::Pink;
+pub use pink::PINK;
 pub use poisson_disk::PoissonDisk;
-pub use shaped::{NearestTarget, Shaped, TargetCurve};
+pub use shaped::{NearestTarget, Noise, Shaped, TargetCurve};
 pub use square::Square;
 pub use step::Step;
 pub use triangular::Triangular;
@@ -170,10 +170,22 @@ fn cut(
     let bounds = polygon.bounds();
     let filled = (n as f64 / share).round() as usize;
     let frame = Frame::new(filled, &Window::Rectangle(bounds))?;
-    let mut best: Option<(usize, Vec<Point>)> = None;
-    for _ in 0..CUTS {
+    nearest_in_number(n, CUTS, || {
         let mut points = fill(filled, &frame)?;
         points.retain(|&p| polygon.contains(p));
+        Ok(points)
+    })
+}
+
+/// Of at most `tries` patterns the one whose number of points is nearest to `n`; one that is near enough ends the search.
+fn nearest_in_number(
+    n: usize,
+    tries: usize,
+    mut pattern: impl FnMut() -> Result<Vec<Point>, SampleError>,
+) -> Result<Vec<Point>, SampleError> {
+    let mut best: Option<(usize, Vec<Point>)> = None;
+    for _ in 0..tries {
+        let points = pattern()?;
         let miss = points.len().abs_diff(n);
         if best.as_ref().is_none_or(|(least, _)| miss < *least) {
             best = Some((miss, points));
@@ -185,7 +197,7 @@ fn cut(
     Ok(best.map(|(_, points)| points).unwrap_or_default())
 }
 
-/// Most patterns drawn to cut a polygon out of, and how near, as a share of n, their number must come to end the search.
+/// Most patterns drawn to cut a polygon out of, and how near, as a share of n, a number must come to end the search.
 const CUTS: usize = 32;
 const CLOSE: f64 = 0.005;
 
@@ -197,8 +209,8 @@ static SAMPLERS: &[&dyn Sampler] = &[
     &DartThrowing,
     &Bridson,
     &PoissonDisk,
-    &Green,
-    &Pink,
+    &GREEN,
+    &PINK,
     &Step::HIGHEST,
     &Lloyd::DEFAULT,
     &Bnot::CONVERGED,

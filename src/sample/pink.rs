@@ -1,7 +1,4 @@
-use super::shaped::{NearestTarget, Shaped, TargetCurve};
-use super::{Frame, SampleError, Sampler, Watch};
-use crate::geometry::{Point, Window};
-use rand::Rng;
+use super::shaped::{NearestTarget, Noise, Shaped, TargetCurve};
 use std::sync::LazyLock;
 
 /// g at .15, .244, …, 2.406 spacings, smoothed by a Gaussian of .1: mean of patterns of 512 and of 1024 points, by a reference
@@ -24,29 +21,8 @@ static SHAPED: LazyLock<Shaped> =
 
 /// Pink noise: power falls with frequency, points gather in clouds; [`Shaped`] towards the curves of the patterns of Ahmed et
 /// al. (2015).
-#[derive(Clone, Copy, Debug)]
-pub struct Pink;
-
-impl Sampler for Pink {
-    fn name(&self) -> &'static str {
-        "pink"
-    }
-
-    fn about(&self) -> &'static str {
-        "clouds, power that falls up to 0.65 √n: by optimisation towards the PCF and spectrum of Ahmed et al. (2015); exactly n"
-    }
-
-    fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
-        SHAPED.fill(n, frame, rng)
-    }
-
-    fn sample_watched(
-        &self,
-        n: usize,
-        window: &Window,
-        rng: &mut dyn Rng,
-        progress: &mut Watch<'_>,
-    ) -> Result<Vec<Point>, SampleError> {
-        SHAPED.sample_watched(n, window, rng, progress)
-    }
-}
+pub static PINK: Noise = Noise {
+    name: "pink",
+    about: "clouds, power that falls up to 0.65 √n: by optimisation towards the PCF and spectrum of Ahmed et al. (2015); exactly n",
+    shaped: &SHAPED,
+};

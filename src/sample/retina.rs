@@ -1,3 +1,5 @@
+use super::Parameter;
+
 /// Human cones per mm² by eccentricity in mm: mean of the four meridians of Curcio et al. (1990), read off their curves (where
 /// the nasal one has a gap, at the optic disc, between its neighbours). Beyond 18 mm not all meridians are known.
 const DENSITY: [(f64, f64); 30] = [
@@ -35,6 +37,16 @@ const DENSITY: [(f64, f64); 30] = [
 
 /// The greatest eccentricity at which the density is known, in mm.
 pub(super) const FARTHEST: f64 = 18.;
+
+/// Of models whose cells follow the density of the retina from place to place.
+pub(super) const ECCENTRICITY: Parameter = Parameter {
+    name: "eccentricity",
+    unit: "mm",
+    range: (0., FARTHEST),
+    whole: false,
+    default: "none, one mean size",
+    meaning: "where the middle of the window lies, from the fovea: sizes then follow the density of Curcio et al. (1990)",
+};
 
 /// Cones per mm² at that many mm from the fovea, between the values known by the logarithm; beyond the last the last.
 pub(super) fn cones_per_mm2(eccentricity: f64) -> f64 {

@@ -27,17 +27,6 @@ pub(super) fn clark_evans(points: &[Point], window: &Window, nearest: &NearestNe
     let density = n / window.area();
     let expected = 0.5 / density.sqrt();
     let mean = nearest.distances.iter().sum::<f64>() / n;
-    let bounds = window.bounds();
-    let perimeter = match window {
-        Window::Torus(_) => None,
-        Window::Rectangle(_) => Some(2. * (bounds.width() + bounds.height())),
-        Window::Polygon(polygon) => {
-            let around = |ring: &Vec<Point>| -> f64 {
-                (0..ring.len()).map(|i| ring[i].distance(ring[(i + 1) % ring.len()])).sum()
-            };
-            Some(polygon.rings().iter().map(around).sum())
-        }
-    };
     let r_max = (1e5f64.ln() / (PI * density)).sqrt();
     let r: Vec<f64> = (0..ROWS).map(|k| k as f64 * r_max / (ROWS - 1) as f64).collect();
     let borders: Vec<f64> = points.iter().map(|&p| window.border_distance(p)).collect();
@@ -50,7 +39,8 @@ pub(super) fn clark_evans(points: &[Point], window: &Window, nearest: &NearestNe
     }
     ClarkEvans {
         naive: Some(mean / expected),
-        donnelly: perimeter.map(|around| mean / (expected + (0.0514 + 0.0412 / n.sqrt()) * around / n)),
+        donnelly: (!window.is_torus())
+            .then(|| mean / (expected + (0.0514 + 0.0412 / n.sqrt()) * window.perimeter() / n)),
         cdf: (total > 0.).then(|| sum / total / expected),
     }
 }

@@ -1,3 +1,4 @@
+use crate::geometry::{Point, Window};
 use thiserror::Error;
 
 /// A statistic that cannot be computed.
@@ -46,4 +47,16 @@ pub enum StatsError {
         "the torus correction needs a torus window, this one has a border: choose another edge correction"
     )]
     NotATorus,
+}
+
+/// That every point is finite and in the window.
+///
+/// # Errors
+/// [`StatsError::Outside`] of the first that is not.
+pub(super) fn all_inside(points: &[Point], window: &Window) -> Result<(), StatsError> {
+    let outside = |p: &Point| !(p.is_finite() && window.contains(*p));
+    match points.iter().enumerate().find(|(_, p)| outside(p)) {
+        Some((index, p)) => Err(StatsError::Outside { index, x: p.x, y: p.y }),
+        None => Ok(()),
+    }
 }

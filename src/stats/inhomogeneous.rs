@@ -1,4 +1,5 @@
 use super::edge_weight::EdgeWeights;
+use super::error::all_inside;
 use super::intensity::{default_intensity_bandwidth, intensity_at_points};
 use super::pairs::PairGrid;
 use super::pcf::Smoother;
@@ -64,10 +65,7 @@ pub fn inhomogeneous(
         let statistic = "the inhomogeneous pair correlation function";
         return Err(StatsError::TooFewPoints { statistic, needed: FEWEST, found: n });
     };
-    let outside = |p: &Point| !(p.is_finite() && window.contains(*p));
-    if let Some((index, p)) = points.iter().enumerate().find(|(_, p)| outside(p)) {
-        return Err(StatsError::Outside { index, x: p.x, y: p.y });
-    }
+    all_inside(points, window)?;
     let bandwidth = bandwidth.unwrap_or_else(|| default_intensity_bandwidth(n, window));
     if !(bandwidth.is_finite() && bandwidth >= spacing) {
         let range = "at least one hexagonal spacing of the mosaic";

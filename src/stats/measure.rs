@@ -48,25 +48,21 @@ pub struct Measures {
 pub fn measure(mosaic: &Mosaic, options: &MeasureOptions) -> Measures {
     let (points, window) = (mosaic.points(), mosaic.window());
     let neighbours = nearest_neighbours(points, window);
-    let inside: Vec<f64> = interior(points, window, &neighbours)
-        .into_iter()
-        .zip(&neighbours.distances)
-        .filter_map(|(keep, &d)| keep.then_some(d))
-        .collect();
+    let nearest_of = |kept: &mut dyn Iterator<Item = bool>| {
+        let distances: Vec<f64> =
+            kept.zip(&neighbours.distances).filter_map(|(keep, &d)| keep.then_some(d)).collect();
+        moments(&distances, options.deviation)
+    };
+    let nearest_interior = nearest_of(&mut interior(points, window, &neighbours).into_iter());
     let trend = trend(points, window);
     let cells = voronoi(points, window);
-    let bound: Vec<f64> = cells
-        .cells
-        .iter()
-        .zip(&neighbours.distances)
-        .filter_map(|(cell, &d)| cell.bound.then_some(d))
-        .collect();
+    let nearest_bound = nearest_of(&mut cells.cells.iter().map(|cell| cell.bound));
     Measures {
         deviation: options.deviation,
         nearest: moments(&neighbours.distances, options.deviation),
-        nearest_interior: moments(&inside, options.deviation),
+        nearest_interior,
         histogram: Histogram::new(&neighbours.distances),
-        nearest_bound: moments(&bound, options.deviation),
+        nearest_bound,
         clark_evans: clark_evans(points, window, &neighbours),
         voronoi: cells.summary(),
         cells,

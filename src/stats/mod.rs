@@ -3,7 +3,6 @@
 //! Every statistic takes the points and the window they could have been seen in; points must be finite and inside
 //! it, as those of a [`Mosaic`](crate::mosaic::Mosaic) are.
 
-mod cell_area;
 mod clark_evans;
 mod edge_weight;
 mod error;

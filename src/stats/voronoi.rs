@@ -1,6 +1,5 @@
-use super::cell_area::clipped_area;
 use super::{Deviation, Moments, moments};
-use crate::geometry::{Point, Window};
+use crate::geometry::{Point, Window, clipped_cell_area};
 use crate::mosaic::hexagonal_spacing;
 use serde::{Deserialize, Serialize};
 use spade::handles::VoronoiVertex;
@@ -212,7 +211,7 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
         describe_neighbours(cell, at, &beyond_sides);
         if !finite || corners.len() < 3 {
             farthest = f64::INFINITY;
-            cell.clipped_area = (!window.is_torus()).then(|| clipped_area(window, at, &adjacent));
+            cell.clipped_area = (!window.is_torus()).then(|| clipped_cell_area(window, at, &adjacent));
             continue;
         }
         let reach = corners.iter().map(|&c| apart(c, *site)).fold(0., f64::max);
@@ -238,7 +237,7 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
         cell.sides = corners.len();
         cell.bound = inside || window.is_torus();
         let whole = window.is_torus() || window.border_distance(at) >= reach * side;
-        cell.clipped_area = Some(if whole { area } else { clipped_area(window, at, &adjacent) });
+        cell.clipped_area = Some(if whole { area } else { clipped_cell_area(window, at, &adjacent) });
     }
     (cells, farthest)
 }

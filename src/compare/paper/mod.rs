@@ -6,9 +6,9 @@ mod triangle;
 
 pub use printed::{PrintedDistances, PrintedRegularity, printed_distances, printed_regularity};
 pub use remake::{
-    DistanceBetween, MadeRow, Pattern, distance_between, made_row, mean_curve, pattern, peak, with_bandwidth,
+    DistanceBetween, MadeRow, Pattern, distance_between, made_row, pattern, peak, with_bandwidth,
 };
-pub use triangle::{Tightest, allowed, tightest};
+pub use triangle::{PAIRS, Tightest, allowed, tightest};
 
 /// Rows of Table 1 that are samplers: the name printed, ours, and the number of points asked for.
 pub const TABLE_1_SAMPLERS: [(&str, &str, usize); 7] = [

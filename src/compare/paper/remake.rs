@@ -1,5 +1,5 @@
 use super::printed::PrintedRegularity;
-use crate::compare::{CompareError, l_infinity};
+use crate::compare::{CompareError, curve, draw, l_infinity, mean_curve};
 use crate::geometry::{Point, Window};
 use crate::sample::Sampler;
 use crate::stats::{
@@ -37,18 +37,14 @@ pub fn with_bandwidth(pattern: &Pattern, bandwidth: f64) -> Result<Pcf, StatsErr
 /// If the sampler makes no pattern of so many points.
 pub fn pattern(sampler: &dyn Sampler, n: usize, k: usize, seed: u64) -> Result<Pattern, CompareError> {
     let window = Window::unit_square();
-    let name = || sampler.name().to_owned();
     let mut hash = Sha256::new_with_prefix(b"paper");
     hash.update(seed.to_le_bytes());
     hash.update(sampler.name());
     hash.update((n as u64).to_le_bytes());
     hash.update((k as u64).to_le_bytes());
     let mut rng = ChaCha8Rng::from_seed(hash.finalize().into());
-    let points = sampler
-        .sample(n, &window, &mut rng)
-        .map_err(|source| CompareError::Sample { sampler: name(), source })?;
-    let pcf = pcf_on_one_thread(&points, &window, &PcfOptions::default())
-        .map_err(|source| CompareError::Stats { sampler: name(), source })?;
+    let points = draw(sampler, n, &window, &mut rng)?;
+    let pcf = curve(sampler, &points, &window, &PcfOptions::default())?;
     let nearest = moments(&nearest_neighbours(&points, &window).distances, Deviation::Population);
     Ok(Pattern { points, nearest, pcf })
 }
@@ -117,13 +113,6 @@ pub fn made_row(printed: PrintedRegularity, sampler: &str, n: usize, patterns: &
         sd: over(|m| m.sd),
         ri: over(|m| m.ri),
     }
-}
-
-/// Mean of curves on one grid; `None` without curves.
-pub fn mean_curve(curves: &[&Pcf]) -> Option<Pcf> {
-    let first = *curves.first()?;
-    let mean = |bin: usize| curves.iter().filter_map(|c| c.g.get(bin)).sum::<f64>() / curves.len() as f64;
-    Some(Pcf { g: (0..first.g.len()).map(mean).collect(), ..first.clone() })
 }
 
 /// The highest value of a curve, and the distance, in spacings, at which it has it.

@@ -29,7 +29,8 @@ pub fn allowed(rows: &[PrintedDistances], pair: [usize; 2]) -> [f64; 2] {
         .fold([0., f64::INFINITY], |[low, high], next| [low.max(next[0]), high.min(next[1])])
 }
 
-const PAIRS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
+/// The pairs of columns of Table 2, in the order in which distances between its samplers are listed.
+pub const PAIRS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 
 fn limits(row: &PrintedDistances, [a, b]: [usize; 2]) -> [f64; 2] {
     let (a, b) = (row.l_infinity[a], row.l_infinity[b]);

@@ -4,15 +4,17 @@ mod curve;
 mod descent;
 mod features;
 mod neighbours;
+mod noise;
 mod normal;
 mod spline;
 mod waves;
 
 pub use curve::TargetCurve;
 pub use features::NearestTarget;
+pub use noise::Noise;
 
 use self::features::Features;
-use super::{Frame, SampleError, Sampler, Watch};
+use super::{Frame, SampleError, Sampler, Watch, nearest_in_number};
 use crate::geometry::{Point, Window};
 use rand::{Rng, RngExt};
 
@@ -62,9 +64,8 @@ impl Sampler for Shaped {
         let filled = (n as f64 * bounds.area() / polygon.area()).round() as usize;
         let frame = Frame::new(filled, &Window::Rectangle(bounds))?;
         let points = self.moved(filled, &frame, rng);
-        let mut best: Option<(usize, Vec<Point>)> = None;
         // a pattern of the torus is the same process wherever the polygon lies on it: one serves all tries
-        for _ in 0..CUTS {
+        nearest_in_number(n, CUTS, || {
             let turn = [rng.random::<f64>() * frame.width, rng.random::<f64>() * frame.height];
             let turned = points.iter().map(|p| {
                 frame.place(
@@ -72,22 +73,13 @@ impl Sampler for Shaped {
                     (p[1] + turn[1]).rem_euclid(frame.height),
                 )
             });
-            let inside: Vec<Point> = turned.filter(|&p| polygon.contains(p)).collect();
-            let miss = inside.len().abs_diff(n);
-            if best.as_ref().is_none_or(|(least, _)| miss < *least) {
-                best = Some((miss, inside));
-            }
-            if miss as f64 <= CLOSE * n as f64 {
-                break;
-            }
-        }
-        Ok(best.map(|(_, points)| points).unwrap_or_default())
+            Ok(turned.filter(|&p| polygon.contains(p)).collect())
+        })
     }
 }
 
-/// Most places of a polygon on a pattern that are tried, and how near, as a share of n, its points must come to n.
+/// Most places of a polygon on a pattern that are tried.
 const CUTS: usize = 64;
-const CLOSE: f64 = 0.005;
 /// Windows narrower than this, in spacings, are left uniform.
 const NARROWEST: f64 = 1.;
 

@@ -1,7 +1,5 @@
-use crate::geometry::{Point, Window};
-use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use crate::geometry::{Point, Window, distances_to_nearest};
 use rayon::prelude::*;
-use std::num::NonZero;
 
 /// Test places along each side of the window's bounds, as in spatstat.
 const PLACES: usize = 128;
@@ -25,22 +23,7 @@ pub(super) fn empty_space(points: &[Point], window: &Window) -> EmptySpace {
         })
         .filter(|&p| window.contains(p))
         .collect();
-    let coordinates: Vec<[f64; 2]> = points.iter().map(|p| [p.x - bounds.x0(), p.y - bounds.y0()]).collect();
-    let tree = if points.is_empty() { None } else { ImmutableKdTree::new_from_slice(&coordinates).ok() };
-    let sides = [bounds.width(), bounds.height()];
-    let one = NonZero::<usize>::MIN;
-    let distance = |&p: &Point| {
-        let Some(tree): &Option<ImmutableKdTree<f64, 2>> = &tree else { return f64::INFINITY };
-        let at = [p.x - bounds.x0(), p.y - bounds.y0()];
-        let query = tree.query(&at);
-        let found = if window.is_torus() {
-            query.periodic_boundary_condition(&sides).nearest_n::<SquaredEuclidean<f64>>(one).execute()
-        } else {
-            query.nearest_n::<SquaredEuclidean<f64>>(one).execute()
-        };
-        found.first().map_or(f64::INFINITY, |f| window.distance(p, points[f.item as usize]))
-    };
-    let distances = places.par_iter().map(distance).collect();
+    let distances = distances_to_nearest(&places, points, window);
     let borders: Vec<f64> = places.par_iter().map(|&p| window.border_distance(p)).collect();
     let mut sorted_borders = borders.clone();
     sorted_borders.sort_by(f64::total_cmp);

@@ -9,7 +9,8 @@ mod ripley;
 pub use first_distance::FirstDistance;
 
 use super::StatsError;
-use crate::geometry::{Point, Window, nearest_neighbours};
+use super::error::all_inside;
+use crate::geometry::{NearestNeighbours, Point, Window};
 use empty_space::empty_space;
 use ripley::Ripley;
 use serde::{Deserialize, Serialize};
@@ -68,7 +69,7 @@ pub struct Functions {
     ripley: Option<Ripley>,
 }
 
-/// All functions of a pattern.
+/// All functions of a pattern, given the nearest neighbour of every point.
 ///
 /// On a torus nothing is hidden: all corrections agree.
 ///
@@ -77,20 +78,16 @@ pub struct Functions {
 pub fn functions(
     points: &[Point],
     window: &Window,
+    nearest: &NearestNeighbours,
     options: &FunctionOptions,
 ) -> Result<Functions, StatsError> {
     let r = options.distances(points.len(), window)?;
-    if let Some((index, p)) =
-        points.iter().enumerate().find(|(_, p)| !(p.is_finite() && window.contains(**p)))
-    {
-        return Err(StatsError::Outside { index, x: p.x, y: p.y });
-    }
+    all_inside(points, window)?;
     let density = points.len() as f64 / window.area();
-    let nearest = nearest_neighbours(points, window).distances;
     let empty = empty_space(points, window);
-    let g = (!nearest.is_empty()).then(|| {
+    let g = (!nearest.distances.is_empty()).then(|| {
         let borders: Vec<f64> = points.iter().map(|&p| window.border_distance(p)).collect();
-        FirstDistance::new(&nearest, &borders, &r, |r| empty.eroded(window, r))
+        FirstDistance::new(&nearest.distances, &borders, &r, |r| empty.eroded(window, r))
     });
     let f = (!points.is_empty())
         .then(|| FirstDistance::new(&empty.distances, &empty.borders, &r, |r| empty.eroded(window, r)));
@@ -170,7 +167,12 @@ fn first_at_least(r: &[f64], d: f64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::nearest_neighbours;
     use proptest::prelude::*;
+
+    fn of(points: &[Point], window: &Window, options: &FunctionOptions) -> Result<Functions, StatsError> {
+        functions(points, window, &nearest_neighbours(points, window), options)
+    }
 
     fn column(functions: &Functions, name: &str) -> Vec<f64> {
         functions.columns().into_iter().find(|(n, _)| *n == name).unwrap().1
@@ -182,7 +184,7 @@ mod tests {
             (0..100).map(|i| Point::new(f64::from(i % 10) + 0.5, f64::from(i / 10) + 0.5)).collect();
         let window = Window::Torus(crate::geometry::Rectangle::new(0., 0., 10., 10.).unwrap());
         let options = FunctionOptions { r_step: Some(0.1), r_max: Some(1.5) };
-        let found = functions(&points, &window, &options).unwrap();
+        let found = of(&points, &window, &options).unwrap();
         for name in ["G_none", "G_rs", "G_km", "G_han"] {
             let g = column(&found, name);
             assert!((g[9], g[11]) == (0., 1.), "{name} {} {}", g[9], g[11]);
@@ -203,16 +205,16 @@ mod tests {
         let options = FunctionOptions::default();
         for n in 0..4 {
             let points: Vec<Point> = (0..n).map(|i| Point::new(f64::from(i), 1.)).collect();
-            let found = functions(&points, &window, &options).unwrap();
+            let found = of(&points, &window, &options).unwrap();
             assert_eq!(column(&found, "F_none")[5].is_nan(), n == 0);
             assert_eq!(column(&found, "G_none")[5].is_nan(), n < 2);
             assert_eq!(column(&found, "K_iso")[5].is_nan(), n < 2);
             assert_eq!(column(&found, "pcf_iso_divd")[5].is_nan(), n < 2);
         }
         let bad = FunctionOptions { r_step: Some(0.), r_max: None };
-        assert!(functions(&[], &window, &bad).is_err());
+        assert!(of(&[], &window, &bad).is_err());
         let fine = FunctionOptions { r_step: Some(1e-9), r_max: None };
-        assert!(functions(&[], &window, &fine).is_err());
+        assert!(of(&[], &window, &fine).is_err());
     }
 
     proptest! {
@@ -225,7 +227,7 @@ mod tests {
             let points: Vec<Point> =
                 raw.iter().map(|&(x, y)| Point::new(f64::from(x), f64::from(y))).collect();
             let options = FunctionOptions { r_step: None, r_max: Some(5.) };
-            for (name, values) in functions(&points, &window, &options).unwrap().columns() {
+            for (name, values) in of(&points, &window, &options).unwrap().columns() {
                 let ok = |v: &f64| match name.as_bytes()[0] {
                     b'G' | b'F' => v.is_nan() || (-1e-12..=1. + 1e-12).contains(v),
                     _ => v.is_nan() || (*v >= 0. && v.is_finite()),

@@ -1,6 +1,7 @@
 mod waves;
 
 use super::StatsError;
+use super::error::all_inside;
 use crate::geometry::{Point, Window};
 use serde::{Deserialize, Serialize};
 
@@ -75,11 +76,7 @@ pub fn spectrum(
         return Err(StatsError::TooFewPoints { statistic: "the power spectrum", needed: 1, found: 0 });
     }
     let bounds = window.bounds();
-    if let Some((index, p)) =
-        points.iter().enumerate().find(|(_, p)| !(p.is_finite() && window.contains(**p)))
-    {
-        return Err(StatsError::Outside { index, x: p.x, y: p.y });
-    }
+    all_inside(points, window)?;
     let root = (n as f64).sqrt();
     let annuli = (options.max_frequency * root).floor();
     // |k| √A is hypot(j √(h/w), l √(w/h))

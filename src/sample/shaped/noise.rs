@@ -1,0 +1,40 @@
+use super::Shaped;
+use crate::geometry::{Point, Window};
+use crate::sample::{Frame, SampleError, Sampler, Watch};
+use rand::Rng;
+use std::sync::LazyLock;
+
+/// Noise whose curves are known: [`Shaped`] under a name of its own.
+#[derive(Debug)]
+pub struct Noise {
+    /// See [`Sampler::name`].
+    pub(in crate::sample) name: &'static str,
+    /// See [`Sampler::about`].
+    pub(in crate::sample) about: &'static str,
+    /// The curves, made when first asked for.
+    pub(in crate::sample) shaped: &'static LazyLock<Shaped>,
+}
+
+impl Sampler for Noise {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn about(&self) -> &'static str {
+        self.about
+    }
+
+    fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
+        self.shaped.fill(n, frame, rng)
+    }
+
+    fn sample_watched(
+        &self,
+        n: usize,
+        window: &Window,
+        rng: &mut dyn Rng,
+        progress: &mut Watch<'_>,
+    ) -> Result<Vec<Point>, SampleError> {
+        self.shaped.sample_watched(n, window, rng, progress)
+    }
+}

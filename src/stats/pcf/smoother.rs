@@ -1,0 +1,149 @@
+use super::PcfOptions;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+
+/// Shape of the kernel that smooths pair distances; all have integral 1 and the same standard deviation, the bandwidth.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kernel {
+    /// exp(−t²/2σ²), cut at 6.5 σ: what the paper's numbers were made with.
+    #[default]
+    Gaussian,
+    /// Constant within √3 σ.
+    Box,
+    /// Falling linearly to 0 at √6 σ.
+    Triangle,
+}
+
+impl Kernel {
+    /// Bandwidths beyond which a pair does not count.
+    pub(in crate::stats) fn reach(self) -> f64 {
+        match self {
+            Self::Gaussian => 6.5,
+            Self::Box => 3f64.sqrt(),
+            Self::Triangle => 6f64.sqrt(),
+        }
+    }
+
+    /// At `t` bandwidths from the middle, for bandwidth 1.
+    fn at(self, t: f64) -> f64 {
+        let reach = self.reach();
+        if t.abs() > reach {
+            return 0.;
+        }
+        match self {
+            Self::Gaussian => (-0.5 * t * t).exp() / TAU.sqrt(),
+            Self::Box => 0.5 / reach,
+            Self::Triangle => (reach - t.abs()) / (reach * reach),
+        }
+    }
+}
+
+/// Sums Σ weight · k(r − d) over pairs, at the left edges of the bins.
+pub(in crate::stats) struct Smoother {
+    kernel: Kernel,
+    bins: usize,
+    first: f64,
+    bin_width: f64,
+    bandwidth: f64,
+    /// Gaussian: weights on fine nodes, `per_bin` a bin; node 0 is `lead` nodes before the first bin. Others: the sums.
+    nodes: Vec<f64>,
+    per_bin: usize,
+    lead: usize,
+}
+
+impl Smoother {
+    pub(in crate::stats) fn new(options: &PcfOptions, spacing: f64) -> Self {
+        let bin_width = options.bin_width() * spacing;
+        let bandwidth = options.bandwidth * spacing;
+        let mut smoother = Self {
+            kernel: options.kernel,
+            bins: options.bins,
+            first: options.r_min * spacing,
+            bin_width,
+            bandwidth,
+            nodes: Vec::new(),
+            per_bin: 1,
+            lead: 0,
+        };
+        if options.kernel == Kernel::Gaussian {
+            // Cubic interpolation errs by .07 (node distance/σ)⁴ of the kernel's peak: 2·10⁻⁷ at σ/24, less in a
+            // sum over pairs.
+            smoother.per_bin = (24. * bin_width / bandwidth).ceil().max(1.) as usize;
+            // Two nodes more, for the interpolation at either end.
+            smoother.lead = smoother.half_width() + 2;
+            smoother.nodes = vec![0.; (options.bins - 1) * smoother.per_bin + 2 * smoother.lead + 1];
+        } else {
+            smoother.nodes = vec![0.; options.bins];
+        }
+        smoother
+    }
+
+    /// Nodes on either side of a bin that its Gaussian reaches.
+    fn half_width(&self) -> usize {
+        (self.kernel.reach() * self.bandwidth * self.per_bin as f64 / self.bin_width).ceil() as usize
+    }
+
+    #[inline]
+    pub(in crate::stats) fn add(&mut self, d: f64, weight: f64) {
+        match self.kernel {
+            Kernel::Gaussian => {
+                let at = (d - self.first) * (self.per_bin as f64 / self.bin_width) + self.lead as f64;
+                if at < 1. {
+                    return;
+                }
+                let node = at as usize;
+                let t = at - node as f64;
+                if let Some([a, b, c, e]) = self.nodes.get_mut(node - 1..node + 3) {
+                    *a += weight * (t * (t - 1.) * (2. - t) / 6.);
+                    *b += weight * ((t + 1.) * (t - 1.) * (t - 2.) / 2.);
+                    *c += weight * ((t + 1.) * t * (2. - t) / 2.);
+                    *e += weight * ((t + 1.) * t * (t - 1.) / 6.);
+                }
+            }
+            Kernel::Box | Kernel::Triangle => {
+                let reach = self.kernel.reach() * self.bandwidth;
+                let low = ((d - reach - self.first) / self.bin_width).ceil().max(0.) as usize;
+                let high = ((d + reach - self.first) / self.bin_width).floor();
+                if high < 0. {
+                    return;
+                }
+                let high = (high as usize).min(self.bins - 1);
+                for bin in low..=high {
+                    let t = (self.first + bin as f64 * self.bin_width - d) / self.bandwidth;
+                    self.nodes[bin] += weight * self.kernel.at(t) / self.bandwidth;
+                }
+            }
+        }
+    }
+
+    pub(in crate::stats) fn sums(self) -> Vec<f64> {
+        if self.kernel != Kernel::Gaussian {
+            return self.nodes;
+        }
+        let half = self.half_width();
+        let step = self.bin_width / self.per_bin as f64 / self.bandwidth;
+        let kernel: Vec<f64> = (0..=2 * half)
+            .map(|i| self.kernel.at((i as f64 - half as f64) * step) / self.bandwidth)
+            .collect();
+        (0..self.bins)
+            .map(|bin| {
+                let first = self.lead + bin * self.per_bin - half;
+                dot(&self.nodes[first..first + kernel.len()], &kernel)
+            })
+            .collect()
+    }
+}
+
+/// Inner product in four interleaved sums, which the processor adds at once.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.; 4];
+    let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
+    let rest: f64 = a4.remainder().iter().zip(b4.remainder()).map(|(x, y)| x * y).sum();
+    for (x, y) in a4.zip(b4) {
+        for lane in 0..4 {
+            sums[lane] += x[lane] * y[lane];
+        }
+    }
+    sums.iter().sum::<f64>() + rest
+}
