@@ -34,12 +34,13 @@ pub struct DetectArgs {
 const MODELS: &str = "\
 A network of your own (--model FILE), for images of the modality it was made for:
   .safetensors  as scripts/train-detector writes it
-  .onnx         in programs built with `--features onnx`. Input: float32, 1×1×H×W, H and W left open
-                (they will be multiples of 32): the image resampled so that cones are 8 px apart, less its
-                Gaussian mean (σ 8 px), over its Gaussian contrast (σ 12 px), bright cones positive.
+  .onnx         in programs built with `--features onnx`. Input: float32, 1×1×H×W, H and W left open:
+                the image resampled so that cones are 8 px apart, less its Gaussian mean (σ 8 px),
+                over its Gaussian contrast (σ 12 px), bright cones positive, mirrored at its end.
                 Output: float32, 1×1×H×W: how surely a cone's centre lies in each pixel.
                 Metadata, all optional (onnx.helper.set_model_props):
                   spacing      px between cones in its input [8]
+                  multiple     of which H and W are one, px; 1 if any size will do [32]
                   output       probability or logit [probability]
                   threshold    probability from which on a maximum is a cone [0.5]
                   suppression  shortest distance of two cones, in spacings [0.5]

@@ -8,8 +8,8 @@ use rten::{Dimension, RunOptions, ThreadPool, Value};
 use std::fmt;
 use std::sync::Arc;
 
-/// Sides of what the model sees are multiples of this: as far as five halvings go.
-const UNIT: usize = 32;
+/// Sides of what the model sees are multiples of this, unless its metadata say otherwise: as far as five halvings go.
+const MULTIPLE: &str = "32";
 /// Probabilities are kept this far from 0 and 1, where the logit is infinite.
 const SURE: f32 = 1e-6;
 
@@ -18,6 +18,7 @@ pub(super) struct Onnx {
     model: rten::Model,
     options: RunOptions,
     probability: bool,
+    multiple: usize,
 }
 
 impl fmt::Debug for Onnx {
@@ -41,6 +42,7 @@ impl Model {
         let spacing = number("spacing", "8", SPACING, "2–64 px")?;
         let suppression = number("suppression", "0.5", SUPPRESSION, "0.1–2 spacings")?;
         let threshold = number("threshold", "0.5", 1e-6..=1. - 1e-6, "a probability between 0 and 1")?;
+        let multiple = number("multiple", MULTIPLE, 1. ..=256., "1–256 px")? as usize;
         let probability = match word("output") {
             None | Some("probability") => true,
             Some("logit") => false,
@@ -51,7 +53,7 @@ impl Model {
         let mut options = RunOptions::default();
         let threads = rayon::current_num_threads();
         options.thread_pool = Some(Arc::new(ThreadPool::with_num_threads(threads)));
-        let network = Onnx { model, options, probability };
+        let network = Onnx { model, options, probability, multiple };
         network.check()?;
         let logit = (threshold / (1. - threshold)).ln();
         Ok(Self {
@@ -83,23 +85,24 @@ impl Onnx {
             }
         }
         let waves = |(y, x): (usize, usize)| 2. * (0.7 * x as f32).sin() * (0.8 * y as f32).cos();
-        self.run(&Plane::from_shape_fn((UNIT, 2 * UNIT), waves)).map(|_| ())
+        let side = 64usize.next_multiple_of(self.multiple);
+        self.run(&Plane::from_shape_fn((side, 2 * side), waves)).map(|_| ())
     }
 
-    /// The logit at every pixel of `seen`, whose borders are mirrored to fill the last unit.
+    /// The logit at every pixel of `seen`, which goes on mirrored to a multiple beyond its right and lower border.
     ///
     /// # Errors
     /// If the model fails or what it says is no plane of logits or probabilities.
     pub(super) fn logits(&self, seen: &Plane) -> Result<Plane, WeightsError> {
         let (height, width) = seen.dim();
-        let padded =
-            Plane::from_shape_fn((height.next_multiple_of(UNIT), width.next_multiple_of(UNIT)), |(y, x)| {
-                seen[[mirror(y as isize, height), mirror(x as isize, width)]]
-            });
+        let padded = Plane::from_shape_fn(
+            (height.next_multiple_of(self.multiple), width.next_multiple_of(self.multiple)),
+            |(y, x)| seen[[mirror(y as isize, height), mirror(x as isize, width)]],
+        );
         Ok(crop(&self.run(&padded)?, 0, 0, height, width))
     }
 
-    /// The logits of a plane whose sides are multiples of the unit.
+    /// The logits of a plane whose sides are multiples as the model wants them.
     fn run(&self, seen: &Plane) -> Result<Plane, WeightsError> {
         let (h, w) = seen.dim();
         let refused = |e: &dyn fmt::Display| WeightsError::Onnx(e.to_string());
@@ -191,11 +194,17 @@ mod tests {
 
     #[test]
     fn metadata_replace_the_defaults() {
-        let words =
-            [("spacing", "10"), ("threshold", "0.2"), ("suppression", "0.7"), ("modality", "histology")];
+        let words = [
+            ("spacing", "10"),
+            ("threshold", "0.2"),
+            ("suppression", "0.7"),
+            ("modality", "histology"),
+            ("multiple", "8"),
+        ];
         let model = Model::onnx(&model("Sigmoid", open(), &words)).unwrap();
         assert_eq!((model.spacing, model.suppression), (10., 0.7));
         assert_eq!(model.modality, Some(Modality::Histology));
+        assert!(matches!(&model.network, Network::Onnx(network) if network.multiple == 8));
         assert!(
             matches!(model.threshold, Threshold::Absolute(logit) if (logit - (0.25f64).ln()).abs() < 1e-9)
         );
@@ -208,8 +217,13 @@ mod tests {
         assert!(refused(&model("Sigmoid", [integer(1, 64), integer(1, 64)], &[])).contains("left open"));
         assert!(refused(&model("Transpose", open(), &[])).contains("expected the same"));
         assert!(refused(&model("NoSuchThing", open(), &[])).contains("NoSuchThing"));
-        for (key, value) in [("spacing", "x"), ("threshold", "1"), ("suppression", "-1"), ("output", "heat")]
-        {
+        for (key, value) in [
+            ("spacing", "x"),
+            ("threshold", "1"),
+            ("suppression", "-1"),
+            ("output", "heat"),
+            ("multiple", "0"),
+        ] {
             assert!(refused(&model("Sigmoid", open(), &[(key, value)])).contains(key));
         }
         let whole = model("Sigmoid", open(), &[]);

@@ -7,9 +7,9 @@ use std::sync::Arc;
 /// A network of the user's own. Cheap to clone; equal to every other of the same bytes.
 ///
 /// Either weights as `scripts/train-detector` writes them (safetensors), or, with the feature `onnx`, an ONNX model from
-/// 1×1×H×W (the image resampled and normalised, bright cones positive; H and W multiples of 32) to 1×1×H×W, how surely a
+/// 1×1×H×W (the image resampled and normalised, bright cones positive; H and W multiples of 32 px) to 1×1×H×W, how surely a
 /// cone's centre lies in each pixel. Its metadata, all optional, are `spacing` (px between cones in what it sees, 8),
-/// `output` (`probability`, the default, or `logit`), `threshold` (probability, 0.5), `suppression` (in spacings, 0.5) and
+/// `output` (`probability`, the default, or `logit`), `multiple` (of which H and W are one, 32), `threshold` (probability, 0.5), `suppression` (in spacings, 0.5) and
 /// `modality` (default: every image).
 #[derive(Clone, Debug)]
 pub struct UserModel {
