@@ -2,8 +2,9 @@
 import math
 import os
 
-import cv2
 import numpy as np
+import torch
+import torch.nn.functional as F
 from PIL import Image
 
 from .plane import SPACING, gaussian, normalise, resample
@@ -11,7 +12,6 @@ from .plane import SPACING, gaussian, normalise, resample
 BORDER = 7   # px: the scoring rule of Cunefare et al. 2017 leaves this frame out
 KNOWN = 3    # so far around the marks, in px of the network, it is known what is a cone and what is not
 GRID = 24    # steps an octave that spacings are rounded to, so that few matrices have to be made
-cv2.setNumThreads(0)
 
 
 class Sample:
@@ -48,13 +48,13 @@ def disturbed(image, spacing, recipe, rng):
         noise = rng.standard_normal(image.shape, np.float32)
         kind = rng.random()
         if kind < 0.2:
-            noise = gaussian(noise, rng.uniform(0.4, 1))
+            noise = gaussian(noise, round(rng.uniform(0.4, 1), 1))
             noise /= noise.std()
         elif kind < 0.45:  # of counted photons
             noise *= np.sqrt(np.maximum(image, 0) / max(image.mean(), 1e-6))
         image = image + rng.uniform(0, 0.35) * image.std() * noise
     if rng.random() < 0.15:  # uneven illumination
-        drift = cv2.resize(rng.standard_normal((4, 4)).astype(np.float32), image.shape[::-1], interpolation=cv2.INTER_CUBIC)
+        drift = enlarged(rng.standard_normal((4, 4)).astype(np.float32), image.shape, 'bicubic')
         image = image * np.exp(0.3 * drift)
     return np.ascontiguousarray(image, np.float32), factor
 
@@ -62,7 +62,6 @@ def disturbed(image, spacing, recipe, rng):
 def resampled(image, marks, step, recipe, rng):
     """The image at about every `step` px, its marks there, and where they are known; now and then turned and sheared."""
     stretch = math.exp(rng.uniform(-0.06, 0.06))
-    known = np.zeros(image.shape, np.float32)
     if rng.random() < 0.4:
         angle, shear = rng.uniform(-recipe.angle, recipe.angle), rng.uniform(-0.06, 0.06)
         turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
@@ -70,25 +69,31 @@ def resampled(image, marks, step, recipe, rng):
         h, w = image.shape
         size = max(1, round(w / step)), max(1, round(h / step))
         origin = np.array([w - 1, h - 1]) / 2 - to_image @ (np.array(size) - 1) / 2
-        matrix = np.c_[to_image, origin]
+        places = np.stack(np.meshgrid(*map(np.arange, size)), -1) @ to_image.T + origin
         blurred = gaussian(image, 0.5 * math.sqrt(step * step - 1)) if step > 1 else image
-        plane = cv2.warpAffine(blurred, matrix, size, flags=cv2.INTER_CUBIC | cv2.WARP_INVERSE_MAP,
-                               borderMode=cv2.BORDER_REFLECT)
-        inside(known, marks, KNOWN * step)
-        known = cv2.warpAffine(known, matrix, size, flags=cv2.INTER_NEAREST | cv2.WARP_INVERSE_MAP, borderValue=0)
-        return plane, np.linalg.solve(to_image, (marks - origin).T).T, known
+        return cubic(blurred, places), np.linalg.solve(to_image, (marks - origin).T).T, inside(places, marks, KNOWN * step)
     step_x, step_y = rounded(step * stretch), rounded(step / stretch)
     plane = resample(image, step_y, step_x)
     marks = (marks + 0.5) / [step_x, step_y] - 0.5
-    known = np.zeros(plane.shape, np.float32)
-    inside(known, marks, KNOWN)
-    return plane, marks, known
+    places = np.stack(np.meshgrid(np.arange(plane.shape[1]), np.arange(plane.shape[0])), -1)
+    return plane, marks, inside(places, marks, KNOWN)
 
 
-def inside(known, marks, around):
-    low, high = marks.min(0) - around, marks.max(0) + around
-    rows, columns = (slice(max(0, math.ceil(low[k])), max(0, math.floor(high[k]) + 1)) for k in (1, 0))
-    known[rows, columns] = 1
+def inside(places, marks, around):
+    """1 at the places in the rectangle of the marks, 0 elsewhere."""
+    return ((places >= marks.min(0) - around) & (places <= marks.max(0) + around)).all(-1).astype(np.float32)
+
+
+def cubic(image, places):
+    """The image at places x, y by cubics, reflected at the border."""
+    h, w = image.shape
+    grid = torch.from_numpy(((places + 0.5) * (2 / w, 2 / h) - 1).astype(np.float32))
+    return F.grid_sample(torch.from_numpy(image)[None, None], grid[None], 'bicubic', 'reflection', False)[0, 0].numpy()
+
+
+def enlarged(image, shape, how):
+    """Of another shape, the outer edges of the pixels staying where they are."""
+    return F.interpolate(torch.from_numpy(image)[None, None], shape, mode=how)[0, 0].numpy()
 
 
 def bumps(marks, shape):
@@ -111,7 +116,7 @@ def draw(sample, recipe, rng):
     step = sample.true / factor * math.exp(rng.uniform(-0.15, 0.15)) / SPACING
     plane, marks, known = resampled(image, (sample.marks + 0.5) / factor - 0.5, step, recipe, rng)
     if rng.random() < 0.3:
-        plane = gaussian(plane, rng.uniform(0.3, 1))
+        plane = gaussian(plane, round(rng.uniform(0.3, 1), 1))
     planes = normalise(plane), bumps(marks, plane.shape), known, np.ones_like(known)
     side = recipe.side
     out = np.zeros((len(planes), side, side), np.float32)

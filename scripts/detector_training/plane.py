@@ -2,8 +2,8 @@
 import functools
 import math
 
-import cv2
 import numpy as np
+from scipy import ndimage
 
 SPACING = 8              # px between cones in what the network sees
 DRIFT, CONTRAST = 8, 12  # Gaussians of the normalisation, px there
@@ -14,15 +14,17 @@ def mirror(index, n):
     return np.where(index < n, index, 2 * n - 1 - index)
 
 
+LARGE = 400  # px: above, bands are narrow enough in their matrices that filters are faster
+
+
 def gaussian(plane, sigma):
     """Cut at ⌈4σ⌉, reflected at the border."""
-    radius = math.ceil(4 * sigma)
-    if min(plane.shape) > radius:
-        return cv2.GaussianBlur(plane, (2 * radius + 1, 2 * radius + 1), sigma, borderType=cv2.BORDER_REFLECT)
+    if max(plane.shape) > LARGE:
+        return ndimage.gaussian_filter(plane, sigma, mode='reflect', radius=math.ceil(4 * sigma))
     return gaussian_matrix(plane.shape[0], sigma) @ plane @ gaussian_matrix(plane.shape[1], sigma).T
 
 
-@functools.lru_cache(8192)
+@functools.lru_cache(2048)
 def gaussian_matrix(n, sigma):
     radius = math.ceil(4 * sigma)
     k = np.arange(-radius, radius + 1)
@@ -33,7 +35,7 @@ def gaussian_matrix(n, sigma):
     return matrix.astype(np.float32)
 
 
-@functools.lru_cache(4096)
+@functools.lru_cache(2048)
 def resampling_matrix(n, step):
     """Every `step` px by cubics (Catmull and Rom), after a Gaussian that takes off what the wider grid cannot hold."""
     count = max(1, math.floor(n / step + 0.5))
