@@ -3,6 +3,11 @@ use super::Plane;
 /// Smaller regions, as a part of the image, are dark places rather than places that were not imaged.
 const SMALLEST: f64 = 0.005;
 
+/// Smaller regions than this part of the image end abruptly if they were not imaged: around them it is at least this part as
+/// bright as everywhere. What fades to black is a dark place, in a picture of few grey levels.
+const SMALL: f64 = 0.05;
+const ABRUPT: f64 = 0.5;
+
 /// A region of at least so many runs of pixels a row, on average no longer than this, is the ground between cones.
 const POROUS_RUNS: usize = 4;
 const POROUS_LENGTH: usize = 64;
@@ -45,7 +50,7 @@ pub(super) fn part_of(mask: &[bool], width: usize) -> Option<ImagedPart> {
 ///
 /// What was not imaged are exactly black regions (4-connected) that cover at least 0.5 % of the image each, as montages and
 /// registered averages leave them: margins, and gaps between tiles. Porous regions are imaged: the dark ground between
-/// bright cones. One pass over the pixels, and one byte a pixel.
+/// bright cones; and so are small ones that the image fades into. One pass over the pixels, and one byte a pixel.
 pub fn imaged_mask(plane: &Plane) -> Option<Vec<bool>> {
     let width = plane.ncols();
     let least = SMALLEST * plane.len() as f64;
@@ -70,16 +75,48 @@ pub fn imaged_mask(plane: &Plane) -> Option<Vec<bool>> {
         region.size += run.end - run.first;
         region.runs += 1;
     }
+    for k in 0..regions.runs.len() {
+        let (run, root) = (regions.runs[k], regions.root(k));
+        if shapes[root].size as f64 >= least {
+            shapes[root].rim.extend(run.neighbours(plane).filter(|&v| v != 0.));
+        }
+    }
+    let mut all_imaged = Mean::default();
+    all_imaged.extend(plane.iter().copied().filter(|&v| v != 0.));
+    let small = SMALL * plane.len() as f64;
+    let is_hole = |region: &Region| {
+        let abrupt = region.rim.value() >= ABRUPT * all_imaged.value();
+        region.size as f64 >= least && !region.is_porous() && (abrupt || region.size as f64 >= small)
+    };
     let mut mask = vec![true; plane.len()];
     let mut all = true;
     for k in 0..regions.runs.len() {
         let (run, root) = (regions.runs[k], regions.root(k));
-        if shapes[root].size as f64 >= least && !shapes[root].is_porous() {
+        if is_hole(&shapes[root]) {
             mask[run.row * width + run.first..run.row * width + run.end].fill(false);
             all = false;
         }
     }
     (!all).then_some(mask)
+}
+
+#[derive(Clone, Copy, Default)]
+struct Mean {
+    sum: f64,
+    count: usize,
+}
+
+impl Mean {
+    fn extend(&mut self, values: impl Iterator<Item = f32>) {
+        for v in values {
+            self.sum += f64::from(v);
+            self.count += 1;
+        }
+    }
+
+    fn value(self) -> f64 {
+        self.sum / self.count.max(1) as f64
+    }
 }
 
 /// A horizontal run of pixels: columns `first..end` of `row`.
@@ -90,6 +127,16 @@ struct Run {
     end: usize,
 }
 
+impl Run {
+    /// The pixels above, below and at both ends.
+    fn neighbours(self, plane: &Plane) -> impl Iterator<Item = f32> + '_ {
+        let ends = [self.first.wrapping_sub(1), self.end].into_iter().map(move |x| (self.row, x));
+        let sides = [self.row.wrapping_sub(1), self.row + 1];
+        let sides = sides.into_iter().flat_map(move |y| (self.first..self.end).map(move |x| (y, x)));
+        ends.chain(sides).filter_map(|place| plane.get(place).copied())
+    }
+}
+
 /// A connected region in numbers.
 #[derive(Clone, Copy, Default)]
 struct Region {
@@ -98,6 +145,8 @@ struct Region {
     /// Rows in which it has a run; the last of them.
     rows: usize,
     last_row: usize,
+    /// What surrounds it.
+    rim: Mean,
 }
 
 impl Region {
@@ -208,6 +257,19 @@ mod tests {
             });
             assert_eq!(imaged_mask(&cones), None, "{spacing}");
         }
+    }
+
+    #[test]
+    fn a_dark_place_that_grey_levels_end_in_is_imaged() {
+        let fading = |levels: f64| {
+            Plane::from_shape_fn((200, 200), |(y, x)| {
+                let from_centre = (x as f64 - 100.).hypot(y as f64 - 100.);
+                ((levels * (from_centre / 100.).powi(2)).round() / levels) as f32
+            })
+        };
+        let black = fading(40.).iter().filter(|v| **v == 0.).count();
+        assert!(black > 300, "{black}");
+        assert_eq!(imaged_mask(&fading(40.)), None);
     }
 
     #[test]
