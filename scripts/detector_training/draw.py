@@ -52,7 +52,7 @@ def disturbed(image, spacing, recipe, rng):
             noise /= noise.std()
         elif kind < 0.45:  # of counted photons
             noise *= np.sqrt(np.maximum(image, 0) / max(image.mean(), 1e-6))
-        image = image + rng.uniform(0, 0.35) * image.std() * noise
+        image = image + rng.uniform(0, recipe.noise) * image.std() * noise
     if rng.random() < 0.15:  # uneven illumination
         drift = enlarged(rng.standard_normal((4, 4)).astype(np.float32), image.shape, 'bicubic')
         image = image * np.exp(0.3 * drift)
@@ -60,8 +60,10 @@ def disturbed(image, spacing, recipe, rng):
 
 
 def resampled(image, marks, step, recipe, rng):
-    """The image at about every `step` px, its marks there, and where they are known; now and then turned and sheared."""
+    """The image at about every `step` px, its marks there, and where they are known; now and then bent, or turned and sheared."""
     stretch = math.exp(rng.uniform(-0.06, 0.06))
+    if rng.random() < recipe.gradient:
+        return bent(image, marks, step, rng)
     if rng.random() < 0.4:
         angle, shear = rng.uniform(-recipe.angle, recipe.angle), rng.uniform(-0.06, 0.06)
         turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
@@ -77,6 +79,23 @@ def resampled(image, marks, step, recipe, rng):
     marks = (marks + 0.5) / [step_x, step_y] - 0.5
     places = np.stack(np.meshgrid(np.arange(plane.shape[1]), np.arange(plane.shape[0])), -1)
     return plane, marks, inside(places, marks, KNOWN)
+
+
+def bent(image, marks, step, rng):
+    """The same with a spacing that grows steadily from one side to the other, by 5–40 % on either side of the middle: the
+    conformal map (exp(b·z) − 1)/b keeps neighbourhoods as they are."""
+    h, w = image.shape
+    size = max(1, round(w / step)), max(1, round(h / step))
+    middle, image_middle = (np.array(size) - 1) / 2, np.array([w - 1, h - 1]) / 2
+    bend = rng.uniform(0.05, 0.4) / (max(size) / 2) * np.exp(2j * math.pi * rng.random())
+    x, y = np.meshgrid(*(np.arange(n) - m for n, m in zip(size, middle)))
+    places = (np.exp(bend * (x + 1j * y)) - 1) / bend * step
+    places = np.stack([places.real, places.imag], -1) + image_middle
+    marks_known = inside(places, marks, KNOWN * step)
+    marks_known *= ((places > -0.5) & (places < [w - 0.5, h - 0.5])).all(-1)
+    marks = np.log(1 + bend * ((marks - image_middle) @ [1, 1j]) / step) / bend
+    blurred = gaussian(image, 0.5 * math.sqrt(step * step - 1)) if step > 1 else image
+    return cubic(blurred, places), np.stack([marks.real, marks.imag], 1) + middle, marks_known
 
 
 def inside(places, marks, around):
