@@ -61,6 +61,12 @@ fn with_gamma(gamma: f32) -> impl Fn(&Marked) -> Marked {
     move |m| Marked { image: m.image.mapv(|v| v.max(0.).powf(gamma)), marks: m.marks.clone() }
 }
 
+/// The same in 256 grey levels, of which few are left for the dark ground between cones.
+fn in_8_bits(m: &Marked) -> Marked {
+    let Marked { image, marks } = with_gamma(2.)(m);
+    Marked { image: image.mapv(|v| (255. * v).round() / 255.), marks }
+}
+
 /// Uniform noise whose standard deviation is .3 of the image's.
 fn with_noise(m: &Marked) -> Marked {
     let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
@@ -115,6 +121,7 @@ fn holds(modality: Modality, bar: f64, loss: f64) {
     };
     check("gamma 0.5", dice(&images, modality, with_gamma(0.5)));
     check("gamma 2", dice(&images, modality, with_gamma(2.)));
+    check("gamma 2, 8 bits", dice(&images, modality, in_8_bits));
     check("noise", dice(&images, modality, with_noise));
     check("× 0.7", dice(&images, modality, scaled(0.7)));
     check("× 1.5", dice(&images, modality, scaled(1.5)));

@@ -101,7 +101,7 @@ mod tests {
             bytes[start..start + to.len()].copy_from_slice(to.as_bytes());
             error(&bytes).to_string()
         };
-        assert!(changed(r#""suppression": "0.5""#, r#""suppression": "-.5""#).contains("suppression"));
+        assert!(changed(r#""suppression": "0."#, r#""suppression": "-."#).contains("suppression"));
         assert!(changed(r#""spacing": "8""#, r#""spacing": "0""#).contains("spacing"));
         assert!(changed(r#""modality": "confocal""#, r#""modality": "infrared""#).contains("modality"));
         assert!(changed(r#""unet""#, r#""nets""#).contains("nets"));
