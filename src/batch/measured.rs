@@ -102,13 +102,18 @@ pub(super) fn warnings_of(
         warnings.push(format!("only {}: every statistic is uncertain", counted(record.n, "point")));
     }
     if record.trend.significant {
-        let ratio = record.trend.density_ratio.map(|r| format!(" about {r:.1}:1")).unwrap_or_default();
+        let percent = |share: f64| format!("{:.0}", 100. * share);
+        let size = record.trend.variation.zip(record.trend.variation_interval).map(|(size, (low, high))| {
+            format!(" by about {} % (at least {}, at most {})", percent(size), percent(low), percent(high))
+        });
         let remedy = match measures.inhomogeneous {
             Some(_) => "; g_inhomogeneous and g_locally_scaled beside it allow for that",
             None => "",
         };
-        warnings
-            .push(format!("density varies{ratio} across the window: g(r) assumes that it does not{remedy}"));
+        warnings.push(format!(
+            "density varies{} across the window: g(r) assumes that it does not{remedy}",
+            size.unwrap_or_default()
+        ));
     }
     if let Err(error) = &measures.pcf {
         warnings.push(format!("no pair correlation function: {error}"));

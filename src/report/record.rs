@@ -253,6 +253,9 @@ const ORDER_COLUMNS: &[Column<MosaicRecord>] = &[
     ("icd_bound_mean_um", |r| r.in_um(r.voronoi.inter_cell.mean).into()),
     ("furthest_bound_mean_um", |r| r.in_um(r.voronoi.furthest.mean).into()),
     ("trend_p", |r| r.trend.p_value.into()),
+    ("density_variation", |r| r.trend.variation.into()),
+    ("density_variation_low", |r| r.trend.variation_interval.map(|i| i.0).into()),
+    ("density_variation_high", |r| r.trend.variation_interval.map(|i| i.1).into()),
     ("density_ratio", |r| r.trend.density_ratio.into()),
 ];
 

@@ -35,5 +35,5 @@ pub use pcf::{EdgeCorrection, Kernel, Pcf, PcfOptions, pcf};
 pub use rank_correlation::{FEWEST_PAIRS, RankCorrelation, rank_correlation};
 pub use rank_envelope::{RankEnvelope, rank_envelope};
 pub use spectrum::{PowerSpectrum, SpectrumOptions, spectrum};
-pub use trend::{TREND_LEVEL, Trend, trend};
+pub use trend::{TREND_LEVEL, TREND_TOLERANCE, Trend, trend};
 pub use voronoi::{Cell, Voronoi, VoronoiSummary, voronoi};
