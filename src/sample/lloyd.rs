@@ -6,6 +6,8 @@ use rand::Rng;
 
 /// Random points, each moved to the centroid of its Voronoi cell, for a number of steps (Lloyd 1982): with many, a centroidal
 /// Voronoi tessellation (Du, Faber & Gunzburger 1999).
+///
+/// Neighbours even out in a few steps; variations of density across the window, left of the random points, take about 3n.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lloyd {
     /// How often all points are moved.
