@@ -8,7 +8,7 @@ use std::f64::consts::{PI, SQRT_2};
 pub const TREND_LEVEL: f64 = 0.01;
 
 /// Variation of density, as [`Trend::variation`], that is let pass: 10 %. A gradient of X spreads the spacing by X/2 from side to side,
-/// by X/(2√12) of itself as standard deviation: at 10 % by 1.4 %, which lowers the first peak of g(r) (as wide as its kernel, 10 % of
+/// by X/(2√12) of itself as standard deviation: at 10 % by 1.4 %, which by reckoning, not by measurement, lowers the first peak of g(r) (as wide as its kernel, 10 % of
 /// the spacing, or wider) by less than 1 % of its height. A mosaic relaxed against a straight border varies by 2 % at n = 80.
 pub const TREND_TOLERANCE: f64 = 0.1;
 
@@ -58,8 +58,8 @@ pub struct Trend {
 ///
 /// It is the density of this very pattern that is judged. One whose slow waves scatter more than its faster ones is reported even if
 /// it is one of many whose average is even: Lloyd's method smooths variations of density as diffusion does, by a factor
-/// exp(−.15 k²/λ) a step for a wave of k radians per length (patterns of 80 and 300 points, 10 to 200 steps), so that after fewer than
-/// n steps those across the window are still the random ones that it began with.
+/// exp(−.15 k²/λ) a step for a wave of k radians per length (fitted by eye to patterns of 80 and 300 points, 10 and 50 steps), so that
+/// after fewer than n steps those across the window are still in good part the random ones that it began with.
 ///
 /// The structure factor of a regular pattern may rise with frequency: then trends are reported too rarely, not too often.
 ///
