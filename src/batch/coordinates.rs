@@ -3,11 +3,14 @@ use super::measured::{functions_table, pcf_table, points_table, record_of, warni
 use super::outputs::OutputFolder;
 use super::region::{Region, Regions};
 use super::work::for_each;
-use super::{BatchError, Failure, Input, Progress, ScaleSource};
+use super::{BatchError, Failure, Input, Labels, Progress, ScaleSource};
 use crate::geometry::{Point, Window};
 use crate::mosaic::io::{ReadOptions, read_coordinates};
 use crate::mosaic::{LengthUnit, Mosaic};
-use crate::report::{Cell, CoordinatesRecord, FindingRecord, PowerScale, counted, spectrum_png};
+use crate::report::{
+    Cell, CoordinatesRecord, FindingRecord, MetricSelection, PowerScale, Subject, Summary, SummaryKind,
+    counted, spectrum_png,
+};
 use crate::stats::{
     FunctionOptions, MeasureOptions, Measures, SpectrumOptions, StatsError, functions, measure, spectrum,
 };
@@ -24,12 +27,23 @@ pub struct CoordinatesOptions {
     pub torus: bool,
     /// Where scales come from.
     pub scales: ScaleSource,
+    /// What is known of the files, and which belong together.
+    pub labels: Labels,
+    /// Columns of `summary.csv`.
+    pub metrics: MetricSelection,
     /// How mosaics are measured.
     pub measure: MeasureOptions,
     /// Power spectra to be written, by [`measure_files`], and how they are drawn.
     pub spectrum: Option<(SpectrumOptions, PowerScale)>,
     /// Distances at which G, F, J, K, L and g are written, by [`measure_files`], with a table of points.
     pub functions: Option<FunctionOptions>,
+}
+
+impl CoordinatesOptions {
+    /// The columns of `summary.csv`.
+    pub fn summary(&self) -> Summary {
+        Summary::new(SummaryKind::Coordinates, &self.metrics, &[], self.labels.columns())
+    }
 }
 
 /// What came of measuring or comparing coordinate files.
@@ -43,7 +57,7 @@ pub struct CoordinatesOutcome {
     pub findings: Vec<FindingRecord>,
 }
 
-/// Writes `summary.csv` (one row a file), `NAME.pcf.csv` (r in hexagonal spacings, g), and `NAME.spectrum.csv` and `.png` if
+/// Writes `summary.csv` (one row a file) and the same as `summary.json`, `groups.csv` if groups are wanted, `NAME.pcf.csv` (r in hexagonal spacings, g), and `NAME.spectrum.csv` and `.png` if
 /// asked for.
 ///
 /// # Errors
@@ -54,12 +68,15 @@ pub fn measure_files(
     out: &Path,
     progress: &dyn Progress,
 ) -> Result<CoordinatesOutcome, BatchError> {
+    options.labels.validate()?;
     let regions = Regions::new(&options.region, &options.read)?;
     let out = OutputFolder::create(out)?;
     let (records, failures) = for_each(inputs, progress, |input| {
         let (mosaic, outside) = load(input, options, &regions)?;
         let measures = measure(&mosaic, &options.measure);
         let mut record = record(input, &mosaic, outside, &measures, Vec::new());
+        let label = options.labels.of(&input.path, mosaic.scale())?;
+        label.put_on(&mut record.mosaic, &mut record.warnings);
         let (header, rows) = pcf_table(&measures, &[]);
         out.write_table(&format!("{}.pcf.csv", input.name), &header, &rows)?;
         if let Some(distances) = &options.functions {
@@ -75,10 +92,17 @@ pub fn measure_files(
             record.warnings.push(format!("no spectrum: {missing}"));
         }
         let line = line_about(&record);
-        Ok((record, line))
+        Ok(((input.name.clone(), record), line))
     });
-    let rows: Vec<_> = records.iter().map(CoordinatesRecord::row).collect();
-    out.write_table("summary.csv", &CoordinatesRecord::header(), &rows)?;
+    let summary = options.summary();
+    let subjects: Vec<(&str, Subject)> =
+        records.iter().map(|(name, record)| (name.as_str(), Subject::Coordinates(record))).collect();
+    let rows: Vec<_> = subjects.iter().map(|(_, subject)| summary.row(subject)).collect();
+    out.write_table("summary.csv", &summary.header(), &rows)?;
+    let objects: Result<Vec<_>, _> = subjects.iter().map(|(_, subject)| summary.json(subject)).collect();
+    out.write("summary.json", &json(&objects?)?)?;
+    options.labels.write_groups(&out, &summary, &subjects)?;
+    let records: Vec<CoordinatesRecord> = records.into_iter().map(|(_, record)| record).collect();
     out.write("options.json", &options_json(options, serde_json::Value::Null)?)?;
     write_failures(&out, &failures)?;
     Ok(CoordinatesOutcome { records, failures, findings: Vec::new() })
@@ -112,7 +136,7 @@ pub(super) fn options_json(
     options: &CoordinatesOptions,
     samplers: serde_json::Value,
 ) -> Result<Vec<u8>, BatchError> {
-    let mut json = serde_json::to_vec_pretty(&serde_json::json!({
+    json(&serde_json::json!({
         "program": "conemosaic",
         "version": env!("CARGO_PKG_VERSION"),
         "read": options.read,
@@ -122,8 +146,13 @@ pub(super) fn options_json(
         "measure": options.measure,
         "functions": options.functions,
         "spectrum": options.spectrum.map(|(spectrum, _)| spectrum),
+        "manifest": options.labels.manifest.as_ref().map(|m| m.file()),
         "samplers": samplers,
-    }))?;
+    }))
+}
+
+fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, BatchError> {
+    let mut json = serde_json::to_vec_pretty(value)?;
     json.push(b'\n');
     Ok(json)
 }

@@ -2,7 +2,7 @@ use crate::compare::{CompareError, MatchError};
 use crate::detect::DetectError;
 use crate::geometry::{PolygonError, WindowError};
 use crate::image::ImageError;
-use crate::mosaic::io::{ReadError, ScaleTableError, WriteError};
+use crate::mosaic::io::{AmbiguousRow, ReadError, ScaleTableError, WriteError};
 use crate::mosaic::{LengthUnit, MosaicError};
 use crate::report::ReportError;
 use std::io;
@@ -144,6 +144,12 @@ pub enum BatchError {
     /// See [`ScaleTableError`].
     #[error(transparent)]
     ScaleTable(#[from] ScaleTableError),
+    /// See [`AmbiguousRow`].
+    #[error(transparent)]
+    Manifest(#[from] AmbiguousRow),
+    /// Images that cannot be grouped as asked.
+    #[error("{0}")]
+    Group(String),
     /// See [`crate::mosaic::ScaleError`].
     #[error(transparent)]
     Scale(#[from] crate::mosaic::ScaleError),

@@ -23,6 +23,9 @@ pub(super) fn record_of(
         n: mosaic.len(),
         unit: mosaic.unit(),
         um_per_unit: mosaic.micrometres_per_unit(),
+        um_per_degree: mosaic.scale().map(|s| s.micrometres_per_degree()),
+        place: None,
+        labels: Vec::new(),
         window: [bounds.x0(), bounds.y0(), bounds.x1(), bounds.y1()],
         window_area: mosaic.window().area(),
         outline: match mosaic.window() {

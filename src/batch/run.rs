@@ -2,17 +2,18 @@ use super::detection::{describe, detect_in, overlay_of, read_image, write_detect
 use super::failures::write_failures;
 use super::image_figure::figure;
 use super::image_window::ImageWindows;
+use super::labels::Label;
 use super::measured::{distances, not_compared, pcf_table, record_of, warnings_of};
 use super::outputs::OutputFolder;
 use super::verdicts::{self, verdicts_on};
 use super::work::for_each;
-use super::{BatchError, Crop, Failure, ImageWindow, Input, Progress, ScaleSource};
+use super::{BatchError, Crop, Failure, ImageWindow, Input, Labels, Progress, ScaleSource};
 use crate::compare::{ReferenceCurve, References, VerdictOptions};
 use crate::detect::{DetectOptions, Detections, weights};
 use crate::geometry::Window;
 use crate::image::Plane;
 use crate::mosaic::{LengthUnit, Mosaic, Scale};
-use crate::report::{DetectionRecord, ImageRecord, page};
+use crate::report::{DetectionRecord, ImageRecord, MetricSelection, Subject, Summary, SummaryKind, page};
 use crate::sample::Sampler;
 use crate::stats::{Histogram, MeasureOptions, Measures, PcfOptions, measure};
 use serde::Serialize;
@@ -46,6 +47,10 @@ pub struct RunOptions {
     pub window: ImageWindow,
     /// The rectangle of that area that counts; `None`: all of it.
     pub crop: Option<Crop>,
+    /// What is known of the images, and which belong together.
+    pub labels: Labels,
+    /// Columns of `summary.csv`.
+    pub metrics: MetricSelection,
     /// Keep the results of an earlier run for images and options that did not change.
     pub resume: bool,
     /// The command line, for `run.json`.
@@ -100,7 +105,7 @@ struct Done {
 /// The main job: detects, measures, compares and reports every image into `out`.
 ///
 /// Writes `images/NAME/` (`points.csv`, `overlay.png`, `metrics.json`, `pcf.csv`, `figure.svg`), `summary.csv`,
-/// `index.html`, `run.json` and, if an image failed, `failures.csv`. An image's folder appears when it is complete.
+/// `index.html`, `run.json`, `groups.csv` if groups are wanted and, if an image failed, `failures.csv`. An image's folder appears when it is complete.
 ///
 /// # Errors
 /// If the file of a window cannot be read or `out` cannot be written to. Images that fail are in the outcome and in
@@ -113,6 +118,7 @@ pub fn run_files(
 ) -> Result<RunOutcome, BatchError> {
     let started = Instant::now();
     options.verdict.iter().try_for_each(VerdictOptions::validate)?;
+    options.labels.validate()?;
     refuse_overlap(inputs, &out.join(IMAGES))?;
     let windows = ImageWindows::new(&options.window, options.crop.as_ref())?;
     let out = OutputFolder::create(out)?;
@@ -127,8 +133,12 @@ pub fn run_files(
     write_failures(&out, &failures)?;
 
     let samplers: Vec<String> = options.samplers.iter().map(|s| s.name().to_owned()).collect();
-    let rows: Vec<_> = done.iter().map(|d| d.record.row(&samplers)).collect();
-    out.write_table("summary.csv", &ImageRecord::header(&samplers), &rows)?;
+    let summary = Summary::new(SummaryKind::Images, &options.metrics, &samplers, options.labels.columns());
+    let subjects: Vec<(&str, Subject)> =
+        done.iter().map(|d| (d.record.name.as_str(), Subject::Image(&d.record))).collect();
+    let rows: Vec<_> = subjects.iter().map(|(_, subject)| summary.row(subject)).collect();
+    out.write_table("summary.csv", &summary.header(), &rows)?;
+    options.labels.write_groups(&out, &summary, &subjects)?;
     if options.verdict.is_some() {
         let found = done.iter().map(|d| (d.record.file.as_str(), d.record.mosaic.verdicts.as_slice()));
         let (header, rows) = verdicts::table(found);
@@ -170,7 +180,8 @@ fn one_image(
     let scale = options.scales.scale_of(&input.path, width)?;
     let window = windows.of(&input.path, &image, scale)?;
     let sha256 = hex(&Sha256::digest(&bytes));
-    let options_sha256 = fingerprint(options, scale, &window)?;
+    let label = options.labels.of(&input.path, scale)?;
+    let options_sha256 = fingerprint(options, scale, &window, &label)?;
     drop(bytes);
     if options.resume
         && let Some(record) = earlier(images, input, &sha256, &options_sha256)
@@ -204,6 +215,7 @@ fn one_image(
     let mut warnings = warnings_of(Some(&found), &mosaic_record, &measures);
     warnings.extend(not_compared(&measures, &options.samplers, &curves));
     warnings.extend(no_verdicts);
+    label.put_on(&mut mosaic_record, &mut warnings);
     let record = ImageRecord {
         file: input.path.display().to_string(),
         name: input.name.clone(),
@@ -211,7 +223,6 @@ fn one_image(
         options_sha256,
         width_px: width,
         height_px: height,
-        um_per_degree: scale.map(|s| s.micrometres_per_degree()),
         detection: DetectionRecord {
             detector: found.detector,
             modality: found.modality,
@@ -287,7 +298,12 @@ fn metrics_json(
 }
 
 /// What identifies the options that one image's results depend on, the networks' weights among them.
-fn fingerprint(options: &RunOptions, scale: Option<Scale>, window: &Window) -> Result<String, BatchError> {
+fn fingerprint(
+    options: &RunOptions,
+    scale: Option<Scale>,
+    window: &Window,
+    label: &Label,
+) -> Result<String, BatchError> {
     let samplers: Vec<&str> = options.samplers.iter().map(|s| s.name()).collect();
     let relevant = serde_json::to_vec(&(
         env!("CARGO_PKG_VERSION"),
@@ -298,6 +314,7 @@ fn fingerprint(options: &RunOptions, scale: Option<Scale>, window: &Window) -> R
         options.seed,
         scale,
         window,
+        (&label.labels, label.place),
     ))?;
     let mut digest = Sha256::new_with_prefix(relevant);
     weights().iter().for_each(|file| digest.update(file));
@@ -346,6 +363,7 @@ fn run_json(
             "window": options.window.to_string(),
             "crop": options.crop.map(|c| c.to_string()),
             "scale": options.scales.describe(),
+            "manifest": options.labels.manifest.as_ref().map(|m| m.file()),
             "resume": options.resume,
         },
         "seed": options.seed,

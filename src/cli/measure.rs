@@ -1,12 +1,15 @@
 use super::Done;
 use super::common::Common;
+use super::metrics::SummaryArgs;
 use super::scale::ScaleArgs;
 use super::short_table;
 use anyhow::Result;
 use clap::Args;
-use conemosaic::batch::{CoordinatesOptions, CoordinatesOutcome, Region, coordinate_files, measure_files};
+use conemosaic::batch::{
+    CoordinatesOptions, CoordinatesOutcome, Labels, Region, coordinate_files, measure_files,
+};
 use conemosaic::mosaic::io::{Origin, ReadOptions};
-use conemosaic::report::{Cell, CoordinatesRecord, PowerScale, counted};
+use conemosaic::report::{Cell, CoordinatesRecord, MetricSelection, PowerScale, Subject, counted};
 use conemosaic::stats::{
     Deviation, EdgeCorrection, FunctionOptions, Kernel, MeasureOptions, PcfOptions, SpectrumOptions,
 };
@@ -120,6 +123,8 @@ impl MosaicArgs {
             region: self.window.clone(),
             torus: self.torus,
             scales: self.scale.source()?,
+            labels: Labels::default(),
+            metrics: MetricSelection::default(),
             measure: MeasureOptions { deviation, pcf: self.pcf.options(self.pcf.r_max)? },
             spectrum: None,
             functions: None,
@@ -136,8 +141,9 @@ Example:
 Reads CSV and its relatives, WebPlotDigitizer projects and CSVs, ImageJ results and regions.
 
 Writes to measured/:
-  summary.csv    one row a file: n, nearest neighbours, regularity index, density, …
-                 (lengths in the unit of the column unit, or of the suffix)
+  summary.csv    one row a file; `conemosaic metrics` says what each column is
+  summary.json   the same
+  groups.csv     with --group-by: mean, SD and number of every column by group
   NAME.pcf.csv   pair correlation function (r in hexagonal spacings, g)
   NAME.functions.csv, NAME.points.csv
                  with --functions: G, F, J, K, L and g by distance, columns named as spatstat's corrections (lengths in the
@@ -154,6 +160,8 @@ pub struct Measure {
     /// Folder for the results
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    #[command(flatten)]
+    summary: SummaryArgs,
     #[command(flatten)]
     mosaic: MosaicArgs,
     /// Write the power spectrum too; its picture linear (white: 3 times the power of independent points) or in dB (−20 to
@@ -178,6 +186,8 @@ impl Measure {
             .then(|| FunctionOptions { r_step: self.r_step, r_max: self.mosaic.pcf.r_max.take() });
         let mut options = self.mosaic.options()?;
         options.functions = functions;
+        options.labels = self.summary.labels()?;
+        options.metrics = self.summary.metrics();
         if let Some(scale) = &self.spectrum {
             let spectrum = SpectrumOptions { max_frequency: self.max_frequency };
             spectrum.validate()?;
@@ -187,7 +197,7 @@ impl Measure {
         let inputs = coordinate_files(&self.files, Some(&self.out))?;
         let outcome = measure_files(&inputs, &options, &self.out, &*common.progress())?;
         if !outcome.records.is_empty() {
-            common.say(&summary(&outcome));
+            common.say(&summary(&outcome, &options));
         }
         common.say(&format!("Table: {}/summary.csv", self.out.display()));
         say_failures(common, &outcome, &self.out);
@@ -202,7 +212,12 @@ pub fn say_failures(common: &Common, outcome: &CoordinatesOutcome, out: &Path) {
     }
 }
 
-fn summary(outcome: &CoordinatesOutcome) -> String {
+fn summary(outcome: &CoordinatesOutcome, options: &CoordinatesOptions) -> String {
+    let subjects: Vec<Subject> = outcome.records.iter().map(Subject::Coordinates).collect();
+    if let Some((headers, rows)) = options.summary().readable(&subjects) {
+        let headers: Vec<&str> = headers.iter().map(String::as_str).collect();
+        return short_table(&headers, &rows, "summary.csv", false);
+    }
     let scaled = outcome.records.iter().any(|r| r.mosaic.um_per_unit.is_some());
     let density = if scaled { "points/mm²" } else { "points/unit²" };
     let headers = ["file", "points", "unit", "NN mean", "NN SD", "RI", "RI interior", density];

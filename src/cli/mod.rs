@@ -6,6 +6,7 @@ mod compare;
 mod completions;
 mod detect;
 mod measure;
+mod metrics;
 mod paper;
 mod progress;
 mod render;
@@ -44,14 +45,15 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    Run(run::Run),
+    Run(Box<run::Run>),
     Detect(detect::Detect),
-    Measure(measure::Measure),
+    Measure(Box<measure::Measure>),
     Compare(compare::Compare),
     Validate(validate::Validate),
     Sample(sample::Sample),
     Render(Box<render::Render>),
     Paper(paper::Paper),
+    Metrics(metrics::Metrics),
     Completions(completions::Completions),
 }
 
@@ -86,6 +88,7 @@ pub fn main() -> ExitCode {
         Command::Sample(command) => command.execute(common),
         Command::Paper(command) => command.execute(common),
         Command::Render(command) => command.execute(common),
+        Command::Metrics(command) => command.execute(common),
         Command::Completions(command) => command.execute(&mut self::command()),
     });
     match result {

@@ -1,5 +1,6 @@
 use super::common::Common;
 use super::detect::DetectArgs;
+use super::metrics::SummaryArgs;
 use super::scale::ScaleArgs;
 use super::short_table;
 use super::{Done, compare::samplers_named};
@@ -7,7 +8,9 @@ use anyhow::{Result, bail};
 use clap::Args;
 use conemosaic::batch::{Crop, ImageWindow, RunOptions, RunOutcome, image_files, run_files};
 use conemosaic::compare::VerdictOptions;
-use conemosaic::report::{Cell, by_need, counted, expected_errors, significant};
+use conemosaic::report::{
+    Cell, Subject, Summary, SummaryKind, by_need, counted, expected_errors, significant,
+};
 use conemosaic::stats::MeasureOptions;
 use std::path::PathBuf;
 
@@ -18,7 +21,8 @@ Example:
   conemosaic run images --scale-table scales.csv --out report
 
 Writes to report/:
-  summary.csv               one row an image
+  summary.csv               one row an image; `conemosaic metrics` says what each column is
+  groups.csv                with --group-by: mean, SD and number of every column by group
   index.html                the same as a page, with figures
   images/NAME/points.csv    cone centres: x_px,y_px,score (0,0: first pixel's centre)
   images/NAME/overlay.png   the image with its cones marked
@@ -58,6 +62,8 @@ pub struct Run {
     /// Of that area only this rectangle: WxH (centred in the image) or X0,Y0,X1,Y1, in px, or in µm with um behind it
     #[arg(long, value_name = "RECT", allow_hyphen_values = true)]
     crop: Option<Crop>,
+    #[command(flatten)]
+    summary: SummaryArgs,
     /// Keep what an earlier run with the same options has finished
     #[arg(long)]
     resume: bool,
@@ -78,6 +84,8 @@ impl Run {
             scales: self.scale.source()?,
             window: self.window.clone(),
             crop: self.crop,
+            labels: self.summary.labels()?,
+            metrics: self.summary.metrics(),
             resume: self.resume,
             command: std::env::args().collect(),
         };
@@ -93,11 +101,13 @@ impl Run {
         }
         let inputs = image_files(&self.paths, Some(&self.out))?;
         let outcome = run_files(&inputs, &options, &self.out, &*common.progress())?;
-        common.say(&self.summary(&outcome));
+        let samplers: Vec<String> = options.samplers.iter().map(|s| s.name().to_owned()).collect();
+        let table = Summary::new(SummaryKind::Images, &options.metrics, &samplers, &[]);
+        common.say(&self.words(&outcome, &table));
         Ok(Done::with(&outcome.failures))
     }
 
-    fn summary(&self, outcome: &RunOutcome) -> String {
+    fn words(&self, outcome: &RunOutcome, summary: &Summary) -> String {
         let scaled = outcome.records.iter().any(|r| r.mosaic.um_per_unit.is_some());
         let headers = [
             "image",
@@ -132,7 +142,12 @@ impl Run {
             })
             .collect();
         let mut text = String::new();
-        if !rows.is_empty() {
+        let need = by_need(&outcome.records);
+        let subjects: Vec<Subject> = need.iter().map(|&k| Subject::Image(&outcome.records[k])).collect();
+        if let Some((headers, rows)) = summary.readable(&subjects).filter(|(_, rows)| !rows.is_empty()) {
+            let headers: Vec<&str> = headers.iter().map(String::as_str).collect();
+            text = format!("{}\n\n", short_table(&headers, &rows, "summary.csv", false));
+        } else if !rows.is_empty() {
             let warned = outcome.records.iter().any(|r| !r.warnings.is_empty());
             text = short_table(&headers, &rows, "summary.csv", warned);
             text.push_str("\n\n");

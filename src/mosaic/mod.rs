@@ -1,8 +1,10 @@
 //! The type that travels: points, the window they were seen in, and the scale of that window.
 
 pub mod io;
+mod normative;
 mod scale;
 
+pub use normative::{Meridian, RetinalPlace};
 pub use scale::{MICROMETRES_PER_DEGREE, Scale, ScaleError, micrometres_per_degree};
 
 use crate::geometry::{Point, Window};

@@ -8,6 +8,7 @@ mod figure;
 mod finding;
 mod grey;
 mod ink;
+mod metrics;
 mod overlay;
 mod page;
 mod paper;
@@ -29,6 +30,10 @@ pub use figure::{
     reliability_figure, samplers_figure,
 };
 pub use finding::FindingRecord;
+pub use metrics::{
+    EdgeRule, Metric, MetricGroup, MetricSelection, Quantity, Subject, Summary, SummaryKind, dictionary,
+    dictionary_table, dictionary_text, metrics,
+};
 pub use overlay::{MarkKind, OverlayMark, encode_png, overlay, overlay_with_border};
 pub use page::{expected_errors, page};
 pub use paper::PaperResults;

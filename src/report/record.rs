@@ -3,7 +3,7 @@
 use super::{Cell, VerdictRecord};
 use crate::detect::{Detector, Modality, Polarity};
 use crate::geometry::Polygon;
-use crate::mosaic::LengthUnit;
+use crate::mosaic::{LengthUnit, RetinalPlace};
 use crate::stats::{ClarkEvans, Deviation, Moments, Trend, VoronoiSummary};
 use serde::{Deserialize, Serialize};
 
@@ -16,6 +16,12 @@ pub struct MosaicRecord {
     pub unit: LengthUnit,
     /// Micrometres per unit, if known.
     pub um_per_unit: Option<f64>,
+    /// Micrometres per degree of visual angle, if a scale is known.
+    pub um_per_degree: Option<f64>,
+    /// Where on the retina it lies, if that is known.
+    pub place: Option<RetinalPlace>,
+    /// What a manifest says of it, in the order of the manifest's columns; empty without.
+    pub labels: Vec<String>,
     /// Left, upper, right and lower edge of the window.
     pub window: [f64; 4],
     /// Area of the window, in squared units.
@@ -74,8 +80,15 @@ impl MosaicRecord {
         Some(&closest.sampler)
     }
 
-    fn in_um(&self, length: Option<f64>) -> Option<f64> {
-        length.zip(self.um_per_unit).map(|(l, um)| l * um)
+    /// Cones per mm² that are expected at its place on the retina, if that is known; see
+    /// [`RetinalPlace::expected_cones_per_mm2`].
+    pub fn expected_cones_per_mm2(&self) -> Option<f64> {
+        self.place.and_then(|place| place.expected_cones_per_mm2())
+    }
+
+    /// Hexagonal spacing of that density, in µm.
+    pub fn expected_spacing_um(&self) -> Option<f64> {
+        self.expected_cones_per_mm2().map(|density| 1e3 * (2. / (3f64.sqrt() * density)).sqrt())
     }
 }
 
@@ -140,8 +153,6 @@ pub struct ImageRecord {
     pub width_px: usize,
     /// Height in px.
     pub height_px: usize,
-    /// Micrometres per degree, if a scale is known.
-    pub um_per_degree: Option<f64>,
     /// The cones.
     pub detection: DetectionRecord,
     /// Their statistics.
@@ -163,158 +174,14 @@ pub struct CoordinatesRecord {
     pub warnings: Vec<String>,
 }
 
-type Column<T> = (&'static str, fn(&T) -> Cell);
-
-const IMAGE_COLUMNS: &[Column<ImageRecord>] = &[
-    ("file", |r| r.file.as_str().into()),
-    ("width_px", |r| r.width_px.into()),
-    ("height_px", |r| r.height_px.into()),
-    ("um_per_px", |r| r.mosaic.um_per_unit.into()),
-    ("modality", |r| r.detection.modality.name().into()),
-    ("n", |r| r.mosaic.n.into()),
-    ("density_per_px2", |r| r.mosaic.density.into()),
-    ("density_per_mm2", |r| r.mosaic.density_per_mm2().into()),
-    ("spacing_ring_px", |r| r.detection.ring_spacing_px.into()),
-    ("spacing_density_px", |r| r.mosaic.spacing.into()),
-    ("spacing_density_um", |r| r.mosaic.in_um(r.mosaic.spacing).into()),
-    ("nn_mean_px", |r| r.mosaic.nearest.mean.into()),
-    ("nn_sd_px", |r| r.mosaic.nearest.sd.into()),
-    ("nn_mean_um", |r| r.mosaic.in_um(r.mosaic.nearest.mean).into()),
-    ("nn_sd_um", |r| r.mosaic.in_um(r.mosaic.nearest.sd).into()),
-];
-
-const IMAGE_DETAILS: &[Column<ImageRecord>] = &[
-    ("name", |r| r.name.as_str().into()),
-    ("polarity", |r| r.detection.polarity.name().into()),
-    ("detector", |r| r.detection.detector.name().into()),
-    ("expected_false_alarms", |r| r.detection.expected_false_alarms.into()),
-    ("expected_misses", |r| r.detection.expected_misses.into()),
-    ("expected_error_rate", |r| r.detection.expected_error_rate().into()),
-    ("spacing_confidence", |r| r.detection.spacing_confidence.into()),
-    ("spacing_min_px", |r| r.detection.spacing_range_px[0].into()),
-    ("spacing_max_px", |r| r.detection.spacing_range_px[1].into()),
-    ("window_area_px2", |r| r.mosaic.window_area.into()),
-    ("density_bound_per_px2", |r| r.mosaic.voronoi.density.into()),
-    ("nn_bound_mean_px", |r| r.mosaic.nearest_bound.mean.into()),
-    ("icd_bound_mean_px", |r| r.mosaic.voronoi.inter_cell.mean.into()),
-    ("furthest_bound_mean_px", |r| r.mosaic.voronoi.furthest.mean.into()),
-    ("icd_all_mean_px", |r| r.mosaic.voronoi.inter_cell_all.mean.into()),
-    ("furthest_all_mean_px", |r| r.mosaic.voronoi.furthest_all.mean.into()),
-    ("window_area_mm2", |r| r.mosaic.window_area_mm2().into()),
-];
-
-const COORDINATE_COLUMNS: &[Column<CoordinatesRecord>] = &[
-    ("file", |r| r.file.as_str().into()),
-    ("n", |r| r.mosaic.n.into()),
-    ("nn_mean", |r| r.mosaic.nearest.mean.into()),
-    ("nn_sd", |r| r.mosaic.nearest.sd.into()),
-    ("ri", |r| r.mosaic.nearest.ri.into()),
-    ("ri_interior", |r| r.mosaic.nearest_interior.ri.into()),
-    ("density", |r| r.mosaic.density.into()),
-    ("unit", |r| r.mosaic.unit.symbol().into()),
-    ("um_per_unit", |r| r.mosaic.um_per_unit.into()),
-    ("density_per_mm2", |r| r.mosaic.density_per_mm2().into()),
-    ("spacing", |r| r.mosaic.spacing.into()),
-    ("nn_mean_um", |r| r.mosaic.in_um(r.mosaic.nearest.mean).into()),
-    ("nn_sd_um", |r| r.mosaic.in_um(r.mosaic.nearest.sd).into()),
-    ("density_bound", |r| r.mosaic.voronoi.density.into()),
-    ("nn_bound_mean", |r| r.mosaic.nearest_bound.mean.into()),
-    ("icd_bound_mean", |r| r.mosaic.voronoi.inter_cell.mean.into()),
-    ("furthest_bound_mean", |r| r.mosaic.voronoi.furthest.mean.into()),
-    ("icd_all_mean", |r| r.mosaic.voronoi.inter_cell_all.mean.into()),
-    ("furthest_all_mean", |r| r.mosaic.voronoi.furthest_all.mean.into()),
-    ("outside_window", |r| r.outside.into()),
-    ("window_area", |r| r.mosaic.window_area.into()),
-    ("window_area_mm2", |r| r.mosaic.window_area_mm2().into()),
-];
-
-const REGULARITY_COLUMNS: &[Column<MosaicRecord>] =
-    &[("ri", |r| r.nearest.ri.into()), ("ri_interior", |r| r.nearest_interior.ri.into())];
-
-const ORDER_COLUMNS: &[Column<MosaicRecord>] = &[
-    ("sd_kind", |r| r.deviation.name().into()),
-    ("n_interior", |r| r.nearest_interior.n.into()),
-    ("n_bound", |r| r.voronoi.bound.into()),
-    ("six_sided_percent", |r| r.voronoi.six_sided_percent.into()),
-    ("voronoi_area_cv", |r| r.voronoi.area_cv.into()),
-    ("voronoi_area_ri", |r| r.voronoi.area.ri.into()),
-    ("voronoi_sides_ri", |r| r.voronoi.sides.ri.into()),
-    ("icd_bound_ri", |r| r.voronoi.inter_cell.ri.into()),
-    ("furthest_bound_ri", |r| r.voronoi.furthest.ri.into()),
-    ("psi6_mean", |r| r.voronoi.psi6_mean.into()),
-    ("psi6_global", |r| r.voronoi.psi6_global.into()),
-    ("clark_evans_naive", |r| r.clark_evans.naive.into()),
-    ("clark_evans_donnelly", |r| r.clark_evans.donnelly.into()),
-    ("clark_evans_cdf", |r| r.clark_evans.cdf.into()),
-    ("density_bound_per_mm2", |r| {
-        r.voronoi.density.zip(r.um_per_unit).map(|(d, um)| d * 1e6 / (um * um)).into()
-    }),
-    ("nn_bound_mean_um", |r| r.in_um(r.nearest_bound.mean).into()),
-    ("icd_bound_mean_um", |r| r.in_um(r.voronoi.inter_cell.mean).into()),
-    ("furthest_bound_mean_um", |r| r.in_um(r.voronoi.furthest.mean).into()),
-    ("trend_p", |r| r.trend.p_value.into()),
-    ("density_variation", |r| r.trend.variation.into()),
-    ("density_variation_low", |r| r.trend.variation_interval.map(|i| i.0).into()),
-    ("density_variation_high", |r| r.trend.variation_interval.map(|i| i.1).into()),
-    ("density_ratio", |r| r.trend.density_ratio.into()),
-];
-
-fn sampler_columns(samplers: &[String]) -> impl Iterator<Item = String> {
-    samplers.iter().map(|s| format!("l_infinity_{}", s.replace('-', "_")))
-}
-
+/// Columns of distances to samplers, in the order of their names.
 fn sampler_cells<'a>(record: &'a MosaicRecord, samplers: &'a [String]) -> impl Iterator<Item = Cell> + 'a {
     samplers
         .iter()
         .map(|name| record.l_infinity.iter().find(|d| d.sampler == *name).map(|d| d.l_infinity).into())
 }
 
-fn names<T>(columns: &[Column<T>]) -> impl Iterator<Item = String> {
-    columns.iter().map(|(name, _)| (*name).to_owned())
-}
-
-fn cells<'a, T>(columns: &'static [Column<T>], record: &'a T) -> impl Iterator<Item = Cell> + 'a {
-    columns.iter().map(move |(_, value)| value(record))
-}
-
-impl ImageRecord {
-    /// Columns of `summary.csv` for runs that compare with these samplers.
-    pub fn header(samplers: &[String]) -> Vec<String> {
-        names(IMAGE_COLUMNS)
-            .chain(names(REGULARITY_COLUMNS))
-            .chain(sampler_columns(samplers))
-            .chain(["closest_sampler", "warnings"].map(str::to_owned))
-            .chain(names(IMAGE_DETAILS))
-            .chain(names(ORDER_COLUMNS))
-            .collect()
-    }
-
-    /// The row under [`Self::header`].
-    pub fn row(&self, samplers: &[String]) -> Vec<Cell> {
-        cells(IMAGE_COLUMNS, self)
-            .chain(cells(REGULARITY_COLUMNS, &self.mosaic))
-            .chain(sampler_cells(&self.mosaic, samplers))
-            .chain([self.mosaic.closest_sampler().into(), self.warnings.join("; ").as_str().into()])
-            .chain(cells(IMAGE_DETAILS, self))
-            .chain(cells(ORDER_COLUMNS, &self.mosaic))
-            .collect()
-    }
-}
-
 impl CoordinatesRecord {
-    /// Columns of the `summary.csv` of `measure`.
-    pub fn header() -> Vec<String> {
-        names(COORDINATE_COLUMNS).chain(names(ORDER_COLUMNS)).chain(["warnings".to_owned()]).collect()
-    }
-
-    /// The row under [`Self::header`].
-    pub fn row(&self) -> Vec<Cell> {
-        cells(COORDINATE_COLUMNS, self)
-            .chain(cells(ORDER_COLUMNS, &self.mosaic))
-            .chain([self.warnings.join("; ").as_str().into()])
-            .collect()
-    }
-
     /// Columns of `regularity.csv`, in the form of Table 1 of Lanaro et al. (population deviation), and with the sample's.
     pub fn regularity_header() -> Vec<String> {
         ["file", "unit", "nn_mean", "nn_sd_population", "ri_population", "nn_sd_sample", "ri_sample", "n"]

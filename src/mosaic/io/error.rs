@@ -245,6 +245,32 @@ pub enum ReadFault {
         /// The row, shortened.
         line: String,
     },
+    /// The same identifier with two rows of a manifest.
+    #[error("expected one row for {identifier}, found another one on line {first_line}: keep the right one")]
+    TwoRows {
+        /// The identifier, shortened.
+        identifier: String,
+        /// The line of the first row.
+        first_line: usize,
+    },
+    /// A distance from the fovea that is none.
+    #[error(
+        "expected {column} to be a distance, 0 or more, found {value}: give its size, and the direction as meridian"
+    )]
+    Eccentricity {
+        /// The column.
+        column: &'static str,
+        /// What it says.
+        value: f64,
+    },
+    /// A direction from the fovea that is none.
+    #[error(
+        "expected the meridian nasal, temporal, superior or inferior (of the retina), found {found}: name one, or leave it empty"
+    )]
+    Meridian {
+        /// What it says, shortened.
+        found: String,
+    },
     /// A row of a scale table without identifier.
     #[error(
         "expected an identifier in the first column, found none in {line}: give the start of the file name"

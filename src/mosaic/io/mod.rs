@@ -1,4 +1,4 @@
-//! Reading and writing coordinate files in every dialect a lab has, and tables of scales and groups.
+//! Reading and writing coordinate files in every dialect a lab has, and tables of scales and groups, manifests.
 //!
 //! Whatever a file counts from, [`read_coordinates`] gives pixels from 0 at the centre of the top-left pixel.
 
@@ -8,6 +8,7 @@ mod error;
 mod group_table;
 mod header;
 mod imagej;
+mod manifest;
 mod origin;
 mod outline;
 mod read;
@@ -18,6 +19,7 @@ mod write;
 
 pub use error::{Place, ReadError, ReadFault, WriteError};
 pub use group_table::GroupTable;
+pub use manifest::{AmbiguousRow, Manifest, ManifestRow};
 pub use origin::Origin;
 pub use outline::{OutlineFile, read_outline};
 pub use read::{CoordinateFile, Dialect, ReadOptions, Series, read_coordinates, read_from};

@@ -1,0 +1,77 @@
+use super::Done;
+use super::common::Common;
+use anyhow::{Result, bail};
+use clap::Args;
+use conemosaic::batch::{GroupBy, Labels};
+use conemosaic::mosaic::io::Manifest;
+use conemosaic::report::{MetricSelection, dictionary, dictionary_table, dictionary_text, write_csv};
+use std::path::PathBuf;
+
+/// What every column of summary.csv means: definition, unit, edge rule, source
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  conemosaic metrics                 read them
+  conemosaic metrics --csv           the same for a program
+  conemosaic measure marks --out measured --metrics nearest,voronoi")]
+pub struct Metrics {
+    /// List them (the default)
+    #[arg(long)]
+    list: bool,
+    /// As CSV, a row a column
+    #[arg(long, conflicts_with_all = ["list", "markdown"])]
+    csv: bool,
+    /// As a page in Markdown
+    #[arg(long, conflicts_with = "list")]
+    markdown: bool,
+}
+
+impl Metrics {
+    pub fn execute(self, common: &Common) -> Result<Done> {
+        let text = if self.csv {
+            let (header, rows) = dictionary_table();
+            let mut bytes = Vec::new();
+            write_csv(&mut bytes, &header.iter().map(String::as_str).collect::<Vec<_>>(), &rows)?;
+            String::from_utf8_lossy(&bytes).into_owned()
+        } else if self.markdown {
+            dictionary()
+        } else {
+            dictionary_text()
+        };
+        common.say(text.trim_end());
+        Ok(Done::Completely)
+    }
+}
+
+/// Which columns a summary has, and what is known of its rows.
+#[derive(Args)]
+#[command(next_help_heading = "Summary")]
+pub struct SummaryArgs {
+    /// Columns of summary.csv: groups (about, density, nearest, samplers, detection, voronoi, regularity, evenness, expected)
+    /// or names, separated by commas; they are shown on the screen, too. `conemosaic metrics` lists them [default: all]
+    #[arg(long, value_name = "A,B,…")]
+    metrics: Option<MetricSelection>,
+    /// What is known of the files: CSV whose header names an identifier (a part of the file name; the longest one counts) and
+    /// further columns, which are added to summary.csv. eccentricity_mm (or eccentricity_deg) and meridian (nasal, temporal,
+    /// superior, inferior, of the retina) bring the density of Curcio et al. (1990) at that place beside the measured one
+    #[arg(long, value_name = "FILE")]
+    manifest: Option<PathBuf>,
+    /// Also write groups.csv, mean, SD and number of every column by group: column:NAME[,NAME] of the manifest, prefix:N (the
+    /// first N parts of the name between underscores) or a regular expression on the name
+    #[arg(long, value_name = "RULE")]
+    group_by: Option<GroupBy>,
+}
+
+impl SummaryArgs {
+    pub fn metrics(&self) -> MetricSelection {
+        self.metrics.clone().unwrap_or_default()
+    }
+
+    pub fn labels(&self) -> Result<Labels> {
+        let manifest = self.manifest.as_deref().map(Manifest::read).transpose()?;
+        if manifest.is_none() && matches!(self.group_by, Some(GroupBy::Columns(_))) {
+            bail!("--group-by column:NAME needs --manifest FILE");
+        }
+        Ok(Labels { manifest, group_by: self.group_by.clone() })
+    }
+}

@@ -1,0 +1,54 @@
+//! The columns of `summary.csv`: what each is, in which unit, by which edge rule, after whom. Headers, rows and the data
+//! dictionary all come from the lists here.
+
+mod about;
+mod density;
+mod dictionary;
+mod metric;
+mod neighbours;
+mod selection;
+mod summary;
+mod unit;
+
+pub use dictionary::{dictionary, dictionary_table, dictionary_text};
+pub use metric::{EdgeRule, Metric, MetricGroup, Quantity, Subject, SummaryKind};
+pub use selection::MetricSelection;
+pub use summary::Summary;
+
+/// All metrics, in the order of the columns.
+pub fn metrics() -> impl Iterator<Item = &'static Metric> {
+    [
+        about::FILE,
+        density::DENSITY,
+        neighbours::NEAREST,
+        neighbours::SAMPLERS,
+        about::DETECTION,
+        neighbours::VORONOI,
+        neighbours::REGULARITY,
+        neighbours::EVENNESS,
+        density::EXPECTED,
+    ]
+    .into_iter()
+    .flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashSet;
+
+    #[test]
+    fn every_metric_has_its_own_name_a_definition_and_stands_with_its_group() {
+        let mut names = HashSet::new();
+        let mut groups = Vec::new();
+        for metric in metrics() {
+            assert!(names.insert(metric.name), "{} twice", metric.name);
+            assert!(metric.definition.ends_with('.'), "{}: {}", metric.name, metric.definition);
+            assert!(!MetricGroup::ALL.iter().any(|g| g.name() == metric.name), "{}", metric.name);
+            if groups.last() != Some(&metric.group) {
+                groups.push(metric.group);
+            }
+        }
+        assert_eq!(groups, MetricGroup::ALL);
+    }
+}
