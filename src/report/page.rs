@@ -9,7 +9,7 @@ p.lead { margin-top: 0; opacity: .75; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .85rem; }
 th, td { padding: .3rem .5rem; border-bottom: 1px solid var(--line); text-align: right; white-space: nowrap; }
-th { vertical-align: bottom; white-space: normal; } th:first-child, td:first-child, .word { text-align: left; }
+th { vertical-align: bottom; white-space: normal; } th.sampler span { writing-mode: vertical-rl; transform: rotate(180deg); } th:first-child, td:first-child, .word { text-align: left; }
 td:first-child { max-width: 22rem; overflow: hidden; text-overflow: ellipsis; }
 tr:hover td { background: var(--soft); }
 .warning { color: var(--warn); }
@@ -70,8 +70,8 @@ fn overview(records: &[ImageRecord], samplers: &[String], scaled: bool) -> Marku
                 th { @if scaled { "cones/mm²" } @else { "cones/px²" } }
                 th { "spacing" br; "px" } th { "NN" br; @if scaled { "µm" } @else { "px" } }
                 th { "RI" } th { "RI" br; "interior" }
-                @for sampler in samplers { th { "ℓ∞" br; (sampler) } }
-                th.word { "closest to" } th { "expected" br; "errors" }
+                th { "expected" br; "errors" } th.word { "closest to" }
+                @for sampler in samplers { th.sampler { span { "ℓ∞ " (sampler) } } }
             } }
             tbody { @for k in by_need(records) {
                 @let r = &records[k];
@@ -89,11 +89,11 @@ fn overview(records: &[ImageRecord], samplers: &[String], scaled: bool) -> Marku
                     td { (number(m.nearest.mean.zip(um).map(|(v, um)| v * um), 3)) " ± " (number(m.nearest.sd.zip(um).map(|(v, um)| v * um), 2)) }
                     td { (number(m.nearest.ri, 3)) }
                     td { (number(m.nearest_interior.ri, 3)) }
+                    td { (expected_errors(&r.detection)) }
+                    td.word { (Cell::from(m.closest_sampler()).readable()) }
                     @for sampler in samplers {
                         td { (distance(m, sampler)) }
                     }
-                    td.word { (Cell::from(m.closest_sampler()).readable()) }
-                    td { (expected_errors(&r.detection)) }
                 }
             } }
         }

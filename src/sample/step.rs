@@ -29,6 +29,11 @@ impl Sampler for Step {
         "step"
     }
 
+    /// A test of theory rather than a model of cones: its curve is next to dart throwing's.
+    fn by_default(&self) -> bool {
+        false
+    }
+
     fn about(&self) -> &'static str {
         "step blue noise: power 0 below a frequency, 1 above, by optimisation of the PCF (Heck et al. 2013); exactly n"
     }
