@@ -4,6 +4,7 @@
 //! it, as those of a [`Mosaic`](crate::mosaic::Mosaic) are.
 
 mod clark_evans;
+mod density_recovery;
 mod edge_weight;
 mod error;
 mod functions;
@@ -23,6 +24,7 @@ mod voronoi;
 
 pub use crate::geometry::{NearestNeighbours, nearest_neighbours};
 pub use clark_evans::ClarkEvans;
+pub use density_recovery::{BinWidth, DensityRecovery, DensityRecoveryOptions, density_recovery};
 pub use error::StatsError;
 pub use functions::{FirstDistance, FunctionOptions, Functions, functions};
 pub use histogram::Histogram;
