@@ -19,7 +19,10 @@ pub use flatten::flatten;
 pub use learned::{UserModel, WeightsError, weights};
 pub use maxima::local_maxima;
 pub use options::{DetectOptions, Detector};
-pub use spacing::{BORDER, RingEstimate, RingProfile, SPACING_RANGE, SpacingMap, refined};
+pub use spacing::{
+    BORDER, FourierEstimate, FourierMap, FourierMapOptions, FourierSpacing, RingEstimate, RingProfile,
+    SPACING_RANGE, Sector, SpacingMap, fourier_map, fourier_spacing, refined,
+};
 pub use suppress::suppress;
 pub use types::{Detection, Detections, Modality, Polarity};
 
@@ -66,6 +69,12 @@ pub enum DetectError {
     /// A spacing outside the range.
     #[error("a spacing of {0} px is outside {low}–{high} px", low = SPACING_RANGE.0, high = SPACING_RANGE.1)]
     Spacing(f64),
+    /// A side of tiles outside its range.
+    #[error("tiles of {0} spacings cannot be mapped: give a side of 6 to 60 spacings")]
+    TileSide(f64),
+    /// The spectrum shows no ring.
+    #[error("the spectrum of the image has no ring between {low} and {high} px: it shows no regular mosaic", low = SPACING_RANGE.0, high = SPACING_RANGE.1)]
+    NoRing,
     /// No network has been trained for this modality.
     #[error("there is no learned detector for {0} images: use classical or auto")]
     NotLearned(Modality),

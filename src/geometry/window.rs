@@ -218,11 +218,18 @@ impl Window {
 
     /// Distance of two points of the window: the shortest way round on a torus.
     pub fn distance(&self, a: Point, b: Point) -> f64 {
+        let [dx, dy] = self.displacement(a, b);
+        dx.hypot(dy)
+    }
+
+    /// The way from `a` to `b` along x and y: the shortest way round on a torus.
+    pub fn displacement(&self, a: Point, b: Point) -> [f64; 2] {
+        let (dx, dy) = (b.x - a.x, b.y - a.y);
         match self {
-            Self::Rectangle(_) | Self::Polygon(_) => a.distance(b),
+            Self::Rectangle(_) | Self::Polygon(_) => [dx, dy],
             Self::Torus(r) => {
                 let wrap = |d: f64, side: f64| d - side * (d / side).round();
-                wrap(a.x - b.x, r.width()).hypot(wrap(a.y - b.y, r.height()))
+                [wrap(dx, r.width()), wrap(dy, r.height())]
             }
         }
     }
@@ -262,5 +269,7 @@ mod tests {
         let (a, b) = (Point::new(0.05, 0.5), Point::new(0.95, 0.5));
         assert!((Window::unit_torus().distance(a, b) - 0.1).abs() < 1e-12);
         assert!((Window::unit_square().distance(a, b) - 0.9).abs() < 1e-12);
+        let [dx, dy] = Window::unit_torus().displacement(a, b);
+        assert!((dx + 0.1).abs() < 1e-12 && dy == 0.);
     }
 }

@@ -1,7 +1,8 @@
 use super::{
-    ClarkEvans, Deviation, Histogram, Inhomogeneous, Moments, NearestNeighbours, Pcf, PcfOptions, StatsError,
-    Trend, Voronoi, VoronoiSummary, clark_evans::clark_evans, inhomogeneous, interior, moments,
-    nearest_neighbours, pcf, trend, voronoi,
+    ClarkEvans, DensityRecovery, DensityRecoveryOptions, Deviation, Histogram, Inhomogeneous, ModalSpacing,
+    Moments, NearestNeighbours, Orientation, Pcf, PcfOptions, StatsError, Trend, Voronoi, VoronoiSummary,
+    clark_evans::clark_evans, density_recovery, inhomogeneous, interior, modal_spacing, moments,
+    nearest_neighbours, orientation, pcf, trend, voronoi,
 };
 use crate::mosaic::Mosaic;
 use serde::{Deserialize, Serialize};
@@ -36,6 +37,12 @@ pub struct Measures {
     pub cells: Voronoi,
     /// Voronoi cells strictly inside the window.
     pub voronoi: VoronoiSummary,
+    /// Directions of nearest neighbours and anisotropy.
+    pub orientation: Orientation,
+    /// Density recovery profile with the default options, or why there is none.
+    pub density_recovery: Result<DensityRecovery, StatsError>,
+    /// Ring of the power spectrum: none where it has none, or why there is no spectrum.
+    pub modal: Result<Option<ModalSpacing>, StatsError>,
     /// Whether density varies across the window.
     pub trend: Trend,
     /// Where the trend is significant: second-order functions that allow for it.
@@ -65,6 +72,9 @@ pub fn measure(mosaic: &Mosaic, options: &MeasureOptions) -> Measures {
         nearest_bound,
         clark_evans: clark_evans(points, window, &neighbours),
         voronoi: cells.summary(),
+        orientation: orientation(points, window, &neighbours, &cells),
+        density_recovery: density_recovery(points, window, &DensityRecoveryOptions::default()),
+        modal: modal_spacing(points, window),
         cells,
         inhomogeneous: trend
             .significant

@@ -29,6 +29,8 @@ pub struct Cell {
     pub furthest: Option<f64>,
     /// Bond-orientational order ψ6: mean of exp(6iθ) over the directions θ to them, real and imaginary part.
     pub psi6: Option<[f64; 2]>,
+    /// Second moments of the ways to them, means of dx², dx·dy and dy², in squared units of the coordinates.
+    pub second_moments: Option<[f64; 3]>,
 }
 
 /// Voronoi cells of a pattern.
@@ -150,6 +152,7 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
         inter_cell: None,
         furthest: None,
         psi6: None,
+        second_moments: None,
     };
     let mut cells = vec![NONE; n];
     let mut farthest = 0f64;
@@ -248,17 +251,20 @@ fn describe_neighbours(cell: &mut Cell, at: Point, neighbours: &[Point]) {
         return;
     }
     let n = neighbours.len() as f64;
-    let (mut sum, mut furthest, mut psi) = (0., 0f64, [0.; 2]);
+    let (mut sum, mut furthest, mut psi, mut second) = (0., 0f64, [0.; 2], [0.; 3]);
     for p in neighbours {
         let d = at.distance(*p);
         sum += d;
         furthest = furthest.max(d);
-        let (sin, cos) = (6. * (p.y - at.y).atan2(p.x - at.x)).sin_cos();
+        let (dx, dy) = (p.x - at.x, p.y - at.y);
+        let (sin, cos) = (6. * dy.atan2(dx)).sin_cos();
         psi = [psi[0] + cos, psi[1] + sin];
+        second = [second[0] + dx * dx, second[1] + dx * dy, second[2] + dy * dy];
     }
     cell.inter_cell = Some(sum / n);
     cell.furthest = Some(furthest);
     cell.psi6 = Some(psi.map(|v| v / n));
+    cell.second_moments = Some(second.map(|v| v / n));
 }
 
 fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {

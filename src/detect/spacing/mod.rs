@@ -1,12 +1,16 @@
 //! How far apart the cones are: first from Yellott's ring, then from the density of what was found; from place to place where
 //! it varies.
 
+mod fourier;
 mod kernels;
 mod map;
 mod refine;
 mod ring;
 mod rings;
 
+pub use fourier::{
+    FourierEstimate, FourierMap, FourierMapOptions, FourierSpacing, Sector, fourier_map, fourier_spacing,
+};
 pub use map::SpacingMap;
 pub use refine::{BORDER, refined};
 pub(super) use refine::{contradiction, refined_map};

@@ -1,8 +1,10 @@
+mod modal;
 mod waves;
 
 use super::StatsError;
 use super::error::all_inside;
 use crate::geometry::{Point, Window};
+pub use modal::{ModalSpacing, modal_spacing};
 use serde::{Deserialize, Serialize};
 
 /// More waves than this are refused: they fill gigabytes.

@@ -1,0 +1,192 @@
+use super::{FourierSpacing, Polar, RingFit, Sector, estimate, profiles, starts};
+use crate::detect::spacing::SpacingMap;
+use crate::detect::{DetectError, MIN_SIDE, check};
+use crate::geometry::Point;
+use crate::image::{EmptyPixels, Plane};
+use std::f64::consts::TAU;
+
+/// Tiles per side of a tile: they overlap by three quarters.
+const PER_SIDE: usize = 4;
+/// The ring of a tile may differ from that of the image by this factor.
+const LOCAL: f64 = 2.;
+
+/// How the spacing is mapped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FourierMapOptions {
+    /// Side of a tile, in spacings of the whole image: 6–60, default 12, some 160 cones, of which the Hann window leaves the weight of a
+    /// seventh.
+    pub side: f64,
+    /// Which waves are looked at.
+    pub sector: Sector,
+}
+
+impl Default for FourierMapOptions {
+    fn default() -> Self {
+        Self { side: 12., sector: Sector::All }
+    }
+}
+
+impl FourierMapOptions {
+    /// # Errors
+    /// If the side is out of its range.
+    pub fn validate(&self) -> Result<(), DetectError> {
+        if (6. ..=60.).contains(&self.side) { Ok(()) } else { Err(DetectError::TileSide(self.side)) }
+    }
+}
+
+/// Modal spacing from place to place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FourierMap {
+    /// Side of the tiles, px.
+    pub side: usize,
+    /// Middles of the tiles, px: columns, rising.
+    pub x: Vec<f64>,
+    /// And rows.
+    pub y: Vec<f64>,
+    /// What each tile shows by itself, row by row; `None` where it has no ring or too little was imaged.
+    pub tiles: Vec<Option<FourierSpacing>>,
+    /// Hexagonal spacing, px: at the middle of a tile the mean logarithm of all tiles, weighted by the square of their confidence and by a
+    /// Hann window as wide as a tile is in both directions.
+    pub spacing: SpacingMap,
+    /// Their mean confidence, with the weights of that window alone; 0 for tiles without a ring. Row by row.
+    pub confidence: Vec<f64>,
+}
+
+/// Modal spacing all over an image, from tiles of a side of twelve spacings ([`FourierMapOptions::side`]; at least 24 px, at most the shorter
+/// side of the image), overlapping by three quarters. Within a factor of two of the modal spacing of the whole image. Cones much wider
+/// apart than on average fill no tile with enough of them: beyond that factor the map is not to be trusted.
+///
+/// # Errors
+/// If an option is out of its range, the image is too small, its pixels are all the same or one is not a number, or the whole image
+/// has no ring.
+pub fn fourier_map(image: &Plane, options: &FourierMapOptions) -> Result<FourierMap, DetectError> {
+    options.validate()?;
+    check(image)?;
+    let (height, width) = image.dim();
+    let empty = EmptyPixels::of(image);
+    let filled = empty.as_ref().map(|e| e.filled(image));
+    let image = filled.as_ref().unwrap_or(image);
+    let whole = estimate(image, empty.as_ref());
+    let whole = match options.sector {
+        Sector::All => whole.all,
+        Sector::Row => whole.row,
+        Sector::Cell => whole.cell,
+    };
+    let typical = whole.ok_or(DetectError::NoRing)?.spacing;
+    let side = ((options.side * typical).round() as usize).max(MIN_SIDE).min(height).min(width);
+    let (columns, rows) = (starts(width, side, PER_SIDE), starts(height, side, PER_SIDE));
+    let polar = Polar::new(side);
+    let fit = RingFit::new(side, polar.size);
+    let near = typical / LOCAL..=typical * LOCAL;
+    let tiles: Vec<Option<FourierSpacing>> = profiles(image, &polar, empty.as_ref(), &columns, &rows)
+        .iter()
+        .map(|p| p.as_ref().and_then(|p| fit.ring(&p[options.sector as usize], near.clone())))
+        .collect();
+
+    let middles = |starts: &[usize]| -> Vec<f64> {
+        starts.iter().map(|s| *s as f64 + 0.5 * side as f64 - 0.5).collect()
+    };
+    let (x, y) = (middles(&columns), middles(&rows));
+    let hann =
+        |d: f64| if d.abs() < side as f64 { 0.5 + 0.5 * (TAU / 2. * d / side as f64).cos() } else { 0. };
+    let near_ones = |nodes: &[f64], at: f64| -> Vec<(usize, f64)> {
+        let weights = nodes.iter().map(|v| hann(v - at)).enumerate();
+        weights.filter(|(_, w)| *w > 0.).collect()
+    };
+    let mut spacing = Vec::with_capacity(tiles.len());
+    let mut confidence = Vec::with_capacity(tiles.len());
+    for &v in &y {
+        let down = near_ones(&y, v);
+        for &u in &x {
+            let (mut logs, mut trusted, mut sure, mut total) = (0., 0., 0., 0.);
+            for (i, across) in near_ones(&x, u) {
+                for &(j, weight) in &down {
+                    let weight = weight * across;
+                    total += weight;
+                    if let Some(ring) = &tiles[j * x.len() + i] {
+                        let squared = weight * ring.confidence * ring.confidence;
+                        logs += squared * ring.spacing.ln();
+                        trusted += squared;
+                        sure += weight * ring.confidence;
+                    }
+                }
+            }
+            spacing.push((trusted > 0.).then(|| (logs / trusted).exp()));
+            confidence.push(sure / total);
+        }
+    }
+    let spacing = SpacingMap::on_grid(x.clone(), y.clone(), &spacing, typical);
+    Ok(FourierMap { side, x, y, tiles, spacing, confidence })
+}
+
+impl FourierMap {
+    /// Confidence, 0–1, at the nearest middle of a tile.
+    pub fn confidence_at(&self, p: Point) -> f64 {
+        let nearest = |nodes: &[f64], v: f64| {
+            let after = nodes.partition_point(|n| *n < v).min(nodes.len().saturating_sub(1));
+            let before = after.saturating_sub(1);
+            let off = |k: usize| nodes.get(k).map_or(f64::INFINITY, |n| (n - v).abs());
+            if off(before) <= off(after) { before } else { after }
+        };
+        let (i, j) = (nearest(&self.x, p.x), nearest(&self.y, p.y));
+        self.confidence.get(j * self.x.len() + i).copied().unwrap_or(0.)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::picture;
+    use super::*;
+    use crate::render::MosaicOptions;
+
+    #[test]
+    fn a_gradient_of_spacing_is_followed() {
+        // density 4:1 from left to right: the spacing doubles
+        let mosaic = MosaicOptions { spacing: 8., gradient: 4., ..MosaicOptions::default() };
+        let map = fourier_map(&picture(&mosaic, 500, 300), &FourierMapOptions::default()).unwrap();
+        let at = |x: f64| map.spacing.at(Point::new(x, 150.));
+        println!("{} {:?}", map.side, [50., 150., 250., 350., 450.].map(at));
+        let (left, right) = (at(60.), at(440.));
+        // between the middles of the outermost tiles, 380 of 500 px apart, 2^.76 = 1.69
+        assert!((right / left / 1.69 - 1.).abs() < 0.15, "{left} {right}");
+        assert!(map.confidence_at(Point::new(250., 150.)) > 0.3);
+    }
+
+    #[test]
+    fn an_even_mosaic_has_an_even_map() {
+        let map = fourier_map(&picture(&MosaicOptions::default(), 300, 200), &FourierMapOptions::default());
+        let map = map.unwrap();
+        let (low, high) = map.spacing.range();
+        println!("{} {low} {high}", map.side);
+        assert!(high / low < 1.12, "{low} {high}");
+        assert_eq!(map.tiles.len(), map.x.len() * map.y.len());
+        assert_eq!(map.confidence.len(), map.tiles.len());
+        assert!(map.confidence.iter().all(|c| (0. ..=1.).contains(c)));
+    }
+
+    #[test]
+    fn where_nothing_was_imaged_there_is_no_tile() {
+        let image = picture(&MosaicOptions::default(), 150, 150).mapv(|v| v.max(0.01));
+        let mut framed = Plane::zeros((200, 420));
+        image.indexed_iter().for_each(|((y, x), v)| framed[[y + 20, x + 20]] = *v);
+        let map = fourier_map(&framed, &FourierMapOptions::default()).unwrap();
+        assert!(map.tiles[map.x.len() - 1].is_none() && map.tiles.iter().any(Option::is_some));
+        assert!(map.confidence_at(Point::new(410., 100.)) < map.confidence_at(Point::new(90., 90.)));
+        let bad = FourierMapOptions { side: f64::NAN, ..FourierMapOptions::default() };
+        assert!(matches!(fourier_map(&framed, &bad), Err(DetectError::TileSide(_))));
+        assert!(matches!(
+            fourier_map(&Plane::zeros((50, 50)), &FourierMapOptions::default()),
+            Err(DetectError::Constant { .. })
+        ));
+    }
+
+    #[test]
+    fn threads_make_no_difference() {
+        let image = picture(&MosaicOptions::default(), 180, 150);
+        let on = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| fourier_map(&image, &FourierMapOptions::default()).unwrap())
+        };
+        assert_eq!(on(1), on(3));
+    }
+}
