@@ -1,5 +1,5 @@
 use super::failures::write_failures;
-use super::measured::{functions_table, pcf_table, points_table, record_of, warnings_of};
+use super::measured::{functions_table, pcf_table, points_table, record_of, recovery_table, warnings_of};
 use super::outputs::OutputFolder;
 use super::region::{Region, Regions};
 use super::work::for_each;
@@ -83,6 +83,8 @@ pub fn measure_files(
             let found = functions(mosaic.points(), mosaic.window(), &measures.neighbours, distances)?;
             let (header, rows) = functions_table(&found);
             out.write_table(&format!("{}.functions.csv", input.name), &header, &rows)?;
+            let (header, rows) = recovery_table(&measures);
+            out.write_table(&format!("{}.density_recovery.csv", input.name), &header, &rows)?;
             let (header, rows) = points_table(&mosaic, &measures);
             out.write_table(&format!("{}.points.csv", input.name), &header, &rows)?;
         }

@@ -4,7 +4,7 @@ use crate::compare::{ReferenceCurve, l_infinity};
 use crate::detect::Detections;
 use crate::geometry::Window;
 use crate::mosaic::Mosaic;
-use crate::report::{Cell, MosaicRecord, SamplerDistance, counted};
+use crate::report::{Cell, MosaicRecord, RecoveryRecord, SamplerDistance, counted};
 use crate::sample::Sampler;
 use crate::stats::{Functions, Measures};
 
@@ -40,6 +40,9 @@ pub(super) fn record_of(
         nearest_bound: measures.nearest_bound,
         clark_evans: measures.clark_evans,
         voronoi: measures.voronoi,
+        density_recovery: measures.density_recovery.as_ref().ok().map(RecoveryRecord::from),
+        orientation: (&measures.orientation).into(),
+        modal: measures.modal.as_ref().ok().copied().flatten(),
         trend: measures.trend,
         l_infinity,
         verdicts: Vec::new(),
@@ -140,9 +143,12 @@ pub(super) fn points_table(mosaic: &Mosaic, measures: &Measures) -> (Vec<String>
         "icd",
         "furthest",
         "psi6",
+        "nn_direction_deg",
+        "hexagon_direction_deg",
     ]
     .map(str::to_owned)
     .to_vec();
+    let angle = |angles: &[Option<f64>], k: usize| angles.get(k).copied().flatten().into();
     let rows = mosaic
         .points()
         .iter()
@@ -163,10 +169,27 @@ pub(super) fn points_table(mosaic: &Mosaic, measures: &Measures) -> (Vec<String>
                 cell.inter_cell.into(),
                 cell.furthest.into(),
                 cell.psi6.map(|[re, im]| re.hypot(im)).into(),
+                angle(&measures.orientation.nearest.degrees, k),
+                angle(&measures.orientation.hexagons, k),
             ]
         })
         .collect();
     (header, rows)
+}
+
+/// Columns of `NAME.density_recovery.csv`: middle radius of every annulus in the unit of the coordinates, points per squared unit there,
+/// and that over the mean; no rows for fewer than two points.
+pub(super) fn recovery_table(measures: &Measures) -> (Vec<String>, Vec<Vec<Cell>>) {
+    let none = (Vec::new(), Vec::new(), Vec::new());
+    let (r, density, relative) = measures.density_recovery.as_ref().map_or(none, |profile| {
+        let relative = profile.density.iter().map(|d| d / profile.mean_density).collect();
+        (profile.r.clone(), profile.density.clone(), relative)
+    });
+    series_table([
+        ("r".to_owned(), r.as_slice()),
+        ("density".to_owned(), density.as_slice()),
+        ("relative_density".to_owned(), relative.as_slice()),
+    ])
 }
 
 /// Columns of `NAME.functions.csv`.

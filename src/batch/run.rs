@@ -9,7 +9,7 @@ use super::verdicts::{self, verdicts_on};
 use super::work::for_each;
 use super::{BatchError, Crop, Failure, ImageWindow, Input, Labels, Progress, ScaleSource};
 use crate::compare::{ReferenceCurve, References, VerdictOptions};
-use crate::detect::{DetectOptions, Detections, weights};
+use crate::detect::{DetectOptions, Detections, fourier_spacing, weights};
 use crate::geometry::Window;
 use crate::image::Plane;
 use crate::mosaic::{LengthUnit, Mosaic, Scale};
@@ -236,6 +236,8 @@ fn one_image(
             expected_false_alarms: found.expected_false_alarms(),
             expected_misses: found.expected_misses(),
         },
+        fourier: fourier_spacing(&image)
+            .map_err(|source| BatchError::Detect { file: input.path.clone(), source })?,
         warnings,
         mosaic: mosaic_record,
     };

@@ -148,7 +148,10 @@ Writes to measured/:
   NAME.functions.csv, NAME.points.csv
                  with --functions: G, F, J, K, L and g by distance, columns named as spatstat's corrections (lengths in the
                  unit of the coordinates); per point its nearest neighbour (row, from 1), border distance, Voronoi cell
-                 (dirichlet_area: within the window), sides, bound, inter-cell distance, |ψ6|
+                 (dirichlet_area: within the window), sides, bound, inter-cell distance, |ψ6|, directions of its
+                 nearest neighbour (0–180°) and of its hexagon (0–60°)
+  NAME.density_recovery.csv
+                 with --functions: density by distance from the average point (Rodieck 1991)
   NAME.spectrum.csv, NAME.spectrum.png   with --spectrum: mean power and anisotropy (dB; 0 without direction) by frequency in
                  √density (√n in the unit square; independent points have power 1), and the plane of wave vectors
   options.json   how it was measured

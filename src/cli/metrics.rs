@@ -47,8 +47,9 @@ impl Metrics {
 #[derive(Args)]
 #[command(next_help_heading = "Summary")]
 pub struct SummaryArgs {
-    /// Columns of summary.csv: groups (about, density, nearest, samplers, detection, voronoi, regularity, evenness, expected)
-    /// or names, separated by commas; they are shown on the screen, too. `conemosaic metrics` lists them [default: all]
+    /// Columns of summary.csv: groups (about, density, nearest, samplers, detection, voronoi, regularity, recovery,
+    /// orientation, fourier, evenness, expected) or names, separated by commas; they are shown on the screen, too.
+    /// `conemosaic metrics` lists them [default: all]
     #[arg(long, value_name = "A,B,…")]
     metrics: Option<MetricSelection>,
     /// What is known of the files: CSV whose header names an identifier (a part of the file name; the longest one counts) and

@@ -37,7 +37,10 @@ pub use metrics::{
 pub use overlay::{MarkKind, OverlayMark, encode_png, overlay, overlay_with_border};
 pub use page::{expected_errors, page};
 pub use paper::PaperResults;
-pub use record::{CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord, SamplerDistance, by_need};
+pub use record::{
+    CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord, OrientationRecord, RecoveryRecord,
+    SamplerDistance, by_need,
+};
 pub use spectrum::{PowerScale, spectrum_png};
 pub use table::{counted, significant, table};
 pub use validation::{

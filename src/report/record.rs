@@ -1,10 +1,13 @@
 //! What is known of one mosaic, in the form in which it is written to files.
 
 use super::{Cell, VerdictRecord};
-use crate::detect::{Detector, Modality, Polarity};
+use crate::detect::{Detector, FourierEstimate, Modality, Polarity};
 use crate::geometry::Polygon;
 use crate::mosaic::{LengthUnit, RetinalPlace};
-use crate::stats::{ClarkEvans, Deviation, Moments, Trend, VoronoiSummary};
+use crate::stats::{
+    ClarkEvans, DensityRecovery, Deviation, ModalSpacing, Moments, NeighbourEllipse, Orientation, Trend,
+    VoronoiSummary,
+};
 use serde::{Deserialize, Serialize};
 
 /// Points measured in their window, and compared with samplers.
@@ -45,6 +48,12 @@ pub struct MosaicRecord {
     pub clark_evans: ClarkEvans,
     /// Voronoi cells strictly inside the window.
     pub voronoi: VoronoiSummary,
+    /// What the density recovery profile says; `None` for fewer than two points.
+    pub density_recovery: Option<RecoveryRecord>,
+    /// Directions of its neighbours.
+    pub orientation: OrientationRecord,
+    /// Ring of the power spectrum of its points; `None` where it has none.
+    pub modal: Option<ModalSpacing>,
     /// Whether density varies across the window.
     pub trend: Trend,
     /// Distance of pair correlation functions to each sampler, in the order of the samplers.
@@ -52,6 +61,60 @@ pub struct MosaicRecord {
     /// What simulations of each sampler say of it, if that was asked for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub verdicts: Vec<VerdictRecord>,
+}
+
+/// What a density recovery profile says, see [`DensityRecovery`]. Lengths in the unit of the mosaic.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RecoveryRecord {
+    /// Width of the annuli.
+    pub bin_width: f64,
+    /// Effective radius.
+    pub effective_radius: Option<f64>,
+    /// Packing factor.
+    pub packing: Option<f64>,
+    /// Reliability factor.
+    pub reliability: f64,
+}
+
+impl From<&DensityRecovery> for RecoveryRecord {
+    fn from(profile: &DensityRecovery) -> Self {
+        Self {
+            bin_width: profile.bin_width,
+            effective_radius: profile.effective_radius,
+            packing: profile.packing,
+            reliability: profile.reliability,
+        }
+    }
+}
+
+/// Directions of neighbours, see [`Orientation`]: angles in degrees, counter-clockwise from the x axis as the picture is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OrientationRecord {
+    /// Interior points whose nearest neighbour has a direction.
+    pub axes: usize,
+    /// Length of the mean of exp(2iθ) of these directions.
+    pub resultant: Option<f64>,
+    /// Their mean axis, 0–180°.
+    pub direction: Option<f64>,
+    /// Chance of such a resultant where all directions are alike.
+    pub p_value: Option<f64>,
+    /// Ellipse of the ways to the neighbours.
+    pub ellipse: Option<NeighbourEllipse>,
+    /// Orientation of the hexagons, 0–60°.
+    pub hexagon_direction: Option<f64>,
+}
+
+impl From<&Orientation> for OrientationRecord {
+    fn from(found: &Orientation) -> Self {
+        Self {
+            axes: found.nearest.n,
+            resultant: found.nearest.resultant,
+            direction: found.nearest.direction,
+            p_value: found.nearest.p_value,
+            ellipse: found.ellipse,
+            hexagon_direction: found.hexagon_direction,
+        }
+    }
 }
 
 /// l-infinity distance of a mosaic's pair correlation function to the mean one of a sampler.
@@ -155,6 +218,8 @@ pub struct ImageRecord {
     pub height_px: usize,
     /// The cones.
     pub detection: DetectionRecord,
+    /// Spacing by the spectrum of the image.
+    pub fourier: FourierEstimate,
     /// Their statistics.
     pub mosaic: MosaicRecord,
     /// What a reader of these numbers should know.

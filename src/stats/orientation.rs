@@ -93,7 +93,7 @@ fn phase([re, im]: [f64; 2], fold: f64, least: f64) -> Option<f64> {
     // y points down, angles of coordinates run clockwise
     let angle = (-im.atan2(re).to_degrees() / fold).rem_euclid(turn);
     // of a tiny negative angle the remainder may round to the whole turn
-    (re.hypot(im) > least).then(|| if angle < turn { angle } else { 0. })
+    (re.hypot(im) > least).then_some(if angle < turn { angle } else { 0. })
 }
 
 fn nearest_axes(points: &[Point], window: &Window, nearest: &NearestNeighbours) -> NearestAxes {
@@ -103,7 +103,7 @@ fn nearest_axes(points: &[Point], window: &Window, nearest: &NearestNeighbours) 
         let [dx, dy] = window.displacement(points[i], *points.get(j)?);
         let length = dx.hypot(dy);
         let (cos, sin) = (dx / length, dy / length);
-        (length > 0.).then(|| [cos * cos - sin * sin, 2. * sin * cos])
+        (length > 0.).then_some([cos * cos - sin * sin, 2. * sin * cos])
     };
     let axes: Vec<Option<[f64; 2]>> = (0..points.len()).map(axis).collect();
     let degrees: Vec<Option<f64>> = axes.iter().map(|a| a.and_then(|a| phase(a, 2., 0.))).collect();

@@ -59,6 +59,12 @@ pub enum MetricGroup {
     Regularity,
     /// Distances to point samplers.
     Samplers,
+    /// Density around the average cone.
+    Recovery,
+    /// Directions of neighbours.
+    Orientation,
+    /// Rings of spectra.
+    Fourier,
     /// Evenness of density.
     Evenness,
     /// What is expected at that place of the retina.
@@ -67,7 +73,7 @@ pub enum MetricGroup {
 
 impl MetricGroup {
     /// All, in the order of the columns.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 12] = [
         Self::About,
         Self::Density,
         Self::Nearest,
@@ -75,6 +81,9 @@ impl MetricGroup {
         Self::Detection,
         Self::Voronoi,
         Self::Regularity,
+        Self::Recovery,
+        Self::Orientation,
+        Self::Fourier,
         Self::Evenness,
         Self::Expected,
     ];
@@ -89,6 +98,9 @@ impl MetricGroup {
             Self::Voronoi => "voronoi",
             Self::Regularity => "regularity",
             Self::Samplers => "samplers",
+            Self::Recovery => "recovery",
+            Self::Orientation => "orientation",
+            Self::Fourier => "fourier",
             Self::Evenness => "evenness",
             Self::Expected => "expected",
         }
@@ -104,6 +116,9 @@ impl MetricGroup {
             Self::Voronoi => "Voronoi cells and Delaunay neighbours",
             Self::Regularity => "Regularity against independent points",
             Self::Samplers => "Distance to point samplers",
+            Self::Recovery => "Density recovery profile",
+            Self::Orientation => "Orientation and anisotropy",
+            Self::Fourier => "Spacing by spectra",
             Self::Evenness => "Evenness of density",
             Self::Expected => "Expected at that place of the retina",
         }

@@ -6,6 +6,7 @@ mod density;
 mod dictionary;
 mod metric;
 mod neighbours;
+mod order;
 mod selection;
 mod summary;
 mod unit;
@@ -25,6 +26,9 @@ pub fn metrics() -> impl Iterator<Item = &'static Metric> {
         about::DETECTION,
         neighbours::VORONOI,
         neighbours::REGULARITY,
+        order::RECOVERY,
+        order::ORIENTATION,
+        order::FOURIER,
         neighbours::EVENNESS,
         density::EXPECTED,
     ]
