@@ -3,7 +3,7 @@ use super::measured::{functions_table, pcf_table, points_table, record_of, recov
 use super::outputs::OutputFolder;
 use super::region::{Region, Regions};
 use super::work::for_each;
-use super::{BatchError, Failure, Input, Labels, Progress, ScaleSource};
+use super::{BatchError, Failure, Input, Labels, MapRequest, Progress, RoiRequest, ScaleSource, maps, rois};
 use crate::geometry::{Point, Window};
 use crate::mosaic::io::{ReadOptions, read_coordinates};
 use crate::mosaic::{LengthUnit, Mosaic};
@@ -37,6 +37,10 @@ pub struct CoordinatesOptions {
     pub spectrum: Option<(SpectrumOptions, PowerScale)>,
     /// Distances at which G, F, J, K, L and g are written, by [`measure_files`], with a table of points.
     pub functions: Option<FunctionOptions>,
+    /// Maps and what is read off them, by [`measure_files`].
+    pub maps: Option<MapRequest>,
+    /// Regions to be measured as mosaics of their own, by [`measure_files`].
+    pub rois: Option<RoiRequest>,
 }
 
 impl CoordinatesOptions {
@@ -57,8 +61,8 @@ pub struct CoordinatesOutcome {
     pub findings: Vec<FindingRecord>,
 }
 
-/// Writes `summary.csv` (one row a file) and the same as `summary.json`, `groups.csv` if groups are wanted, `NAME.pcf.csv` (r in hexagonal spacings, g), and `NAME.spectrum.csv` and `.png` if
-/// asked for.
+/// Writes `summary.csv` (one row a file) and the same as `summary.json`, `groups.csv` if groups are wanted, `NAME.pcf.csv` (r in hexagonal spacings, g), and if asked for `NAME.spectrum.csv` and
+/// `.png`, `NAME.maps.csv` and `.svg`, `NAME.profiles.csv` and `landmarks.csv` (one row a file), `rois.csv` (one row a region).
 ///
 /// # Errors
 /// If the file of a window cannot be read or `out` cannot be written to. Files that fail are in the outcome and in `failures.csv`.
@@ -69,9 +73,12 @@ pub fn measure_files(
     progress: &dyn Progress,
 ) -> Result<CoordinatesOutcome, BatchError> {
     options.labels.validate()?;
+    options.maps.iter().try_for_each(MapRequest::validate)?;
+    options.rois.iter().try_for_each(RoiRequest::validate)?;
+    options.rois.iter().try_for_each(|request| request.refuse_overlap(out))?;
     let regions = Regions::new(&options.region, &options.read)?;
     let out = OutputFolder::create(out)?;
-    let (records, failures) = for_each(inputs, progress, |input| {
+    let (found, failures) = for_each(inputs, progress, |input| {
         let (mosaic, outside) = load(input, options, &regions)?;
         let measures = measure(&mosaic, &options.measure);
         let mut record = record(input, &mosaic, outside, &measures, Vec::new());
@@ -93,18 +100,43 @@ pub fn measure_files(
         {
             record.warnings.push(format!("no spectrum: {missing}"));
         }
+        let map = |request| {
+            maps::write(
+                &out,
+                &format!("{}.", input.name),
+                &input.name,
+                &input.path,
+                (&mosaic, &measures),
+                request,
+            )
+        };
+        let landmarks = options.maps.as_ref().map(map).transpose()?;
+        let region = |request| rois::rows(input, &mosaic, &record.mosaic, options, request);
+        let regions = options.rois.as_ref().map(region).transpose()?;
         let line = line_about(&record);
-        Ok(((input.name.clone(), record), line))
+        Ok(((input.name.clone(), record, landmarks, regions.unwrap_or_default()), line))
     });
+    let (mut names, mut records, mut landmarks, mut of_regions) = (vec![], vec![], vec![], vec![]);
+    for (name, record, landmark, regions) in found {
+        names.push(name);
+        records.push(record);
+        landmarks.extend(landmark);
+        of_regions.extend(regions);
+    }
     let summary = options.summary();
     let subjects: Vec<(&str, Subject)> =
-        records.iter().map(|(name, record)| (name.as_str(), Subject::Coordinates(record))).collect();
+        names.iter().map(String::as_str).zip(records.iter().map(Subject::Coordinates)).collect();
     let rows: Vec<_> = subjects.iter().map(|(_, subject)| summary.row(subject)).collect();
     out.write_table("summary.csv", &summary.header(), &rows)?;
     let objects: Result<Vec<_>, _> = subjects.iter().map(|(_, subject)| summary.json(subject)).collect();
     out.write("summary.json", &json(&objects?)?)?;
     options.labels.write_groups(&out, &summary, &subjects)?;
-    let records: Vec<CoordinatesRecord> = records.into_iter().map(|(_, record)| record).collect();
+    if options.maps.is_some() {
+        maps::write_landmarks(&out, &landmarks)?;
+    }
+    if options.rois.is_some() {
+        rois::write(&out, &summary, &of_regions)?;
+    }
     out.write("options.json", &options_json(options, serde_json::Value::Null)?)?;
     write_failures(&out, &failures)?;
     Ok(CoordinatesOutcome { records, failures, findings: Vec::new() })
@@ -149,6 +181,8 @@ pub(super) fn options_json(
         "functions": options.functions,
         "spectrum": options.spectrum.map(|(spectrum, _)| spectrum),
         "manifest": options.labels.manifest.as_ref().map(|m| m.file()),
+        "maps": options.maps,
+        "rois": options.rois.as_ref().map(RoiRequest::describe),
         "samplers": samplers,
     }))
 }

@@ -2,7 +2,7 @@ use crate::compare::{CompareError, MatchError};
 use crate::detect::DetectError;
 use crate::geometry::{PolygonError, WindowError};
 use crate::image::ImageError;
-use crate::mosaic::io::{AmbiguousRow, ReadError, ScaleTableError, WriteError};
+use crate::mosaic::io::{AmbiguousRow, ReadError, RoiTableError, ScaleTableError, WriteError};
 use crate::mosaic::{LengthUnit, MosaicError};
 use crate::report::ReportError;
 use std::io;
@@ -141,6 +141,17 @@ pub enum BatchError {
     /// See [`WriteError`].
     #[error(transparent)]
     Write(#[from] WriteError),
+    /// See [`RoiTableError`].
+    #[error(transparent)]
+    RoiTable(#[from] RoiTableError),
+    /// A window that is smaller than the regions that are to slide over it.
+    #[error("{file}: no square of side {side} fits into the window: give a smaller --roi-side", file = file.display())]
+    NoRoi {
+        /// The coordinate file.
+        file: PathBuf,
+        /// In the unit of the coordinates.
+        side: f64,
+    },
     /// See [`ScaleTableError`].
     #[error(transparent)]
     ScaleTable(#[from] ScaleTableError),

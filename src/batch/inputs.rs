@@ -71,11 +71,16 @@ fn is_table(path: &Path) -> bool {
         "froc.csv",
         "reliability.csv",
         "comparison.csv",
+        "landmarks.csv",
+        "rois.csv",
+        "maps.csv",
+        "profiles.csv",
         "pcf.csv",
         "metrics.json",
         "run.json",
     ];
-    known.contains(&&*name) || name.ends_with(".pcf.csv")
+    let endings = [".pcf.csv", ".maps.csv", ".profiles.csv"];
+    known.contains(&&*name) || endings.iter().any(|ending| name.ends_with(ending))
 }
 
 fn listed(paths: &[PathBuf]) -> String {
@@ -259,7 +264,9 @@ mod tests {
     #[test]
     fn results_of_earlier_runs_are_no_inputs() {
         let folder = tempfile::tempdir().unwrap();
-        for file in ["a.png", "a.csv", "a.overlay.png", "b.overlay.png", "a.pcf.csv", "summary.csv"] {
+        let tables =
+            ["a.pcf.csv", "a.maps.csv", "a.profiles.csv", "summary.csv", "rois.csv", "landmarks.csv"];
+        for file in ["a.png", "a.csv", "a.overlay.png", "b.overlay.png"].iter().chain(&tables) {
             std::fs::write(folder.path().join(file), "").unwrap();
         }
         let names = |inputs: Vec<Input>| inputs.into_iter().map(|i| i.name).collect::<Vec<_>>();

@@ -7,16 +7,18 @@ use super::measured::{distances, not_compared, pcf_table, record_of, warnings_of
 use super::outputs::OutputFolder;
 use super::verdicts::{self, verdicts_on};
 use super::work::for_each;
-use super::{BatchError, Crop, Failure, ImageWindow, Input, Labels, Progress, ScaleSource};
+use super::{BatchError, Crop, Failure, ImageWindow, Input, Labels, MapRequest, Progress, ScaleSource, maps};
 use crate::compare::{ReferenceCurve, References, VerdictOptions};
-use crate::detect::{DetectOptions, Detections, fourier_spacing, weights};
-use crate::geometry::Window;
+use crate::detect::{DetectOptions, Detections, FourierMapOptions, fourier_map, fourier_spacing, weights};
+use crate::geometry::{Point, Window};
 use crate::image::Plane;
 use crate::mosaic::{LengthUnit, Mosaic, Scale};
-use crate::report::{DetectionRecord, ImageRecord, MetricSelection, Subject, Summary, SummaryKind, page};
+use crate::report::{
+    Cell, DetectionRecord, ImageRecord, LandmarkRecord, MetricSelection, Subject, Summary, SummaryKind, page,
+};
 use crate::sample::Sampler;
 use crate::stats::{Histogram, MeasureOptions, Measures, PcfOptions, measure};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fs;
 use std::path::Path;
@@ -25,6 +27,8 @@ use std::time::Instant;
 
 const IMAGES: &str = "images";
 const METRICS: &str = "metrics.json";
+/// With maps.
+const FOURIER_MAP: &str = "fourier_map.csv";
 /// What an image's folder holds.
 const FILES: [&str; 5] = ["points.csv", "overlay.png", "pcf.csv", METRICS, "figure.svg"];
 
@@ -39,6 +43,8 @@ pub struct RunOptions {
     pub samplers: Vec<&'static dyn Sampler>,
     /// Simulate each sampler at every mosaic's own n and window; `None`: distances only.
     pub verdict: Option<VerdictOptions>,
+    /// Maps of every mosaic and what is read off them.
+    pub maps: Option<MapRequest>,
     /// Seed of the samplers.
     pub seed: u64,
     /// Where scales come from.
@@ -86,6 +92,15 @@ struct Metrics<'a> {
     histogram: &'a Histogram,
     pcf_options: PcfOptions,
     samplers: Vec<SamplerNote<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    landmarks: Option<&'a LandmarkRecord>,
+}
+
+/// What of `metrics.json` stands outside the record and is wanted again by `--resume`.
+#[derive(Deserialize)]
+struct Kept {
+    #[serde(default)]
+    landmarks: Option<LandmarkRecord>,
 }
 
 /// How a sampler's mean curve was made.
@@ -99,13 +114,15 @@ struct SamplerNote<'a> {
 
 struct Done {
     record: ImageRecord,
+    landmarks: Option<LandmarkRecord>,
     seconds: Option<Seconds>,
 }
 
 /// The main job: detects, measures, compares and reports every image into `out`.
 ///
 /// Writes `images/NAME/` (`points.csv`, `overlay.png`, `metrics.json`, `pcf.csv`, `figure.svg`), `summary.csv`,
-/// `index.html`, `run.json`, `groups.csv` if groups are wanted and, if an image failed, `failures.csv`. An image's folder appears when it is complete.
+/// `index.html`, `run.json`, `groups.csv` if groups are wanted and, if an image failed, `failures.csv`; for maps `images/NAME/` (`maps.csv`, `maps.svg`,
+/// `profiles.csv`, `fourier_map.csv`) and `landmarks.csv`. An image's folder appears when it is complete.
 ///
 /// # Errors
 /// If the file of a window cannot be read or `out` cannot be written to. Images that fail are in the outcome and in
@@ -119,6 +136,7 @@ pub fn run_files(
     let started = Instant::now();
     options.verdict.iter().try_for_each(VerdictOptions::validate)?;
     options.labels.validate()?;
+    options.maps.iter().try_for_each(MapRequest::validate)?;
     refuse_overlap(inputs, &out.join(IMAGES))?;
     let windows = ImageWindows::new(&options.window, options.crop.as_ref())?;
     let out = OutputFolder::create(out)?;
@@ -143,6 +161,10 @@ pub fn run_files(
         let found = done.iter().map(|d| (d.record.file.as_str(), d.record.mosaic.verdicts.as_slice()));
         let (header, rows) = verdicts::table(found);
         out.write_table("verdicts.csv", &header, &rows)?;
+    }
+    if options.maps.is_some() {
+        let landmarks: Vec<_> = done.iter().filter_map(|d| d.landmarks.clone()).collect();
+        maps::write_landmarks(&out, &landmarks)?;
     }
     let records: Vec<ImageRecord> = done.iter().map(|d| d.record.clone()).collect();
     let reasons: Vec<(&str, &str)> = failures.iter().map(|f| (f.file.as_str(), f.reason.as_str())).collect();
@@ -184,11 +206,12 @@ fn one_image(
     let options_sha256 = fingerprint(options, scale, &window, &label)?;
     drop(bytes);
     if options.resume
-        && let Some(record) = earlier(images, input, &sha256, &options_sha256)
+        && let Some((record, landmarks)) = earlier(images, input, &sha256, &options_sha256)
+        && landmarks.is_some() == options.maps.is_some()
     {
         let line =
             format!("{} cones, {}, kept from an earlier run", record.mosaic.n, record.detection.modality);
-        return Ok((Done { record, seconds: None }, line));
+        return Ok((Done { record, landmarks, seconds: None }, line));
     }
     lap(&mut seconds.read);
 
@@ -241,8 +264,16 @@ fn one_image(
         warnings,
         mosaic: mosaic_record,
     };
+    let mut landmarks = None;
     images.replace_folder(&input.name, &known_files(), |folder| {
+        let map = |request| maps::write(folder, "", &record.name, &input.path, (&mosaic, &measures), request);
+        landmarks = options.maps.as_ref().map(map).transpose()?;
+        if options.maps.is_some() {
+            write_fourier_map(folder, &image, scale)?;
+        }
+        let metrics = metrics_json(&record, &measures, &curves, landmarks.as_ref())?;
         write_image_folder(folder, &image, &found, &mosaic, &measures, &curves, &record)?;
+        folder.write(METRICS, &metrics)?;
         verdicts::write(folder, "", &record.name, &measures, &verdicts)
     })?;
     lap(&mut seconds.report);
@@ -257,12 +288,35 @@ fn one_image(
         cones = found.cones.len(),
     );
     tracing::trace!(file = record.file, ?seconds);
-    Ok((Done { record, seconds: Some(seconds) }, line))
+    Ok((Done { record, landmarks, seconds: Some(seconds) }, line))
 }
 
 /// Every file that an image's folder of results may hold.
 fn known_files() -> Vec<&'static str> {
-    [&FILES[..], &verdicts::FILES].concat()
+    [&FILES[..], &verdicts::FILES, &maps::FILES, &[FOURIER_MAP]].concat()
+}
+
+/// Spacing by the spectra of overlapping tiles of the image; no rows where its spectrum has no ring.
+fn write_fourier_map(folder: &OutputFolder, image: &Plane, scale: Option<Scale>) -> Result<(), BatchError> {
+    let header = ["x_px", "y_px", "spacing_px", "spacing_um", "confidence"].map(str::to_owned);
+    let mut rows: Vec<Vec<Cell>> = Vec::new();
+    if let Ok(map) = fourier_map(image, &FourierMapOptions::default()) {
+        for &y in &map.y {
+            for &x in &map.x {
+                let middle = Point::new(x, y);
+                let spacing = map.spacing.at(middle);
+                let um = scale.map(|s| spacing * s.micrometres_per_pixel());
+                rows.push(vec![
+                    x.into(),
+                    y.into(),
+                    spacing.into(),
+                    um.into(),
+                    map.confidence_at(middle).into(),
+                ]);
+            }
+        }
+    }
+    folder.write_table(FOURIER_MAP, &header, &rows)
 }
 
 fn write_image_folder(
@@ -278,7 +332,6 @@ fn write_image_folder(
     folder.write("overlay.png", &overlay_of(image, found)?)?;
     let (header, rows) = pcf_table(measures, curves);
     folder.write_table("pcf.csv", &header, &rows)?;
-    folder.write(METRICS, &metrics_json(record, measures, curves)?)?;
     let figure = figure(&record.name, Some(image), mosaic, measures, &record.mosaic, curves)?;
     folder.write("figure.svg", figure.as_bytes())
 }
@@ -287,13 +340,14 @@ fn metrics_json(
     record: &ImageRecord,
     measures: &Measures,
     curves: &[ReferenceCurve],
+    landmarks: Option<&LandmarkRecord>,
 ) -> Result<Vec<u8>, BatchError> {
     let samplers = curves
         .iter()
         .map(|c| SamplerNote { sampler: &c.sampler, n: c.n, realisations: c.realisations, ri: c.ri })
         .collect();
     let pcf_options = measures.pcf.as_ref().map_or_else(|_| PcfOptions::default(), |pcf| pcf.options);
-    let metrics = Metrics { record, histogram: &measures.histogram, pcf_options, samplers };
+    let metrics = Metrics { record, histogram: &measures.histogram, pcf_options, samplers, landmarks };
     let mut json = serde_json::to_vec_pretty(&metrics)?;
     json.push(b'\n');
     Ok(json)
@@ -313,6 +367,7 @@ fn fingerprint(
         &options.measure,
         samplers,
         options.verdict,
+        options.maps,
         options.seed,
         scale,
         window,
@@ -323,8 +378,14 @@ fn fingerprint(
     Ok(hex(&digest.finalize()))
 }
 
-/// The record of an earlier run, if it is complete and belongs to the same image and options.
-fn earlier(images: &OutputFolder, input: &Input, sha256: &str, options_sha256: &str) -> Option<ImageRecord> {
+/// The record of an earlier run and what was read off its maps, if it is complete and belongs to the same image and
+/// options.
+fn earlier(
+    images: &OutputFolder,
+    input: &Input,
+    sha256: &str,
+    options_sha256: &str,
+) -> Option<(ImageRecord, Option<LandmarkRecord>)> {
     let folder = images.join(&input.name);
     if !FILES.iter().all(|file| folder.join(file).is_file()) {
         return None;
@@ -335,8 +396,16 @@ fn earlier(images: &OutputFolder, input: &Input, sha256: &str, options_sha256: &
     if !record.mosaic.verdicts.is_empty() && !files_of_verdicts() {
         return None;
     }
+    let Kept { landmarks } = serde_json::from_slice(&text).ok()?;
+    if landmarks.is_some() && !maps::FILES.iter().all(|file| folder.join(file).is_file()) {
+        return None;
+    }
     let same = record.sha256 == sha256 && record.options_sha256 == options_sha256;
-    same.then(|| ImageRecord { file: input.path.display().to_string(), name: input.name.clone(), ..record })
+    let file = input.path.display().to_string();
+    same.then(|| {
+        let landmarks = landmarks.map(|l| LandmarkRecord { file: file.clone(), ..l });
+        (ImageRecord { file, name: input.name.clone(), ..record }, landmarks)
+    })
 }
 
 fn run_json(
@@ -362,6 +431,7 @@ fn run_json(
             "measure": options.measure,
             "samplers": options.samplers.iter().map(|s| s.name()).collect::<Vec<_>>(),
             "verdict": options.verdict,
+            "maps": options.maps,
             "window": options.window.to_string(),
             "crop": options.crop.map(|c| c.to_string()),
             "scale": options.scales.describe(),

@@ -1,6 +1,8 @@
 use super::Done;
 use super::common::Common;
+use super::maps::MapArgs;
 use super::metrics::SummaryArgs;
+use super::rois::RoiArgs;
 use super::scale::ScaleArgs;
 use super::short_table;
 use anyhow::Result;
@@ -128,6 +130,8 @@ impl MosaicArgs {
             measure: MeasureOptions { deviation, pcf: self.pcf.options(self.pcf.r_max)? },
             spectrum: None,
             functions: None,
+            maps: None,
+            rois: None,
         })
     }
 }
@@ -135,8 +139,10 @@ impl MosaicArgs {
 /// Measures mosaics: coordinate files from anywhere → statistics
 #[derive(Args)]
 #[command(after_help = "\
-Example:
+Examples:
   conemosaic measure marks --window 150x150 --origin 1 --um-per-px 0.42 --out measured
+  conemosaic measure montage.csv --um-per-px 0.42 --maps --out maps
+  conemosaic measure montage.csv --um-per-px 0.42 --roi-side 40um --roi-cells 100 --out regions
 
 Reads CSV and its relatives, WebPlotDigitizer projects and CSVs, ImageJ results and regions.
 
@@ -154,6 +160,14 @@ Writes to measured/:
                  with --functions: density by distance from the average point (Rodieck 1991)
   NAME.spectrum.csv, NAME.spectrum.png   with --spectrum: mean power and anisotropy (dB; 0 without direction) by frequency in
                  √density (√n in the unit square; independent points have power 1), and the plane of wave vectors
+  NAME.maps.csv, NAME.maps.svg, NAME.profiles.csv
+                 with --maps: a row a cone with side and bound cells of its window, flag (empty; edge: reaches beyond the
+                 mosaic; few: not enough cells) and local values; the maps; density and spacing by distance from the CDC, in
+                 rings and along the four meridians
+  landmarks.csv  with --maps, one row a file: peak (pcd), centroid (cdc), isodensity area, ellipse fitted to its contour
+  rois.csv       with --rois or --roi-side, one row a region: its box, flag (edge: reaches beyond the window and is cut; few:
+                 not enough bound cells; outside: none of the window), and the columns of summary.csv for the points in it,
+                 by their own Voronoi cells, bound by the region
   options.json   how it was measured
   failures.csv   files that failed, if any; then the exit code is 2")]
 pub struct Measure {
@@ -180,6 +194,10 @@ pub struct Measure {
     /// Distance between their rows, in the unit of the coordinates [default: 1/128 of --r-max]
     #[arg(long, value_name = "STEP", requires = "functions", help_heading = "Functions of distance")]
     r_step: Option<f64>,
+    #[command(flatten)]
+    maps: MapArgs,
+    #[command(flatten)]
+    rois: RoiArgs,
 }
 
 impl Measure {
@@ -191,6 +209,8 @@ impl Measure {
         options.functions = functions;
         options.labels = self.summary.labels()?;
         options.metrics = self.summary.metrics();
+        options.maps = self.maps.request()?;
+        options.rois = self.rois.request(&options.read)?;
         if let Some(scale) = &self.spectrum {
             let spectrum = SpectrumOptions { max_frequency: self.max_frequency };
             spectrum.validate()?;
@@ -203,6 +223,10 @@ impl Measure {
             common.say(&summary(&outcome, &options));
         }
         common.say(&format!("Table: {}/summary.csv", self.out.display()));
+        let further = [(options.maps.is_some(), "landmarks"), (options.rois.is_some(), "rois")];
+        for (_, table) in further.into_iter().filter(|(written, _)| *written) {
+            common.say(&format!("Table: {}/{table}.csv", self.out.display()));
+        }
         say_failures(common, &outcome, &self.out);
         Ok(Done::with(&outcome.failures))
     }

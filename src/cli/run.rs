@@ -1,5 +1,6 @@
 use super::common::Common;
 use super::detect::DetectArgs;
+use super::maps::MapArgs;
 use super::metrics::SummaryArgs;
 use super::scale::ScaleArgs;
 use super::short_table;
@@ -29,6 +30,9 @@ Writes to report/:
   images/NAME/figure.svg    picture, points, nearest neighbours, g(r)
   images/NAME/pcf.csv       g(r) of the mosaic and the samplers (r in spacings)
   images/NAME/metrics.json  everything measured
+  landmarks.csv             with --maps: one row an image, peak (PCD) and centroid (CDC) of density; and of each image
+                            maps.csv (one row a cone), maps.svg, profiles.csv, and fourier_map.csv (spacing by
+                            the spectrum of the image, from place to place)
   verdicts.csv              with --verdict: one row an image and sampler; and of each image
                             envelope.csv and verdict.svg
   run.json                  version, options, seed, hashes of the inputs, timings
@@ -68,6 +72,8 @@ pub struct Run {
     #[arg(long)]
     resume: bool,
     #[command(flatten)]
+    maps: MapArgs,
+    #[command(flatten)]
     scale: ScaleArgs,
 }
 
@@ -80,6 +86,7 @@ impl Run {
             verdict: self
                 .verdict
                 .then(|| VerdictOptions { simulations: self.simulations, ..VerdictOptions::default() }),
+            maps: self.maps.request()?,
             seed: common.seed,
             scales: self.scale.source()?,
             window: self.window.clone(),

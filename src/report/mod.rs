@@ -8,6 +8,7 @@ mod figure;
 mod finding;
 mod grey;
 mod ink;
+mod landmarks;
 mod metrics;
 mod overlay;
 mod page;
@@ -26,10 +27,11 @@ pub use document::{Document, Headline, Section};
 pub use error::ReportError;
 pub use figure::{
     AgreementLine, AgreementPanel, Curve, EnvelopePanel, FrocLine, MosaicFigure, ReferenceLine,
-    ReliabilityFigure, SamplerPanel, agreement_figure, envelope_figure, froc_figure, mosaic_figure,
-    reliability_figure, samplers_figure,
+    ReliabilityFigure, SamplerPanel, agreement_figure, envelope_figure, froc_figure, maps_figure,
+    mosaic_figure, reliability_figure, samplers_figure,
 };
 pub use finding::FindingRecord;
+pub use landmarks::LandmarkRecord;
 pub use metrics::{
     EdgeRule, Metric, MetricGroup, MetricSelection, Quantity, Subject, Summary, SummaryKind, dictionary,
     dictionary_table, dictionary_text, metrics,

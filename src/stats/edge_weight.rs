@@ -53,7 +53,8 @@ impl<'a> EdgeWeights<'a> {
         0.5 * (weight(a) + weight(b))
     }
 
-    fn share_of_circle(&self, p: Point, d: f64) -> f64 {
+    /// Share of the circle of radius `d` around `p`, a point inside, that lies in the window.
+    pub(super) fn share_of_circle(&self, p: Point, d: f64) -> f64 {
         match self.window {
             Window::Polygon(polygon) if polygon.border_distance(p) >= d => 1.,
             Window::Polygon(polygon) => polygon.share_of_circle(p, d),

@@ -4,6 +4,7 @@
 //! it, as those of a [`Mosaic`](crate::mosaic::Mosaic) are.
 
 mod clark_evans;
+mod delaunay;
 mod density_recovery;
 mod edge_weight;
 mod error;
@@ -11,6 +12,7 @@ mod functions;
 mod histogram;
 mod inhomogeneous;
 mod intensity;
+mod maps;
 mod measure;
 mod nearest;
 mod orientation;
@@ -19,6 +21,7 @@ mod pcf;
 mod polygon_waves;
 mod rank_correlation;
 mod rank_envelope;
+mod rois;
 mod spectrum;
 mod trend;
 mod voronoi;
@@ -31,6 +34,10 @@ pub use functions::{FirstDistance, FunctionOptions, Functions, functions};
 pub use histogram::Histogram;
 pub use inhomogeneous::{Inhomogeneous, inhomogeneous};
 pub use intensity::default_intensity_bandwidth;
+pub use maps::{
+    Along, Contour, Ellipse, Landmarks, LocalFlag, LocalValues, LocalWindow, MapGrid, MapOptions, Maps,
+    ProfileRow, maps,
+};
 pub use measure::{MeasureOptions, Measures, measure};
 pub use nearest::{Deviation, Moments, interior, moments};
 pub use orientation::{AXIS_BIN, NearestAxes, NeighbourEllipse, Orientation, orientation};
@@ -38,6 +45,7 @@ pub(crate) use pcf::pcf_on_one_thread;
 pub use pcf::{EdgeCorrection, Kernel, Pcf, PcfOptions, pcf};
 pub use rank_correlation::{FEWEST_PAIRS, RankCorrelation, rank_correlation};
 pub use rank_envelope::{RankEnvelope, rank_envelope};
+pub use rois::{Grown, grown, lies_in, sliding};
 pub use spectrum::{ModalSpacing, PowerSpectrum, SpectrumOptions, modal_spacing, spectrum};
 pub use trend::{TREND_LEVEL, TREND_TOLERANCE, Trend, trend};
 pub use voronoi::{Cell, Voronoi, VoronoiSummary, voronoi};

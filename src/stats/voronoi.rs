@@ -1,9 +1,10 @@
+use super::delaunay::{Delaunay, delaunay};
 use super::{Deviation, Moments, moments};
 use crate::geometry::{Point, Window, clipped_cell_area};
 use crate::mosaic::hexagonal_spacing;
 use serde::{Deserialize, Serialize};
+use spade::Triangulation;
 use spade::handles::VoronoiVertex;
-use spade::{DelaunayTriangulation, Point2, Triangulation};
 
 /// Voronoi vertices nearer than this share of the spacing are one: a side of no length is no side.
 const SAME_VERTEX: f64 = 1e-7;
@@ -31,6 +32,9 @@ pub struct Cell {
     pub psi6: Option<[f64; 2]>,
     /// Second moments of the ways to them, means of dx², dx·dy and dy², in squared units of the coordinates.
     pub second_moments: Option<[f64; 3]>,
+    /// How far the cell reaches from its point to the left, up, to the right and down, in units of the coordinates; `None`
+    /// where there is no area.
+    pub extent: Option<[f64; 4]>,
 }
 
 /// Voronoi cells of a pattern.
@@ -153,28 +157,13 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
         furthest: None,
         psi6: None,
         second_moments: None,
+        extent: None,
     };
     let mut cells = vec![NONE; n];
     let mut farthest = 0f64;
     let bounds = window.bounds();
     let side = bounds.width().max(bounds.height());
-    // The triangulation takes a limited range of numbers only: the window becomes the unit square, subnormal 0.
-    let unit = |v: f64, low: f64| {
-        let t = (v - low) / side;
-        if t.abs() < 1e-30 { 0. } else { t }
-    };
-    let mut sites: Vec<(usize, [f64; 2])> = points
-        .iter()
-        .enumerate()
-        .filter(|(_, p)| p.is_finite())
-        .map(|(i, p)| (i, [unit(p.x, bounds.x0()), unit(p.y, bounds.y0())]))
-        .filter(|(_, [x, y])| x.abs() < 1e30 && y.abs() < 1e30)
-        .collect();
-    sites.sort_by(|(i, a), (j, b)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(i.cmp(j)));
-    sites.dedup_by(|later, kept| later.1 == kept.1);
-    sites.sort_unstable_by_key(|(i, _)| *i);
-    let vertices = sites.iter().map(|(_, [x, y])| Point2::new(*x, *y)).collect();
-    let Ok(triangulation) = DelaunayTriangulation::<Point2<f64>>::bulk_load_stable(vertices) else {
+    let Some(Delaunay { sites, triangulation }) = delaunay(points, &bounds) else {
         return (cells, farthest);
     };
     let same = SAME_VERTEX * spacing / side;
@@ -238,6 +227,10 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
         let area = twice.abs() / 2. * side * side;
         cell.area = Some(area);
         cell.sides = corners.len();
+        cell.extent = Some(corners.iter().fold([0.; 4], |[left, up, right, down], c| {
+            let [dx, dy] = [(c[0] - site[0]) * side, (c[1] - site[1]) * side];
+            [f64::max(left, -dx), f64::max(up, -dy), f64::max(right, dx), f64::max(down, dy)]
+        }));
         cell.bound = inside || window.is_torus();
         let whole = window.is_torus() || window.border_distance(at) >= reach * side;
         cell.clipped_area = Some(if whole { area } else { clipped_cell_area(window, at, &adjacent) });

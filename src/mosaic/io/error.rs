@@ -271,6 +271,22 @@ pub enum ReadFault {
         /// What it says, shortened.
         found: String,
     },
+    /// A box without area.
+    #[error("expected a box with an area (x0 < x1 and y0 < y1), found {line}: mend the row")]
+    NoBox {
+        /// The row, shortened.
+        line: String,
+    },
+    /// The same name for two boxes.
+    #[error(
+        "expected one box named {name} a file, found another one on line {first_line}: rename one of them"
+    )]
+    TwoBoxes {
+        /// The name, shortened.
+        name: String,
+        /// The line that gave the first box.
+        first_line: usize,
+    },
     /// A row of a scale table without identifier.
     #[error(
         "expected an identifier in the first column, found none in {line}: give the start of the file name"

@@ -65,20 +65,20 @@ impl Columns {
     }
 }
 
-#[derive(Debug, PartialEq)]
-enum Unit {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Unit {
     Is(Option<LengthUnit>),
     Unknown,
 }
 
 /// A column's name, taken apart: `x_px` is `x` in pixels.
-struct Name {
-    stem: String,
-    unit: Unit,
+pub(super) struct Name {
+    pub(super) stem: String,
+    pub(super) unit: Unit,
 }
 
 impl Name {
-    fn parse(cell: &str) -> Self {
+    pub(super) fn parse(cell: &str) -> Self {
         let lower = cell.to_lowercase();
         let mut words =
             lower.split(|c: char| c.is_whitespace() || "_-()[]/".contains(c)).filter(|w| !w.is_empty());

@@ -12,6 +12,7 @@ mod manifest;
 mod origin;
 mod outline;
 mod read;
+mod roi_table;
 mod scale_table;
 mod text;
 mod webplotdigitizer;
@@ -23,6 +24,7 @@ pub use manifest::{AmbiguousRow, Manifest, ManifestRow};
 pub use origin::Origin;
 pub use outline::{OutlineFile, read_outline};
 pub use read::{CoordinateFile, Dialect, ReadOptions, Series, read_coordinates, read_from};
+pub use roi_table::{Roi, RoiTable, RoiTableError};
 pub use scale_table::{ScaleTable, ScaleTableError};
 pub use write::{format_plain_points, format_points, write_plain_points, write_points};
 

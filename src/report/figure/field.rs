@@ -1,6 +1,6 @@
 use super::canvas::{Anchor, Area, Canvas, FRAME, INK, Style};
-use super::{MosaicFigure, with_unit};
-use crate::geometry::{Point, Rectangle};
+use super::{MosaicFigure, shown_unit, with_unit};
+use crate::geometry::{Point, Rectangle, Window};
 use crate::image::Plane;
 use crate::mosaic::{LengthUnit, hexagonal_spacing};
 use crate::report::ReportError;
@@ -29,18 +29,18 @@ const OUTLINE_WIDTH: f64 = 0.8;
 const SCALE_BAR_SHARE: f64 = 0.4;
 
 /// From the mosaic's coordinates to the page: both y down, equal scale.
-struct Projection {
+pub(super) struct Projection {
     area: Area,
     bounds: Rectangle,
-    scale: f64,
+    pub(super) scale: f64,
 }
 
 impl Projection {
-    fn new(area: Area, bounds: Rectangle) -> Self {
+    pub(super) fn new(area: Area, bounds: Rectangle) -> Self {
         Self { area, bounds, scale: area.width / bounds.width() }
     }
 
-    fn place(&self, p: Point) -> (f64, f64) {
+    pub(super) fn place(&self, p: Point) -> (f64, f64) {
         (
             self.area.x + (p.x - self.bounds.x0()) * self.scale,
             self.area.y + (p.y - self.bounds.y0()) * self.scale,
@@ -81,7 +81,7 @@ pub(super) fn draw_picture(
     let bytes = png(grey.as_raw(), grey.width(), grey.height(), ExtendedColorType::L8)?;
     canvas.picture(&bytes, place, area);
     canvas.frame(area);
-    draw_outline(canvas, &projection, figure, OUTLINE_ON_PICTURE);
+    draw_outline(canvas, &projection, figure.window, OUTLINE_ON_PICTURE);
     draw_scale_bar(canvas, area, figure);
     Ok(())
 }
@@ -123,15 +123,15 @@ pub(super) fn draw_points(canvas: &mut Canvas, area: Area, figure: &MosaicFigure
         if figure.window.rings().is_empty() {
             canvas.frame(area);
         }
-        draw_outline(canvas, &projection, figure, FRAME);
+        draw_outline(canvas, &projection, figure.window, FRAME);
     }
     draw_scale_bar(canvas, area, figure);
     Ok(())
 }
 
 /// The rings of a window that is not its bounds.
-fn draw_outline(canvas: &mut Canvas, projection: &Projection, figure: &MosaicFigure, colour: &str) {
-    for ring in figure.window.rings() {
+pub(super) fn draw_outline(canvas: &mut Canvas, projection: &Projection, window: &Window, colour: &str) {
+    for ring in window.rings() {
         let corners = ring.iter().chain(ring.first()).map(|&p| projection.place(p)).collect();
         canvas.polyline(corners, colour, OUTLINE_WIDTH, None);
     }
@@ -158,10 +158,13 @@ fn draw_dot_picture(
     Ok(())
 }
 
-/// A bar of a round length below the field, and what it stands for.
 fn draw_scale_bar(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
-    let (factor, unit) = figure.shown_unit();
-    let shown_width = figure.window.bounds().width() * factor;
+    let (factor, unit) = shown_unit(figure.um_per_unit, figure.unit);
+    scale_bar(canvas, area, figure.window.bounds().width() * factor, unit);
+}
+
+/// A bar of a round length below a field that is `shown_width` of `unit` wide, and what it stands for.
+pub(super) fn scale_bar(canvas: &mut Canvas, area: Area, shown_width: f64, unit: &str) {
     let length = round_below(shown_width * SCALE_BAR_SHARE);
     let right = area.x + length / shown_width * area.width;
     let y = area.bottom() + 8.;

@@ -7,6 +7,7 @@ mod correlation;
 mod envelope;
 mod field;
 mod froc;
+mod maps;
 mod neighbours;
 mod page;
 mod panels;
@@ -21,6 +22,7 @@ pub use agreement::{AgreementLine, AgreementPanel, agreement_figure};
 use canvas::{Anchor, Canvas, Style};
 pub use envelope::{EnvelopePanel, envelope_figure};
 pub use froc::{FrocLine, froc_figure};
+pub use maps::maps_figure;
 use page::Page;
 pub use reliability::{ReliabilityFigure, reliability_figure};
 pub use samplers::{SamplerPanel, samplers_figure};
@@ -88,16 +90,6 @@ pub struct MosaicFigure<'a> {
 }
 
 impl MosaicFigure<'_> {
-    /// What to multiply lengths with before they are shown, and the unit they are then in ("" for the unit square).
-    fn shown_unit(&self) -> (f64, &'static str) {
-        match (self.um_per_unit, self.unit) {
-            (Some(factor), _) => (factor, "µm"),
-            (None, LengthUnit::Pixel) => (1., "px"),
-            (None, LengthUnit::Micrometre) => (1., "µm"),
-            (None, LengthUnit::Unit) => (1., ""),
-        }
-    }
-
     fn validate(&self) -> Result<(), ReportError> {
         let (edges, counts) = (self.histogram_edges, self.histogram_counts);
         let matching = edges.len() == counts.len() + 1 || (edges.is_empty() && counts.is_empty());
@@ -112,6 +104,16 @@ impl MosaicFigure<'_> {
             }
         }
         Ok(())
+    }
+}
+
+/// What to multiply lengths with before they are shown, and the unit they are then in ("" for the unit square).
+fn shown_unit(um_per_unit: Option<f64>, unit: LengthUnit) -> (f64, &'static str) {
+    match (um_per_unit, unit) {
+        (Some(factor), _) => (factor, "µm"),
+        (None, LengthUnit::Pixel) => (1., "px"),
+        (None, LengthUnit::Micrometre) => (1., "µm"),
+        (None, LengthUnit::Unit) => (1., ""),
     }
 }
 

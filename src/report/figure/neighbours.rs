@@ -1,5 +1,5 @@
 use super::canvas::{Anchor, Area, Canvas, Ranges, Style, headroom, round_above, text_width};
-use super::{MosaicFigure, with_unit};
+use super::{MosaicFigure, shown_unit, with_unit};
 use crate::report::significant;
 
 const BARS: &str = "#b8b8b8";
@@ -35,7 +35,7 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
         canvas.sentence(area, sentence);
         return;
     };
-    let (factor, unit) = figure.shown_unit();
+    let (factor, unit) = shown_unit(figure.um_per_unit, figure.unit);
     let edges: Vec<f64> = figure.histogram_edges.iter().map(|e| e * factor).collect();
     let counts: Vec<f64> = figure.histogram_counts.iter().map(|&c| c as f64).collect();
     let (mean, sd) = (figure.nn_mean.map(|m| m * factor), figure.nn_sd.map(|s| s * factor));

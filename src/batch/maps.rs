@@ -1,0 +1,171 @@
+use super::outputs::OutputFolder;
+use super::{BatchError, Length};
+use crate::mosaic::Mosaic;
+use crate::report::{Cell, LandmarkRecord, maps_figure};
+use crate::stats::{LocalWindow, MapOptions, Maps, Measures, maps};
+use serde::Serialize;
+use std::path::Path;
+
+/// What [`write`] writes, after the name of the mosaic.
+pub(super) const FILES: [&str; 3] = ["maps.csv", "maps.svg", "profiles.csv"];
+/// What was read off the maps, one row a file.
+const LANDMARKS: &str = "landmarks.csv";
+
+/// The window around each cone.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MapWindow {
+    /// Grown until it holds this many bound cells; see [`LocalWindow::Cells`].
+    Cells(usize),
+    /// Of this side.
+    Side(Length),
+}
+
+/// Maps of every mosaic of a batch; see [`MapOptions`].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct MapRequest {
+    /// The window around each cone.
+    pub window: MapWindow,
+    /// Density of the contour whose inside is averaged, as a share of the peak, 0.01 to 0.99.
+    pub isodensity: f64,
+    /// Distance between rows of the profiles; `None`: two hexagonal spacings.
+    pub profile_step: Option<Length>,
+}
+
+impl Default for MapRequest {
+    fn default() -> Self {
+        let MapOptions { window, isodensity, .. } = MapOptions::default();
+        let cells = match window {
+            LocalWindow::Cells(n) => n,
+            LocalWindow::Side(_) => 100,
+        };
+        Self { window: MapWindow::Cells(cells), isodensity, profile_step: None }
+    }
+}
+
+impl MapRequest {
+    /// Whether every field is in its range.
+    ///
+    /// # Errors
+    /// The first field that is not, with its range.
+    pub fn validate(&self) -> Result<(), BatchError> {
+        let window = match self.window {
+            MapWindow::Cells(n) => LocalWindow::Cells(n),
+            // a length is positive
+            MapWindow::Side(_) => LocalWindow::Side(1.),
+        };
+        Ok(MapOptions { window, isodensity: self.isodensity, profile_step: None }.validate()?)
+    }
+
+    fn of(&self, mosaic: &Mosaic, file: &Path) -> Result<MapOptions, BatchError> {
+        let window = match self.window {
+            MapWindow::Cells(n) => LocalWindow::Cells(n),
+            MapWindow::Side(side) => LocalWindow::Side(side.of("--map-side", mosaic, file)?),
+        };
+        let step = self.profile_step.map(|step| step.of("--profile-step", mosaic, file)).transpose()?;
+        Ok(MapOptions { window, isodensity: self.isodensity, profile_step: step })
+    }
+}
+
+/// Writes the maps of one mosaic: `maps.csv` (one row a cone), `maps.svg` and `profiles.csv`, each with `prefix` before it.
+pub(super) fn write(
+    folder: &OutputFolder,
+    prefix: &str,
+    title: &str,
+    file: &Path,
+    (mosaic, measures): (&Mosaic, &Measures),
+    request: &MapRequest,
+) -> Result<LandmarkRecord, BatchError> {
+    let found = maps(mosaic, measures, &request.of(mosaic, file)?)?;
+    let [table, figure, profiles] = FILES.map(|name| format!("{prefix}{name}"));
+    let (header, rows) = map_table(mosaic, &found);
+    folder.write_table(&table, &header, &rows)?;
+    folder.write(&figure, maps_figure(title, mosaic, &found)?.as_bytes())?;
+    let (header, rows) = profile_table(mosaic, &found);
+    folder.write_table(&profiles, &header, &rows)?;
+    Ok(LandmarkRecord::new(&file.display().to_string(), mosaic, &found))
+}
+
+/// Writes `landmarks.csv`.
+pub(super) fn write_landmarks(out: &OutputFolder, records: &[LandmarkRecord]) -> Result<(), BatchError> {
+    let rows: Vec<_> = records.iter().map(LandmarkRecord::row).collect();
+    out.write_table(LANDMARKS, &LandmarkRecord::header(), &rows)
+}
+
+/// Lengths in the unit of the coordinates where the column does not say otherwise. What is not defined is empty.
+fn map_table(mosaic: &Mosaic, maps: &Maps) -> (Vec<String>, Vec<Vec<Cell>>) {
+    let header = [
+        "x",
+        "y",
+        "side",
+        "bound",
+        "flag",
+        "density",
+        "icd",
+        "nnd",
+        "ri",
+        "psi6",
+        "six_sided_percent",
+        "density_per_mm2",
+        "icd_um",
+        "nnd_um",
+    ];
+    let um = mosaic.micrometres_per_unit();
+    let row = |(p, v): (&crate::geometry::Point, &crate::stats::LocalValues)| -> Vec<Cell> {
+        vec![
+            p.x.into(),
+            p.y.into(),
+            v.side.into(),
+            v.bound.into(),
+            v.flag.name().into(),
+            v.density.into(),
+            v.inter_cell.into(),
+            v.nearest.into(),
+            v.nearest_ri.into(),
+            v.psi6.into(),
+            v.six_sided_percent.into(),
+            per_mm2(v.density, um),
+            v.inter_cell.zip(um).map(|(d, um)| d * um).into(),
+            v.nearest.zip(um).map(|(d, um)| d * um).into(),
+        ]
+    };
+    let rows = mosaic.points().iter().zip(&maps.local).map(row).collect();
+    (header.map(str::to_owned).into(), rows)
+}
+
+fn profile_table(mosaic: &Mosaic, maps: &Maps) -> (Vec<String>, Vec<Vec<Cell>>) {
+    let header = [
+        "along",
+        "r",
+        "bound",
+        "share",
+        "density",
+        "spacing",
+        "icd",
+        "nnd",
+        "r_um",
+        "density_per_mm2",
+        "spacing_um",
+    ];
+    let um = mosaic.micrometres_per_unit();
+    let row = |p: &crate::stats::ProfileRow| -> Vec<Cell> {
+        vec![
+            p.along.name().into(),
+            p.r.into(),
+            p.bound.into(),
+            p.share.into(),
+            p.density.into(),
+            p.spacing.into(),
+            p.inter_cell.into(),
+            p.nearest.into(),
+            um.map(|um| p.r * um).into(),
+            per_mm2(p.density, um),
+            p.spacing.zip(um).map(|(s, um)| s * um).into(),
+        ]
+    };
+    (header.map(str::to_owned).into(), maps.profile.iter().map(row).collect())
+}
+
+fn per_mm2(density: Option<f64>, um: Option<f64>) -> Cell {
+    density.zip(um).map(|(d, um)| d * 1e6 / (um * um)).into()
+}

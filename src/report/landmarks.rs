@@ -1,0 +1,118 @@
+use super::Cell;
+use crate::geometry::Point;
+use crate::mosaic::{LengthUnit, Mosaic};
+use crate::stats::{Ellipse, LocalWindow, Maps};
+use serde::{Deserialize, Serialize};
+
+/// What was read off the density map of a mosaic: a row of `landmarks.csv`. Lengths are in the unit of the mosaic.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LandmarkRecord {
+    /// Path as given.
+    pub file: String,
+    /// The unit of all lengths here that do not say otherwise.
+    pub unit: LengthUnit,
+    /// Micrometres per unit, if known.
+    pub um_per_unit: Option<f64>,
+    /// The window around each cone: “100 cells”, or its side.
+    pub window: String,
+    /// Cones.
+    pub n: usize,
+    /// Cones whose window lies in the mosaic's: the map is made of these.
+    pub whole: usize,
+    /// Peak cone density, per squared unit.
+    pub peak: Option<f64>,
+    /// Where it is.
+    pub peak_at: Option<Point>,
+    /// Cone density centroid.
+    pub centroid: Option<Point>,
+    /// The density map there, per squared unit.
+    pub centroid_density: Option<f64>,
+    /// Share of the peak that bounds the region.
+    pub isodensity: f64,
+    /// Area of the region, in squared units.
+    pub isodensity_area: Option<f64>,
+    /// Ellipse fitted to its contour.
+    pub ellipse: Option<Ellipse>,
+    /// What a reader of these numbers should know.
+    pub note: String,
+}
+
+type Column = (&'static str, fn(&LandmarkRecord) -> Cell);
+
+const COLUMNS: &[Column] = &[
+    ("file", |r| r.file.as_str().into()),
+    ("unit", |r| r.unit.symbol().into()),
+    ("um_per_unit", |r| r.um_per_unit.into()),
+    ("local_window", |r| r.window.as_str().into()),
+    ("n", |r| r.n.into()),
+    ("n_whole", |r| r.whole.into()),
+    ("pcd", |r| r.peak.into()),
+    ("pcd_per_mm2", |r| r.per_mm2(r.peak).into()),
+    ("pcd_x", |r| r.peak_at.map(|p| p.x).into()),
+    ("pcd_y", |r| r.peak_at.map(|p| p.y).into()),
+    ("cdc_x", |r| r.centroid.map(|p| p.x).into()),
+    ("cdc_y", |r| r.centroid.map(|p| p.y).into()),
+    ("cdc_density", |r| r.centroid_density.into()),
+    ("cdc_density_per_mm2", |r| r.per_mm2(r.centroid_density).into()),
+    ("isodensity_share", |r| r.isodensity.into()),
+    ("isodensity_area", |r| r.isodensity_area.into()),
+    ("isodensity_area_mm2", |r| r.isodensity_area.zip(r.um_per_unit).map(|(a, um)| a * um * um / 1e6).into()),
+    ("ellipse_x", |r| r.ellipse.map(|e| e.centre.x).into()),
+    ("ellipse_y", |r| r.ellipse.map(|e| e.centre.y).into()),
+    ("ellipse_semi_major", |r| r.ellipse.map(|e| e.semi_major).into()),
+    ("ellipse_semi_minor", |r| r.ellipse.map(|e| e.semi_minor).into()),
+    ("ellipse_degrees", |r| r.ellipse.map(|e| e.degrees).into()),
+    ("note", |r| r.note.as_str().into()),
+];
+
+impl LandmarkRecord {
+    /// What the maps of a mosaic say.
+    pub fn new(file: &str, mosaic: &Mosaic, maps: &Maps) -> Self {
+        let found = &maps.landmarks;
+        let (window, few) = match maps.options.window {
+            LocalWindow::Cells(n) => (format!("{n} cells"), "ask for fewer cells (--map-cells)"),
+            LocalWindow::Side(side) => (side.to_string(), "give another side (--map-side)"),
+        };
+        let note = match (found.peak, found.cut) {
+            (None, _) => {
+                format!("no map: no window of {window} lies in the mosaic and holds bound cells: {few}")
+            }
+            (Some(_), true) => format!(
+                "the region of at least {} % of the peak reaches the edge of the map: its area is too small, and its \
+                 centroid lies too far inwards",
+                100. * maps.options.isodensity
+            ),
+            (Some(_), false) => String::new(),
+        };
+        Self {
+            file: file.to_owned(),
+            unit: mosaic.unit(),
+            um_per_unit: mosaic.micrometres_per_unit(),
+            window,
+            n: mosaic.len(),
+            whole: found.whole,
+            peak: found.peak,
+            peak_at: found.peak_at,
+            centroid: found.centroid,
+            centroid_density: found.centroid_density,
+            isodensity: maps.options.isodensity,
+            isodensity_area: found.isodensity_area,
+            ellipse: found.ellipse,
+            note,
+        }
+    }
+
+    fn per_mm2(&self, density: Option<f64>) -> Option<f64> {
+        density.zip(self.um_per_unit).map(|(d, um)| d * 1e6 / (um * um))
+    }
+
+    /// Columns of `landmarks.csv`.
+    pub fn header() -> Vec<String> {
+        COLUMNS.iter().map(|(name, _)| (*name).to_owned()).collect()
+    }
+
+    /// The row under [`Self::header`].
+    pub fn row(&self) -> Vec<Cell> {
+        COLUMNS.iter().map(|(_, value)| value(self)).collect()
+    }
+}

@@ -1,0 +1,57 @@
+use super::surface::{Surface, weighted};
+use super::{LocalFlag, LocalValues};
+use crate::geometry::{Point, Rectangle};
+
+/// Maps sampled in the middles of the cells of a square grid over the bounds of a window, row by row from the upper left.
+#[derive(Clone, Debug)]
+pub struct MapGrid {
+    /// Cells in a row.
+    pub columns: usize,
+    /// Rows.
+    pub rows: usize,
+    /// Side of a cell, in units of the coordinates.
+    pub step: f64,
+    /// Values; not a number where the map is not defined: beyond the hull of the cones or the window, and in triangles one
+    /// of whose corners has no value.
+    pub values: Vec<f32>,
+    /// Whether the local windows of all three corners are whole.
+    pub whole: Vec<bool>,
+}
+
+pub(super) fn grid(
+    surface: &Surface,
+    bounds: &Rectangle,
+    local: &[LocalValues],
+    value: impl Fn(&LocalValues) -> Option<f64>,
+    longer: usize,
+) -> MapGrid {
+    let step = bounds.width().max(bounds.height()) / longer.max(1) as f64;
+    let count = |length: f64| (length / step).ceil().clamp(1., longer.max(1) as f64) as usize;
+    let (columns, rows) = (count(bounds.width()), count(bounds.height()));
+    let mut values = vec![f32::NAN; columns * rows];
+    let mut whole = vec![false; columns * rows];
+    let map: Vec<Option<f64>> = local.iter().map(value).collect();
+    let span = |from: f64, to: f64, low: f64, count: usize| {
+        let first = ((from - low) / step - 0.5).ceil().max(0.) as usize;
+        let last = ((to - low) / step - 0.5).floor();
+        first..if last < 0. { 0 } else { (last as usize + 1).min(count) }
+    };
+    for triangle in &surface.triangles {
+        let all = triangle.corners.iter().all(|&k| local[k].flag == LocalFlag::Whole);
+        let [left, upper, right, lower] = surface.extent(triangle);
+        for row in span(upper, lower, bounds.y0(), rows) {
+            for column in span(left, right, bounds.x0(), columns) {
+                let place = Point::new(
+                    bounds.x0() + (column as f64 + 0.5) * step,
+                    bounds.y0() + (row as f64 + 0.5) * step,
+                );
+                let found = surface.shares(triangle, place).and_then(|s| weighted(&map, triangle, s));
+                if let Some(found) = found {
+                    values[row * columns + column] = found as f32;
+                    whole[row * columns + column] = all;
+                }
+            }
+        }
+    }
+    MapGrid { columns, rows, step, values, whole }
+}

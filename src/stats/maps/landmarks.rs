@@ -1,0 +1,63 @@
+use super::ellipse::{Ellipse, fitted_ellipse};
+use super::region::{Contour, region};
+use super::surface::Surface;
+use super::{LocalFlag, LocalValues, MapOptions};
+use crate::geometry::{Point, Window};
+
+/// What is read off the density map. Lengths are in units of the coordinates, densities per squared unit.
+#[derive(Clone, Debug, Default)]
+pub struct Landmarks {
+    /// Cones whose local window is whole: the map is made of these.
+    pub whole: usize,
+    /// Peak cone density (PCD): the greatest local density; `None` without a whole window.
+    pub peak: Option<f64>,
+    /// The cone there, of several the first.
+    pub peak_at: Option<Point>,
+    /// Area of the region in which the map is at least the given share of the peak; `None` without a map.
+    pub isodensity_area: Option<f64>,
+    /// Cone density centroid (CDC): the density-weighted centroid of that region (Reiniger et al. 2021).
+    pub centroid: Option<Point>,
+    /// The map at that place; `None` where it has none there.
+    pub centroid_density: Option<f64>,
+    /// The ellipse fitted to the longest contour of the region, if that closes.
+    pub ellipse: Option<Ellipse>,
+    /// The region ends where the map does: its area is too small, and its centroid lies too far inwards.
+    pub cut: bool,
+    /// The outlines of the region, longest first.
+    pub contours: Vec<Contour>,
+}
+
+pub(super) fn landmarks(
+    points: &[Point],
+    window: &Window,
+    surface: &Surface,
+    local: &[LocalValues],
+    density: &[Option<f64>],
+    options: &MapOptions,
+) -> Landmarks {
+    let whole = local.iter().filter(|v| v.flag == LocalFlag::Whole).count();
+    // of equals the first, whatever the number of threads
+    let peak = density.iter().enumerate().filter_map(|(k, d)| Some((k, (*d)?))).fold(
+        None,
+        |best: Option<(usize, f64)>, (k, d)| match best {
+            Some((_, greatest)) if d <= greatest => best,
+            _ => Some((k, d)),
+        },
+    );
+    let Some((index, peak)) = peak else { return Landmarks { whole, ..Landmarks::default() } };
+    let bounds = window.bounds();
+    let found = region(surface, density, options.isodensity * peak, Point::new(bounds.x0(), bounds.y0()));
+    let map = [density.to_vec()];
+    let centroid = found.centroid;
+    Landmarks {
+        whole,
+        peak: Some(peak),
+        peak_at: Some(points[index]),
+        isodensity_area: centroid.map(|_| found.area),
+        centroid,
+        centroid_density: centroid.and_then(|at| surface.at(at, &map)[0]),
+        ellipse: found.contours.first().and_then(fitted_ellipse),
+        cut: found.cut,
+        contours: found.contours,
+    }
+}

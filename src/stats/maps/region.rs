@@ -1,0 +1,116 @@
+use super::surface::{Surface, Valued, cross};
+use crate::geometry::Point;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The part of a map that is at least as high as a level.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Region {
+    /// Its area.
+    pub(super) area: f64,
+    /// The centroid of what is under the map there.
+    pub(super) centroid: Option<Point>,
+    /// Whether it ends where the map does, and not where the map falls below the level.
+    pub(super) cut: bool,
+    /// Its outlines, longest first.
+    pub(super) contours: Vec<Contour>,
+}
+
+/// A line along which the map has the level.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contour {
+    /// From place to place; a closed line does not repeat its first.
+    pub places: Vec<Point>,
+    /// Whether it returns to its beginning; otherwise it ends at the edge of the map.
+    pub closed: bool,
+}
+
+impl Contour {
+    /// Its length, in units of the coordinates.
+    pub fn length(&self) -> f64 {
+        let steps: f64 = self.places.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+        let back = match (self.places.first(), self.places.last()) {
+            (Some(first), Some(last)) if self.closed => first.distance(*last),
+            _ => 0.,
+        };
+        steps + back
+    }
+}
+
+/// Integrates exactly what is linear in each triangle; sums are relative to `origin`, so that far windows do not cancel.
+pub(super) fn region(surface: &Surface, values: &[Option<f64>], level: f64, origin: Point) -> Region {
+    let (mut area, mut mass, mut moment) = (0., 0., [0.; 2]);
+    // by the number of a triangle's side: where the level crosses it, and the sides it is joined with
+    let mut crossings: BTreeMap<usize, (Point, Vec<usize>)> = BTreeMap::new();
+    // sides of one triangle alone, with a corner in the region
+    let mut border: BTreeSet<usize> = BTreeSet::new();
+    for triangle in &surface.triangles {
+        let Some(corners) = surface.valued(triangle, values) else { continue };
+        let mut crossed: Vec<usize> = Vec::with_capacity(2);
+        let mut part: Vec<Valued> = Vec::with_capacity(4);
+        for k in 0..3 {
+            let (from, to) = (corners[k], corners[(k + 1) % 3]);
+            let side = triangle.sides[k];
+            if from.1 >= level || to.1 >= level {
+                // the second triangle takes it away again
+                if !border.remove(&side) {
+                    border.insert(side);
+                }
+            }
+            if from.1 >= level {
+                part.push(from);
+            }
+            if (from.1 >= level) != (to.1 >= level) {
+                let t = (level - from.1) / (to.1 - from.1);
+                let place =
+                    Point::new(from.0.x + t * (to.0.x - from.0.x), from.0.y + t * (to.0.y - from.0.y));
+                part.push((place, level));
+                crossings.entry(side).or_insert((place, Vec::new()));
+                crossed.push(side);
+            }
+        }
+        if let [a, b] = crossed[..] {
+            for (this, other) in [(a, b), (b, a)] {
+                if let Some((_, joined)) = crossings.get_mut(&this) {
+                    joined.push(other);
+                }
+            }
+        }
+        for k in 2..part.len() {
+            let (a, b, c) = (part[0], part[k - 1], part[k]);
+            let size = cross(a.0, b.0, c.0).abs() / 2.;
+            area += size;
+            // Σ over the middles of the sides is exact for a product of two linear functions
+            for (p, q) in [(a, b), (b, c), (c, a)] {
+                let weight = size / 3. * (p.1 + q.1) / 2.;
+                mass += weight;
+                moment[0] += weight * ((p.0.x + q.0.x) / 2. - origin.x);
+                moment[1] += weight * ((p.0.y + q.0.y) / 2. - origin.y);
+            }
+        }
+    }
+    let centroid = (mass > 0.).then(|| Point::new(origin.x + moment[0] / mass, origin.y + moment[1] / mass));
+    let mut contours = contours(crossings);
+    contours.sort_by(|a, b| b.length().total_cmp(&a.length()));
+    Region { area, centroid, cut: !border.is_empty(), contours }
+}
+
+/// Joins crossings to lines: first those that end, then those that close.
+fn contours(mut crossings: BTreeMap<usize, (Point, Vec<usize>)>) -> Vec<Contour> {
+    let mut lines = Vec::new();
+    for open in [true, false] {
+        let starts: Vec<usize> =
+            crossings.iter().filter(|(_, (_, joined))| !open || joined.len() < 2).map(|(&k, _)| k).collect();
+        for start in starts {
+            let mut places = Vec::new();
+            let mut at = Some(start);
+            while let Some((place, joined)) = at.and_then(|k| crossings.remove(&k)) {
+                places.push(place);
+                at = joined.into_iter().find(|next| crossings.contains_key(next));
+            }
+            if places.len() > 1 {
+                lines.push(Contour { places, closed: !open });
+            }
+        }
+    }
+    lines
+}

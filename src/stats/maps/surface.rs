@@ -1,0 +1,94 @@
+use crate::geometry::{Point, Window};
+use crate::stats::delaunay::delaunay;
+use rayon::prelude::*;
+use spade::Triangulation;
+
+/// Values at cones become values between them: linear over the Delaunay triangles that lie in the window, by the middles
+/// of their sides. Nothing is said beyond the hull of the cones, nor in a triangle with a corner that has no value.
+#[derive(Clone, Debug)]
+pub(super) struct Surface {
+    points: Vec<Point>,
+    pub(super) triangles: Vec<Triangle>,
+}
+
+/// Three points, by their indices, and the sides from each to the next, numbered alike in both triangles that share one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Triangle {
+    pub(super) corners: [usize; 3],
+    pub(super) sides: [usize; 3],
+}
+
+/// A place and its value.
+pub(super) type Valued = (Point, f64);
+
+impl Surface {
+    pub(super) fn new(points: &[Point], window: &Window) -> Self {
+        let mut triangles = Vec::new();
+        if let Some(found) = delaunay(points, &window.bounds()) {
+            for face in found.triangulation.inner_faces() {
+                let edges = face.adjacent_edges();
+                let corners = edges.map(|edge| found.sites[edge.from().index()].0);
+                let [a, b, c] = corners.map(|k| points[k]);
+                let middle = |p: Point, q: Point| Point::new((p.x + q.x) / 2., (p.y + q.y) / 2.);
+                if [middle(a, b), middle(b, c), middle(c, a)].iter().all(|&p| window.contains(p)) {
+                    triangles
+                        .push(Triangle { corners, sides: edges.map(|edge| edge.as_undirected().index()) });
+                }
+            }
+        }
+        Self { points: points.to_vec(), triangles }
+    }
+
+    /// The corners of a triangle with their values; `None` where one has none.
+    pub(super) fn valued(&self, triangle: &Triangle, values: &[Option<f64>]) -> Option<[Valued; 3]> {
+        let [a, b, c] = triangle.corners;
+        Some([(self.points[a], values[a]?), (self.points[b], values[b]?), (self.points[c], values[c]?)])
+    }
+
+    /// The values at a place of several maps, each if it is defined there.
+    pub(super) fn at<const N: usize>(&self, place: Point, maps: &[Vec<Option<f64>>; N]) -> [Option<f64>; N] {
+        let found = self.triangles.par_iter().find_map_first(|triangle| {
+            let shares = self.shares(triangle, place)?;
+            let value = |map: &Vec<Option<f64>>| weighted(map, triangle, shares);
+            let values: [Option<f64>; N] = std::array::from_fn(|k| value(&maps[k]));
+            values.iter().any(Option::is_some).then_some(values)
+        });
+        found.unwrap_or([None; N])
+    }
+
+    /// Barycentric coordinates of a place in a triangle, on whose border it may lie.
+    pub(super) fn shares(&self, triangle: &Triangle, place: Point) -> Option<[f64; 3]> {
+        let [a, b, c] = triangle.corners.map(|k| self.points[k]);
+        let (low, high) = (a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
+        if place.x < low || place.x > high {
+            return None;
+        }
+        let twice = cross(a, b, c);
+        if twice == 0. {
+            return None;
+        }
+        let shares = [cross(place, b, c) / twice, cross(a, place, c) / twice, cross(a, b, place) / twice];
+        // a hair of room, so that no place falls between two triangles
+        shares.iter().all(|&share| share >= -1e-12).then_some(shares)
+    }
+
+    /// The smallest upright rectangle around a triangle: left, upper, right and lower edge.
+    pub(super) fn extent(&self, triangle: &Triangle) -> [f64; 4] {
+        let [a, b, c] = triangle.corners.map(|k| self.points[k]);
+        [a.x.min(b.x).min(c.x), a.y.min(b.y).min(c.y), a.x.max(b.x).max(c.x), a.y.max(b.y).max(c.y)]
+    }
+}
+
+/// The value within a triangle, if its corners have one.
+pub(super) fn weighted(values: &[Option<f64>], triangle: &Triangle, shares: [f64; 3]) -> Option<f64> {
+    let mut sum = 0.;
+    for (&corner, share) in triangle.corners.iter().zip(shares) {
+        sum += share * values[corner]?;
+    }
+    Some(sum)
+}
+
+/// Twice the signed area of a triangle.
+pub(super) fn cross(a: Point, b: Point, c: Point) -> f64 {
+    (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)
+}
