@@ -107,7 +107,7 @@ fn windows_of_a_side_may_be_in_micrometres() {
     let first = |out: &str, column: &str| place.table(&format!("{out}/a.profiles.csv"))[0][column].clone();
     assert_eq!(
         (first("px", "r"), first("um", "r"), first("um", "r_um")),
-        ("5".into(), "5".into(), "2.5".into())
+        ("5.0".into(), "5.0".into(), "2.5".into())
     );
     let unscaled = place.run(&[&measure[..], &["none", "--map-side", "15um"]].concat());
     assert_eq!(unscaled.code, 2);

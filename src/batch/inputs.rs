@@ -77,6 +77,7 @@ fn is_table(path: &Path) -> bool {
         "profiles.csv",
         "pcf.csv",
         "metrics.json",
+        "options.json",
         "run.json",
     ];
     let endings = [".pcf.csv", ".maps.csv", ".profiles.csv"];

@@ -28,9 +28,14 @@ pub struct MapArgs {
 }
 
 impl MapArgs {
+    /// Whether maps are asked for.
+    pub const fn asked(&self) -> bool {
+        self.maps
+    }
+
     /// The maps asked for, if any are.
     pub fn request(&self) -> Result<Option<MapRequest>> {
-        if !self.maps {
+        if !self.asked() {
             return Ok(None);
         }
         let window = match (self.map_cells, self.map_side) {

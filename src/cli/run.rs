@@ -169,6 +169,9 @@ impl Run {
         if !outcome.records.is_empty() {
             text.push_str(&format!("\nFigures: {out}/images/NAME/figure.svg"));
         }
+        if self.maps.asked() {
+            text.push_str(&format!("\nMaps:    {out}/landmarks.csv"));
+        }
         if !outcome.failures.is_empty() {
             let failed = counted(outcome.failures.len(), "image");
             text.push_str(&format!("\n{failed} failed: {out}/failures.csv"));

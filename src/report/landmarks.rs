@@ -82,6 +82,11 @@ impl LandmarkRecord {
                  centroid lies too far inwards",
                 100. * maps.options.isodensity
             ),
+            (Some(_), false) if found.centroid.is_none() => {
+                format!(
+                    "no region: no three neighbouring cones have windows of {window} in the mosaic: {few}"
+                )
+            }
             (Some(_), false) => String::new(),
         };
         Self {

@@ -45,7 +45,9 @@ pub struct NearestAxes {
     pub direction: Option<f64>,
     /// Chance of such a resultant where all directions are alike, by Rayleigh's test with the variance of groups: points that are
     /// linked through nearest neighbours share axes (each other's nearest neighbours the same one) and count as one. For
-    /// axes that are not linked it is that test itself. `None` for fewer than 10 groups.
+    /// axes that are not linked it is that test itself. Uniform for independent points; in a regular mosaic the axes of a whole
+    /// patch of lattice agree, and of 200 simulated ones without direction, of some 320 cones, 18 % were below .05. `None` for
+    /// fewer than 10 groups.
     pub p_value: Option<f64>,
 }
 
@@ -61,7 +63,8 @@ pub struct NeighbourEllipse {
     /// Shorter half axis.
     pub minor: f64,
     /// Longer over shorter half axis, at least 1. Of a triangular lattice stretched by up to √3 (beyond, it has other
-    /// neighbours) it is that stretch.
+    /// neighbours) it is that stretch. By chance it is 1.02 (median) to 1.045 (95 %) in simulated mosaics of 320 cones without
+    /// direction, and nearer to 1 as 1/√n.
     pub anisotropy: f64,
     /// Direction of the longer half axis, 0–180°; `None` where both are equal.
     pub direction: Option<f64>,

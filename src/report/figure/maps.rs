@@ -1,7 +1,7 @@
 use super::canvas::{Anchor, Area, Canvas, FRAME, INK, PAGE_WIDTH, Style, fit, round_above, text_width};
 use super::field::{Projection, draw_outline, scale_bar};
 use super::page::{LEFT_EDGE, LETTER_RISE, TITLE_BASELINE};
-use super::shown_unit;
+use super::{shown_unit, with_unit};
 use crate::mosaic::Mosaic;
 use crate::report::grey::png;
 use crate::report::{ReportError, significant};
@@ -17,7 +17,7 @@ const COLOURS: ColorMap = ColorMap::Viridis;
 /// Samples of a map along the longer side of the window.
 const SAMPLES: usize = 192;
 /// Share of white in the colours of windows that reach beyond the mosaic.
-const PALE: f32 = 0.65;
+const PALE: f64 = 0.65;
 
 /// Fields wider than this many heights stand in two columns, and in one.
 const WIDE: f64 = 1.9;
@@ -166,30 +166,30 @@ pub fn maps_figure(title: &str, mosaic: &Mosaic, maps: &Maps) -> Result<String, 
 }
 
 /// From the least to the greatest value of whole windows; without any, of all.
-fn range(grid: &MapGrid) -> Option<(f32, f32)> {
+fn range(grid: &MapGrid) -> Option<(f64, f64)> {
     let of = |whole: bool| {
         let values = grid.values.iter().zip(&grid.whole).filter(|(v, w)| v.is_finite() && (**w || !whole));
         values.map(|(v, _)| (*v, *v)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     };
     let (low, high) = of(true).or_else(|| of(false))?;
     // equal up to rounding: one colour, and a bar around it
-    let least = (low.abs().max(high.abs()) * 1e-3).max(f32::MIN_POSITIVE);
+    let least = (low.abs().max(high.abs()) * 1e-3).max(f64::MIN_POSITIVE);
     if high - low >= least { Some((low, high)) } else { Some((low - least, high + least)) }
 }
 
-fn colour(share: f32) -> [u8; 3] {
-    let (red, green, blue) = COLOURS.map_rgb(f64::from(share.clamp(0., 1.))).unwrap_or((128, 128, 128));
+fn colour(share: f64) -> [u8; 3] {
+    let (red, green, blue) = COLOURS.map_rgb(share.clamp(0., 1.)).unwrap_or((128, 128, 128));
     [red, green, blue]
 }
 
 /// Red, green, blue and opacity of every sample: nothing where the map is not defined.
-fn coloured(grid: &MapGrid, (low, high): (f32, f32)) -> Vec<u8> {
-    let pixel = |(&value, &whole): (&f32, &bool)| {
+fn coloured(grid: &MapGrid, (low, high): (f64, f64)) -> Vec<u8> {
+    let pixel = |(&value, &whole): (&f64, &bool)| {
         if !value.is_finite() {
             return [255, 255, 255, 0];
         }
         let rgb = colour((value - low) / (high - low));
-        let pale = |c: u8| if whole { c } else { (f32::from(c) * (1. - PALE) + 255. * PALE).round() as u8 };
+        let pale = |c: u8| if whole { c } else { (f64::from(c) * (1. - PALE) + 255. * PALE).round() as u8 };
         let [red, green, blue] = rgb.map(pale);
         [red, green, blue, 255]
     };
@@ -197,15 +197,19 @@ fn coloured(grid: &MapGrid, (low, high): (f32, f32)) -> Vec<u8> {
 }
 
 /// The colours from low (below) to high, with labels at round values.
-fn draw_bar(canvas: &mut Canvas, bar: Area, range: (f32, f32), factor: f64) -> Result<(), ReportError> {
+fn draw_bar(canvas: &mut Canvas, bar: Area, range: (f64, f64), factor: f64) -> Result<(), ReportError> {
     const STEPS: u32 = 128;
     let pixels: Vec<u8> = (0..STEPS)
-        .flat_map(|row| [colour(1. - row as f32 / (STEPS - 1) as f32); 2].into_iter().flatten())
+        .flat_map(|row| [colour(1. - f64::from(row) / f64::from(STEPS - 1)); 2].into_iter().flatten())
         .collect();
     canvas.picture(&png(&pixels, 2, STEPS, ExtendedColorType::Rgb8)?, bar, bar);
     canvas.frame(bar);
-    let (low, high) = (f64::from(range.0) * factor, f64::from(range.1) * factor);
-    let step = round_above((high - low) / (bar.height / 26.).clamp(2., 5.));
+    let (low, high) = (range.0 * factor, range.1 * factor);
+    let mut step = round_above((high - low) / (bar.height / 26.).clamp(2., 5.));
+    if (high / step).floor() - (low / step).ceil() < 1. {
+        // one label is no scale: the next smaller of 1, 2, 5 × 10ᵏ
+        step = round_above(0.4 * step);
+    }
     let decimals = (-step.log10().floor()).max(0.) as usize;
     let mut tick = (low / step).ceil();
     while tick * step <= high && step > 0. {
@@ -245,12 +249,17 @@ fn draw_centroid(canvas: &mut Canvas, (x, y): (f64, f64)) {
     with_halo(canvas, &ring, 1.2);
 }
 
+/// Draws a mark about a place of the page.
+type Mark = fn(&mut Canvas, (f64, f64));
+
 /// What the marks mean, and the window.
 fn legend(canvas: &mut Canvas, y: f64, maps: &Maps, mosaic: &Mosaic) {
     let (factor, unit) = shown_unit(mosaic.micrometres_per_unit(), mosaic.unit());
     let window = match maps.options.window {
         LocalWindow::Cells(n) => format!("windows of {n} bound cells"),
-        LocalWindow::Side(side) => format!("windows {} {unit} wide", significant(side * factor, 3)),
+        LocalWindow::Side(side) => {
+            format!("windows {} wide", with_unit(&significant(side * factor, 3), unit))
+        }
     };
     let share = 100. * maps.options.isodensity;
     let mut x = LEFT_EDGE + MARK;
@@ -294,7 +303,7 @@ mod tests {
             columns: 4,
             rows: 1,
             step: 1.,
-            values: vec![f32::NAN, 1., 2., 9.],
+            values: vec![f64::NAN, 1., 2., 9.],
             whole: vec![false, true, true, false],
         };
         assert_eq!(range(&grid), Some((1., 2.)));
@@ -304,20 +313,20 @@ mod tests {
         assert_eq!([pixels[8], pixels[9], pixels[10]], colour(1.));
         assert!(pixels[12] > pixels[8] && pixels[14] > pixels[10], "{pixels:?}");
         // luminance rises
-        let light = |share: f32| {
-            let [r, g, b] = colour(share).map(f32::from);
+        let light = |share: f64| {
+            let [r, g, b] = colour(share).map(f64::from);
             0.2126 * r + 0.7152 * g + 0.0722 * b
         };
-        assert!((0..20).all(|k| light(k as f32 / 20.) < light((k + 1) as f32 / 20.)));
+        assert!((0..20).all(|k| light(f64::from(k) / 20.) < light(f64::from(k + 1) / 20.)));
     }
 
     #[test]
     fn equal_values_have_a_range_and_none_has_none() {
         let grid =
-            |value: f32| MapGrid { columns: 1, rows: 1, step: 1., values: vec![value], whole: vec![true] };
+            |value: f64| MapGrid { columns: 1, rows: 1, step: 1., values: vec![value], whole: vec![true] };
         let (low, high) = range(&grid(7.)).unwrap();
         assert!(low < 7. && high > 7.);
         assert!(range(&grid(0.)).is_some_and(|(low, high)| high > low));
-        assert_eq!(range(&grid(f32::NAN)), None);
+        assert_eq!(range(&grid(f64::NAN)), None);
     }
 }

@@ -13,7 +13,7 @@ pub struct MapGrid {
     pub step: f64,
     /// Values; not a number where the map is not defined: beyond the hull of the cones or the window, and in triangles one
     /// of whose corners has no value.
-    pub values: Vec<f32>,
+    pub values: Vec<f64>,
     /// Whether the local windows of all three corners are whole.
     pub whole: Vec<bool>,
 }
@@ -28,7 +28,7 @@ pub(super) fn grid(
     let step = bounds.width().max(bounds.height()) / longer.max(1) as f64;
     let count = |length: f64| (length / step).ceil().clamp(1., longer.max(1) as f64) as usize;
     let (columns, rows) = (count(bounds.width()), count(bounds.height()));
-    let mut values = vec![f32::NAN; columns * rows];
+    let mut values = vec![f64::NAN; columns * rows];
     let mut whole = vec![false; columns * rows];
     let map: Vec<Option<f64>> = local.iter().map(value).collect();
     let span = |from: f64, to: f64, low: f64, count: usize| {
@@ -47,7 +47,7 @@ pub(super) fn grid(
                 );
                 let found = surface.shares(triangle, place).and_then(|s| weighted(&map, triangle, s));
                 if let Some(found) = found {
-                    values[row * columns + column] = found as f32;
+                    values[row * columns + column] = found;
                     whole[row * columns + column] = all;
                 }
             }

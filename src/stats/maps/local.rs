@@ -16,7 +16,7 @@ pub enum LocalFlag {
     Whole,
     /// It reaches beyond the mosaic's window before it holds its cells: they lie to one side of the cone.
     Edge,
-    /// The mosaic holds fewer bound cells than asked for, or the window is wider than a torus: there are no values.
+    /// The mosaic holds fewer bound cells than asked for, or none, or the window is wider than a torus: there are no values.
     Few,
 }
 

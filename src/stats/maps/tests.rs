@@ -161,11 +161,15 @@ fn peak_centroid_and_area_of_a_known_density_are_found() {
             let ellipse = landmarks.ellipse.unwrap();
             let [peak_off, centroid_off, ellipse_off] =
                 [at, landmarks.centroid.unwrap(), ellipse.centre].map(|p| p.distance(middle) / 6.);
-            println!(
-                "seed {seed} n {n}: peak {peak_error:+.4} off {peak_off:.2} s, CDC off {centroid_off:.3} s, ellipse off \
-                 {ellipse_off:.3} s, area {area_error:+.4}, axes {:.3} {:.3}",
-                ellipse.semi_major / radius,
-                ellipse.semi_minor / radius,
+            // measured over six seeds: 1.2 %, 2.1 spacings, .38 and .40 spacings, −6.4 %
+            let case = format!(
+                "seed {seed}, {n} cells: {peak_error} {peak_off} {centroid_off} {ellipse_off} {area_error}"
+            );
+            assert!(peak_error.abs() < 0.03 && peak_off < 4., "{case}");
+            assert!(centroid_off < 0.8 && ellipse_off < 0.8 && area_error.abs() < 0.12, "{case}");
+            assert!(
+                (ellipse.semi_major * ellipse.semi_minor / (radius * radius) - 1.).abs() < 0.15,
+                "{case}"
             );
             assert!(!landmarks.cut);
         }
@@ -183,16 +187,25 @@ fn profiles_follow_the_law_of_density() {
             found.profile.iter().filter(move |row| row.along == along && (30. ..130.).contains(&row.r));
         rows.map(error).collect::<Vec<_>>()
     };
-    let worst = |errors: &[f64]| errors.iter().copied().fold(0., f64::max);
-    let rings = seen(Along::Ring);
-    println!("rings {rings:.3?}");
-    for along in Along::MERIDIANS {
+    // measured: 2.2 % on rings, 3 % on meridians (whose windows flatten the peak)
+    for (along, most) in [
+        (Along::Ring, 0.04),
+        (Along::Right, 0.05),
+        (Along::Down, 0.05),
+        (Along::Left, 0.05),
+        (Along::Up, 0.05),
+    ] {
         let errors = seen(along);
-        println!("{along:?} {:.3?} {}", errors, worst(&errors));
+        assert!(errors.len() == 5 && errors.iter().all(|e| *e < most), "{along:?} {errors:?}");
     }
-    let inner = found.profile.iter().find(|row| row.r == 30.).unwrap();
-    let spacing = 6. * (1. + 30. / 350.);
-    println!("{inner:?} {spacing}");
+    let ring = found.profile.iter().find(|row| row.r == 70.).unwrap();
+    let spacing = 6. * (1. + 70. / 350.);
+    assert!((ring.spacing.unwrap() / spacing - 1.).abs() < 0.02 && ring.share == Some(1.), "{ring:?}");
+    assert!((ring.inter_cell.unwrap() / spacing - 1.).abs() < 0.05, "{ring:?}");
+    // rings hold every bound cell
+    let bound: usize = found.profile.iter().filter_map(|row| row.bound).sum();
+    let cells = crate::stats::voronoi(mosaic.points(), mosaic.window()).cells;
+    assert_eq!(bound, cells.iter().filter(|cell| cell.bound).count());
 }
 
 #[test]
@@ -254,6 +267,28 @@ fn few_points_have_no_map_and_say_so() {
             assert!(found.landmarks.peak.is_none() && found.landmarks.centroid.is_none());
             assert!(found.profile.is_empty());
         }
+    }
+}
+
+#[test]
+fn the_unit_of_the_coordinates_does_not_matter() {
+    let at = |factor: f64| {
+        let points = uniform(400, 8).iter().map(|p| Point::new(p.x * factor, p.y * factor)).collect();
+        let window = Window::rectangle(0., 0., factor, factor).unwrap();
+        mapped(&mosaic(points, window), &cells(30))
+    };
+    let unit = at(1.);
+    let centroid = unit.landmarks.centroid.unwrap();
+    for factor in [1e-9, 1e12] {
+        let found = at(factor);
+        for (a, b) in unit.local.iter().zip(&found.local) {
+            assert_eq!((a.bound, a.flag), (b.bound, b.flag));
+            assert!((b.side.unwrap() / a.side.unwrap() / factor - 1.).abs() < 1e-6);
+            assert!((b.density.unwrap() / a.density.unwrap() * factor * factor - 1.).abs() < 1e-6);
+        }
+        let moved = found.landmarks.centroid.unwrap();
+        assert!(Point::new(moved.x / factor, moved.y / factor).distance(centroid) < 1e-6);
+        assert_eq!(found.profile.len(), unit.profile.len());
     }
 }
 

@@ -54,7 +54,8 @@ pub struct FourierMap {
 
 /// Modal spacing all over an image, from tiles of a side of twelve spacings ([`FourierMapOptions::side`]; at least 24 px, at most the shorter
 /// side of the image), overlapping by three quarters. Within a factor of two of the modal spacing of the whole image. Cones much wider
-/// apart than on average fill no tile with enough of them: beyond that factor the map is not to be trusted.
+/// apart than on average fill no tile with enough of them: beyond that factor the map is not to be trusted. At a spacing of 9 px
+/// 1024 × 1024 px take .75 s on two cores, 4096 × 4096 px 17 s.
 ///
 /// # Errors
 /// If an option is out of its range, the image is too small, its pixels are all the same or one is not a number, or the whole image
@@ -77,10 +78,10 @@ pub fn fourier_map(image: &Plane, options: &FourierMapOptions) -> Result<Fourier
     let (columns, rows) = (starts(width, side, PER_SIDE), starts(height, side, PER_SIDE));
     let polar = Polar::new(side);
     let fit = RingFit::new(side, polar.size);
-    let near = typical / LOCAL..=typical * LOCAL;
+    let (near, sector) = (typical / LOCAL..=typical * LOCAL, options.sector);
     let tiles: Vec<Option<FourierSpacing>> = profiles(image, &polar, empty.as_ref(), &columns, &rows)
         .iter()
-        .map(|p| p.as_ref().and_then(|p| fit.ring(&p[options.sector as usize], near.clone())))
+        .map(|p| p.as_ref().and_then(|p| fit.ring(&p[sector as usize], sector.part(), near.clone())))
         .collect();
 
     let middles = |starts: &[usize]| -> Vec<f64> {

@@ -36,12 +36,15 @@ pub struct FourierSpacing {
     /// From cone to cone of the triangular lattice with these rows, px: 2/√3 times as much. Such a lattice has
     /// 2/(√3 spacing²) cones per px². Mosaics less regular than a lattice are denser than that.
     pub spacing: f64,
-    /// Share, 0–1, of the variance of the profile about its background that the ring explains.
+    /// Share, 0–1, of the variance of the profile about its background that the ring explains, less what it explains of
+    /// noise by three standard deviations: 0 of noise.
     pub confidence: f64,
 }
 
-/// The modal spacing of an image by the direction of the waves. In a lattice that is not stretched the three agree, whatever its
-/// orientation: all six first peaks lie on one circle.
+/// The modal spacing of an image by the direction of the waves. In a mosaic that is not stretched the three agree, since the first
+/// peaks of a lattice lie on one circle, whatever its orientation. In the confocal images below, those sideways are 6.5 % wider than
+/// those up and down, and so is the ellipse of the marks' neighbours ([`crate::stats::NeighbourEllipse`]), 8.4 %. A split detector shows cones by
+/// their slope in one direction: there the two say nothing of a stretch.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FourierEstimate {
     /// Side of the tiles that the spectrum is a mean over, px.
@@ -58,9 +61,13 @@ pub struct FourierEstimate {
 /// half-overlapping square tiles that are as large as the image allows, up to 512 px. Pixels that were not imaged are filled in, and
 /// tiles of which more than half was not are left out unless all are.
 ///
-/// Against the spacing of the lattice with the density of the marks (see `tests/fourier_spacing.rs`, which measures it): 200 confocal
-/// images +3.5 % on average, standard deviation 1.7 %; 184 split-detector images −2 %, 6 %, with one in eleven farther off than
-/// 15 %.
+/// A mosaic has a ring because its patches of lattice are turned every way. A single perfect lattice has six points instead,
+/// which the mean of logarithms hardly sees: it may be missed.
+///
+/// Against the spacing of the lattice with the density of the marks (`tests/fourier_spacing.rs` measures it): of 200 confocal images
+/// all are within 15 %, on average 3.5 % wider, standard deviation 1.6 %, and the ring of the marks themselves
+/// ([`modal_spacing`](crate::stats::modal_spacing)) is 3.0 % wider, 1.9 %: mosaics are no lattices. Of 184 split-detector images 84 % are within 15 %
+/// (−2.9 %, 5.5 %), by the ring of the marks as many.
 ///
 /// # Errors
 /// If a side is below [`MIN_SIDE`](crate::detect::MIN_SIDE), all pixels are the same, or one is not a number.
@@ -85,7 +92,8 @@ fn estimate(image: &Plane, empty: Option<&EmptyPixels>) -> FourierEstimate {
     let mean = profile::mean(&known);
     let [all, row, cell] = Sector::ALL.map(|sector| {
         let (low, high) = SPACING_RANGE;
-        mean.as_ref().and_then(|m| fit.ring(&m[sector as usize], low..=high))
+        let part = known.len() as f64 * sector.part();
+        mean.as_ref().and_then(|m| fit.ring(&m[sector as usize], part, low..=high))
     });
     FourierEstimate { side, all, row, cell }
 }
@@ -128,27 +136,14 @@ mod tests {
         simulate(mosaic, &options, &mut ChaCha8Rng::seed_from_u64(7)).unwrap().image
     }
 
-    /// A triangular lattice of Gaussian spots with rows along x.
-    fn lattice_image(side: usize, spacing: f64) -> Plane {
-        let row = spacing * 0.75f64.sqrt();
-        Plane::from_shape_fn((side, side), |(y, x)| {
-            let (x, y) = (x as f64, y as f64);
-            let spot = |down: f64| {
-                let j = (y / row).round() + down;
-                let shift = 0.5 * j.rem_euclid(2.);
-                let i = (x / spacing - shift).round() + shift;
-                ((x - i * spacing).powi(2) + (y - j * row).powi(2)) / (2. * (0.25 * spacing).powi(2))
-            };
-            [-1., 0., 1.].map(|down| (-spot(down)).exp()).iter().sum::<f64>() as f32
-        })
-    }
-
     #[test]
-    fn the_rows_of_a_lattice_are_found_in_every_sector() {
+    fn the_spacing_of_an_even_mosaic_is_found_in_every_sector() {
         for spacing in [6., 9.5, 14.] {
-            let found = fourier_spacing(&lattice_image(200, spacing)).unwrap();
+            let mosaic = MosaicOptions { spacing, ..MosaicOptions::default() };
+            let found = fourier_spacing(&picture(&mosaic, 200, 200)).unwrap();
+            println!("{spacing} {found:?}");
             for ring in [found.all, found.row, found.cell].map(Option::unwrap) {
-                assert!((ring.spacing / spacing - 1.).abs() < 0.05, "{spacing}: {found:?}");
+                assert!((ring.spacing / spacing - 1.).abs() < 0.1, "{spacing}: {found:?}");
                 assert!((ring.row_spacing / ring.spacing - 0.75f64.sqrt()).abs() < 1e-12);
             }
         }
@@ -168,7 +163,7 @@ mod tests {
         let (even, tall) = (ratio(1.), ratio(1.3));
         println!("{even} {tall}");
         assert!((even - 1.).abs() < 0.04, "{even}");
-        assert!(tall > 1.15 && tall < 1.35, "{tall}");
+        assert!(tall > 1.08 && tall < 1.3, "{tall}");
     }
 
     #[test]
@@ -178,7 +173,7 @@ mod tests {
         let found = fourier_spacing(&noise).unwrap();
         let mosaic = fourier_spacing(&picture(&MosaicOptions::default(), 200, 200)).unwrap();
         println!("{found:?} {mosaic:?}");
-        assert!(found.all.is_none_or(|r| r.confidence < 0.4), "{found:?}");
+        assert!(found.all.is_none_or(|r| r.confidence < 0.2), "{found:?}");
         assert!(mosaic.all.unwrap().confidence > 0.5, "{mosaic:?}");
     }
 

@@ -20,6 +20,14 @@ pub enum Sector {
 impl Sector {
     /// Every sector, in the order in which profiles are stored.
     pub(super) const ALL: [Self; 3] = [Self::All, Self::Row, Self::Cell];
+
+    /// Which part of all directions it is.
+    pub(super) const fn part(self) -> f64 {
+        match self {
+            Self::All => 1.,
+            Self::Row | Self::Cell => 0.5,
+        }
+    }
 }
 
 /// Mean decimal logarithm of power at every radius, a cycle per `size` px apart, in the three sectors.

@@ -20,6 +20,7 @@ const WIDTH: f64 = 0.12;
 /// Over the logarithm of frequency from three periods per tile to half a cycle per px, the logarithm of power is a cubic polynomial
 /// plus a Gaussian. All but the Gaussian's place is linear, so that every place can be tried and none is a guess to start from.
 pub(super) struct RingFit {
+    side: f64,
     /// Where profiles are read: radius and share of the next.
     places: Vec<(usize, f64)>,
     /// Orthonormal polynomials over them.
@@ -27,6 +28,13 @@ pub(super) struct RingFit {
     /// Logarithms of frequency, in cycles per px, and the ring there, less its part that is background, normalised.
     rings: Vec<(f64, Vec<f64>)>,
 }
+
+/// Variance of the decimal logarithm of the power of noise, which is exponentially distributed: π²/(6 ln²10).
+const SCATTER: f64 = 0.3102;
+/// Terms of the transform of a tile that a Hann window makes one, along a line.
+const CORRELATED: f64 = 1.5;
+/// Rings within so many standard deviations of the scatter of power are none.
+const DEVIATIONS: f64 = 3.;
 
 /// Hexagonal spacing of the triangular lattice whose first ring has this frequency, and the other way round: 2/(√3 ·).
 pub(super) fn lattice(frequency_or_spacing: f64) -> f64 {
@@ -56,12 +64,13 @@ impl RingFit {
                 Some((at, without(ring, &background)?))
             })
             .collect();
-        Self { places, background, rings }
+        Self { side: side as f64, places, background, rings }
     }
 
     /// The ring of a profile among these hexagonal spacings, px; `None` if there is none: nowhere between their ends does a ring
-    /// explain more of the profile than beside it.
-    pub fn ring(&self, profile: &[f64], spacings: RangeInclusive<f64>) -> Option<FourierSpacing> {
+    /// explain more of the profile than beside it. `part` is how many tiles the profile is a mean over, times the part of all
+    /// directions.
+    pub fn ring(&self, profile: &[f64], part: f64, spacings: RangeInclusive<f64>) -> Option<FourierSpacing> {
         let at = |&(k, share): &(usize, f64)| profile[k] + share * (profile[k + 1] - profile[k]);
         let values: Vec<f64> = self.places.iter().map(at).collect();
         let mean = values.iter().sum::<f64>() / values.len() as f64;
@@ -84,8 +93,18 @@ impl RingFit {
         Some(FourierSpacing {
             row_spacing: 1. / frequency,
             spacing: lattice(frequency),
-            confidence: (b / left).clamp(0., 1.),
+            confidence: ((b - DEVIATIONS * DEVIATIONS * self.chance(frequency) / part) / left).clamp(0., 1.),
         })
+    }
+
+    /// What a ring explains on average of the scatter of power around a circle of one tile, half of which mirrors the other:
+    /// variance of the mean over the terms on it, times the places that share them.
+    fn chance(&self, frequency: f64) -> f64 {
+        let radius = frequency * self.side;
+        let variance = SCATTER * CORRELATED / (std::f64::consts::PI * radius);
+        let shared = CORRELATED / radius * PER_OCTAVE / std::f64::consts::LN_2;
+        let all = WIDTH * std::f64::consts::PI.sqrt() * PER_OCTAVE / std::f64::consts::LN_2;
+        variance * shared.clamp(1., 2. * all)
     }
 }
 
@@ -122,8 +141,8 @@ mod tests {
     fn a_ring_on_a_smooth_background_is_found_where_it_is() {
         let fit = RingFit::new(200, 400);
         for frequency in [0.04, 0.0731, 0.11, 0.2, 0.27] {
-            for height in [0.01, 2.] {
-                let found = fit.ring(&profile(frequency, height), 4. ..=40.).unwrap();
+            for height in [0.3, 2.] {
+                let found = fit.ring(&profile(frequency, height), 1e6, 4. ..=40.).unwrap();
                 assert!((found.row_spacing * frequency - 1.).abs() < 2e-3, "{frequency} {height}: {found:?}");
                 assert!((found.spacing * frequency * 0.75f64.sqrt() - 1.).abs() < 2e-3);
                 assert!(found.confidence > 0.99, "{found:?}");
@@ -134,10 +153,10 @@ mod tests {
     #[test]
     fn without_a_ring_or_with_one_elsewhere_there_is_none() {
         let fit = RingFit::new(200, 400);
-        assert_eq!(fit.ring(&[1.; 201], 4. ..=40.), None);
+        assert_eq!(fit.ring(&[1.; 201], 1., 4. ..=40.), None);
         // a dip, seen where there is nothing else
-        assert_eq!(fit.ring(&profile(0.1, -1.), 10. ..=13.), None);
-        assert_eq!(fit.ring(&profile(0.1, 1.), 14. ..=40.).filter(|r| r.confidence > 0.5), None);
+        assert_eq!(fit.ring(&profile(0.1, -1.), 1., 10. ..=13.), None);
+        assert_eq!(fit.ring(&profile(0.1, 1.), 1., 14. ..=40.).filter(|r| r.confidence > 0.5), None);
     }
 
     #[test]
