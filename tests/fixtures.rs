@@ -59,7 +59,7 @@ const IMAGES: [(&str, Modality, Polarity, f64); 10] = [
 fn every_image_is_listed_and_small() {
     let listed: Vec<PathBuf> = IMAGES.iter().map(|i| PathBuf::from(i.0)).collect();
     assert_eq!(files_in(&fixtures().join("images")), listed);
-    for folder in ["images", "truth", "dialects", "paper"].map(|f| fixtures().join(f)) {
+    for folder in ["images", "truth", "dialects", "paper", "points", "spatstat"].map(|f| fixtures().join(f)) {
         for file in files_in(&folder) {
             let size = fs::metadata(folder.join(&file)).unwrap().len();
             assert!(size < 60_000, "{}: {size} bytes", file.display());
@@ -94,7 +94,7 @@ fn the_script_makes_the_same_fixtures_again() {
         .output()
         .unwrap();
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
-    for folder in ["images", "truth", "dialects"] {
+    for folder in ["images", "truth", "dialects", "points"] {
         let (new, shipped) = (again.path().join(folder), fixtures().join(folder));
         let files = files_in(&shipped);
         assert_eq!(files_in(&new), files);

@@ -77,10 +77,26 @@ fn is_table(path: &Path) -> bool {
         "profiles.csv",
         "pcf.csv",
         "metrics.json",
+        "density_recovery.csv",
+        "fourier_map.csv",
+        "agreement.csv",
+        "differences.csv",
+        "regularity.csv",
+        "finding.csv",
+        "verdicts.csv",
+        "summary.json",
         "options.json",
         "run.json",
     ];
-    let endings = [".pcf.csv", ".maps.csv", ".profiles.csv"];
+    let endings = [
+        ".pcf.csv",
+        ".functions.csv",
+        ".density_recovery.csv",
+        ".spectrum.csv",
+        ".envelope.csv",
+        ".maps.csv",
+        ".profiles.csv",
+    ];
     known.contains(&&*name) || endings.iter().any(|ending| name.ends_with(ending))
 }
 
@@ -265,8 +281,15 @@ mod tests {
     #[test]
     fn results_of_earlier_runs_are_no_inputs() {
         let folder = tempfile::tempdir().unwrap();
-        let tables =
-            ["a.pcf.csv", "a.maps.csv", "a.profiles.csv", "summary.csv", "rois.csv", "landmarks.csv"];
+        let tables = [
+            "a.pcf.csv",
+            "a.maps.csv",
+            "a.profiles.csv",
+            "summary.csv",
+            "summary.json",
+            "rois.csv",
+            "landmarks.csv",
+        ];
         for file in ["a.png", "a.csv", "a.overlay.png", "b.overlay.png"].iter().chain(&tables) {
             std::fs::write(folder.path().join(file), "").unwrap();
         }

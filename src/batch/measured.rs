@@ -161,7 +161,7 @@ pub(super) fn points_table(mosaic: &Mosaic, measures: &Measures) -> (Vec<String>
                 measures.neighbours.distances.get(k).copied().into(),
                 // rows count from 1, as in R
                 measures.neighbours.indices.get(k).map(|j| j + 1).into(),
-                mosaic.window().border_distance(*p).into(),
+                measures.borders.get(k).copied().into(),
                 cell.clipped_area.into(),
                 cell.area.into(),
                 cell.sides.into(),

@@ -1,4 +1,5 @@
 use super::{Point, Polygon, PolygonError, Ring};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -186,6 +187,14 @@ impl Window {
             Self::Rectangle(r) => r.border_distance(p),
             Self::Torus(_) => f64::INFINITY,
             Self::Polygon(polygon) => polygon.border_distance(p),
+        }
+    }
+
+    /// [`Self::border_distance`] of many points.
+    pub fn border_distances(&self, points: &[Point]) -> Vec<f64> {
+        match self {
+            Self::Polygon(_) => points.par_iter().map(|&p| self.border_distance(p)).collect(),
+            Self::Rectangle(_) | Self::Torus(_) => points.iter().map(|&p| self.border_distance(p)).collect(),
         }
     }
 

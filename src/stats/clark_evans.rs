@@ -1,5 +1,5 @@
 use super::functions::FirstDistance;
-use crate::geometry::{NearestNeighbours, Point, Window};
+use crate::geometry::{NearestNeighbours, Window};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -12,15 +12,17 @@ const ROWS: usize = 513;
 pub struct ClarkEvans {
     /// All points, no correction: too large, as neighbours beyond the border are not seen.
     pub naive: Option<f64>,
-    /// Donnelly (1978): the expectation corrected by the border, 1/(2√λ) + (.0514 + .0412/√n) · perimeter/n. `None` on a
-    /// torus.
+    /// Donnelly (1978): the expectation corrected by the border, 1/(2√λ) + (.0514 + .0412/√n) · perimeter/n. He found it by
+    /// simulation in rectangles; in polygons, where spatstat gives none, it is an approximation. `None` on a torus.
     pub donnelly: Option<f64>,
-    /// Mean of the Kaplan–Meier estimate of G over its 513 left grid ends to √(ln 10⁵/(πλ)).
+    /// Mean of the Kaplan–Meier estimate of G over its 513 left grid ends to √(ln 10⁵/(πλ)). `None` too where no point is nearer
+    /// to its neighbour than to the border.
     pub cdf: Option<f64>,
 }
 
-pub(super) fn clark_evans(points: &[Point], window: &Window, nearest: &NearestNeighbours) -> ClarkEvans {
-    let n = points.len() as f64;
+/// `borders`: distance of every point to the border.
+pub(super) fn clark_evans(window: &Window, nearest: &NearestNeighbours, borders: &[f64]) -> ClarkEvans {
+    let n = nearest.distances.len() as f64;
     if nearest.distances.is_empty() {
         return ClarkEvans::default();
     }
@@ -29,8 +31,7 @@ pub(super) fn clark_evans(points: &[Point], window: &Window, nearest: &NearestNe
     let mean = nearest.distances.iter().sum::<f64>() / n;
     let r_max = (1e5f64.ln() / (PI * density)).sqrt();
     let r: Vec<f64> = (0..ROWS).map(|k| k as f64 * r_max / (ROWS - 1) as f64).collect();
-    let borders: Vec<f64> = points.iter().map(|&p| window.border_distance(p)).collect();
-    let g = FirstDistance::new(&nearest.distances, &borders, &r, |_| 1.).kaplan_meier;
+    let g = FirstDistance::new(&nearest.distances, borders, &r, |_| 1.).kaplan_meier;
     let (mut sum, mut total) = (0., 0.);
     for k in 1..ROWS {
         let step = g[k] - g[k - 1];

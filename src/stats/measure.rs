@@ -1,7 +1,7 @@
 use super::{
     ClarkEvans, DensityRecovery, DensityRecoveryOptions, Deviation, Histogram, Inhomogeneous, ModalSpacing,
     Moments, NearestNeighbours, Orientation, Pcf, PcfOptions, StatsError, Trend, Voronoi, VoronoiSummary,
-    clark_evans::clark_evans, density_recovery, inhomogeneous, interior, modal_spacing, moments,
+    clark_evans::clark_evans, density_recovery, inhomogeneous, modal_spacing, moments, nearest::interior_by,
     nearest_neighbours, orientation, pcf, trend, voronoi,
 };
 use crate::mosaic::Mosaic;
@@ -23,7 +23,9 @@ pub struct Measures {
     pub deviation: Deviation,
     /// Nearest neighbour of every point.
     pub neighbours: NearestNeighbours,
-    /// Their distances: all points.
+    /// Distance of every point to the border, in the unit of the coordinates; infinite on a torus.
+    pub borders: Vec<f64>,
+    /// Distances to the nearest neighbours: all points.
     pub nearest: Moments,
     /// Points whose distance to the border is at least that to their nearest neighbour.
     pub nearest_interior: Moments,
@@ -61,7 +63,8 @@ pub fn measure(mosaic: &Mosaic, options: &MeasureOptions) -> Measures {
             kept.zip(&neighbours.distances).filter_map(|(keep, &d)| keep.then_some(d)).collect();
         moments(&distances, options.deviation)
     };
-    let nearest_interior = nearest_of(&mut interior(points, window, &neighbours).into_iter());
+    let borders = window.border_distances(points);
+    let nearest_interior = nearest_of(&mut interior_by(&borders, &neighbours));
     let trend = trend(points, window);
     let cells = voronoi(points, window);
     let nearest_bound = nearest_of(&mut cells.cells.iter().map(|cell| cell.bound));
@@ -71,7 +74,7 @@ pub fn measure(mosaic: &Mosaic, options: &MeasureOptions) -> Measures {
         nearest_interior,
         histogram: Histogram::new(&neighbours.distances),
         nearest_bound,
-        clark_evans: clark_evans(points, window, &neighbours),
+        clark_evans: clark_evans(window, &neighbours, &borders),
         voronoi: cells.summary(),
         orientation: orientation(points, window, &neighbours, &cells),
         density_recovery: density_recovery(points, window, &DensityRecoveryOptions::default()),
@@ -84,5 +87,6 @@ pub fn measure(mosaic: &Mosaic, options: &MeasureOptions) -> Measures {
         trend,
         pcf: pcf(points, window, &options.pcf),
         neighbours,
+        borders,
     }
 }

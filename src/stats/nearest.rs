@@ -4,7 +4,12 @@ use serde::{Deserialize, Serialize};
 /// Points whose distance to the border is at least the distance to their nearest neighbour: for them no neighbour
 /// beyond the border could have been nearer. All points of a torus.
 pub fn interior(points: &[Point], window: &Window, nearest: &NearestNeighbours) -> Vec<bool> {
-    points.iter().zip(&nearest.distances).map(|(&p, &d)| window.border_distance(p) >= d).collect()
+    interior_by(&window.border_distances(points), nearest).collect()
+}
+
+/// [`interior`], given the distance of every point to the border.
+pub(super) fn interior_by(borders: &[f64], nearest: &NearestNeighbours) -> impl Iterator<Item = bool> {
+    borders.iter().zip(&nearest.distances).map(|(b, d)| b >= d)
 }
 
 /// The divisor of the variance.

@@ -2,14 +2,19 @@ use super::delaunay::{Delaunay, delaunay};
 use super::{Deviation, Moments, moments};
 use crate::geometry::{Point, Window, clipped_cell_area};
 use crate::mosaic::hexagonal_spacing;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use spade::Triangulation;
-use spade::handles::VoronoiVertex;
+use spade::handles::{VertexHandle, VoronoiVertex};
+use spade::{Point2, Triangulation};
 
 /// Voronoi vertices nearer than this share of the spacing are one: a side of no length is no side.
 const SAME_VERTEX: f64 = 1e-7;
+/// Points from which on all threads make cells.
+const SPREAD_FROM: usize = 8192;
 /// How far, in spacings, the pattern of a torus is repeated beyond its edges at first.
 const MARGIN: f64 = 5.;
+
+type Vertex<'a> = VertexHandle<'a, Point2<f64>, (), (), ()>;
 
 /// The part of the plane nearer to a point than to any other.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -160,14 +165,14 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
         extent: None,
     };
     let mut cells = vec![NONE; n];
-    let mut farthest = 0f64;
     let bounds = window.bounds();
     let side = bounds.width().max(bounds.height());
     let Some(Delaunay { sites, triangulation }) = delaunay(points, &bounds) else {
-        return (cells, farthest);
+        return (cells, 0.);
     };
     let same = SAME_VERTEX * spacing / side;
-    for ((index, site), vertex) in sites.iter().zip(triangulation.vertices()).filter(|((i, _), _)| *i < n) {
+    // the cell, and the distance of its farthest corner
+    let cell_of = |(index, site): &(usize, [f64; 2]), vertex: Vertex| {
         let mut corners: Vec<[f64; 2]> = Vec::with_capacity(8);
         let mut finite = true;
         let at = points[*index];
@@ -199,15 +204,13 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
         while corners.len() > 1 && apart(corners[0], corners[corners.len() - 1]) <= same {
             corners.pop();
         }
-        let cell = &mut cells[*index];
-        describe_neighbours(cell, at, &beyond_sides);
+        let mut cell = NONE;
+        describe_neighbours(&mut cell, at, &beyond_sides);
         if !finite || corners.len() < 3 {
-            farthest = f64::INFINITY;
             cell.clipped_area = (!window.is_torus()).then(|| clipped_cell_area(window, at, &adjacent));
-            continue;
+            return (cell, f64::INFINITY);
         }
         let reach = corners.iter().map(|&c| apart(c, *site)).fold(0., f64::max);
-        farthest = farthest.max(reach * side);
         let twice: f64 = (0..corners.len())
             .map(|i| {
                 let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
@@ -234,6 +237,20 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
         cell.bound = inside || window.is_torus();
         let whole = window.is_torus() || window.border_distance(at) >= reach * side;
         cell.clipped_area = Some(if whole { area } else { clipped_cell_area(window, at, &adjacent) });
+        (cell, reach * side)
+    };
+    // the first n points come first
+    let wanted = sites.partition_point(|(i, _)| *i < n);
+    let (sites, vertices) = (&sites[..wanted], &triangulation.vertices().take(wanted).collect::<Vec<_>>());
+    let found: Vec<(Cell, f64)> = if wanted < SPREAD_FROM {
+        sites.iter().zip(vertices).map(|(site, vertex)| cell_of(site, *vertex)).collect()
+    } else {
+        sites.par_iter().zip(vertices).map(|(site, vertex)| cell_of(site, *vertex)).collect()
+    };
+    let mut farthest = 0f64;
+    for ((index, _), (cell, reach)) in sites.iter().zip(found) {
+        cells[*index] = cell;
+        farthest = farthest.max(reach);
     }
     (cells, farthest)
 }

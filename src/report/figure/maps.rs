@@ -9,9 +9,6 @@ use crate::stats::{LocalValues, LocalWindow, MapGrid, Maps};
 use image::ExtendedColorType;
 use kuva::plot::ColorMap;
 
-/// Draws a landmark at a place of the canvas.
-type Mark = fn(&mut Canvas, (f64, f64));
-
 /// Perceptually uniform, told apart by colour-blind readers and in grey.
 const COLOURS: ColorMap = ColorMap::Viridis;
 /// Samples of a map along the longer side of the window.

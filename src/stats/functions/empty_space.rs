@@ -1,5 +1,4 @@
 use crate::geometry::{Point, Window, distances_to_nearest};
-use rayon::prelude::*;
 
 /// Test places along each side of the window's bounds, as in spatstat.
 const PLACES: usize = 128;
@@ -24,7 +23,7 @@ pub(super) fn empty_space(points: &[Point], window: &Window) -> EmptySpace {
         .filter(|&p| window.contains(p))
         .collect();
     let distances = distances_to_nearest(&places, points, window);
-    let borders: Vec<f64> = places.par_iter().map(|&p| window.border_distance(p)).collect();
+    let borders = window.border_distances(&places);
     let mut sorted_borders = borders.clone();
     sorted_borders.sort_by(f64::total_cmp);
     EmptySpace { distances, borders, sorted_borders }

@@ -15,10 +15,10 @@ pub(super) struct Binned {
     bandwidth: f64,
     low: f64,
     high: f64,
-    /// Weights at the nodes.
-    nodes: Vec<f64>,
-    /// Weights over distance at the nodes.
-    nodes_by_d: Vec<f64>,
+    /// Nodes a unit of length.
+    density: f64,
+    /// At every node the translation and the isotropic weights, and both over distance.
+    nodes: Vec<[f64; 4]>,
 }
 
 /// g at the distances of a table; NaN where it is not defined.
@@ -38,8 +38,8 @@ impl Binned {
             bandwidth,
             low: -margin,
             high: r_max + margin,
-            nodes: vec![0.; NODES],
-            nodes_by_d: vec![0.; NODES],
+            density: (NODES - 1) as f64 / (r_max + 2. * margin),
+            nodes: vec![[0.; 4]; NODES],
         }
     }
 
@@ -48,30 +48,30 @@ impl Binned {
         self.bandwidth * 5f64.sqrt()
     }
 
-    pub(super) fn add(&mut self, d: f64, weight: f64) {
-        let at = (d - self.low) / (self.high - self.low) * (NODES - 1) as f64;
+    /// Takes in a pair at distance `d` with its translation and its isotropic weight.
+    #[inline]
+    pub(super) fn add(&mut self, d: f64, translation: f64, isotropic: f64) {
+        let at = (d - self.low) * self.density;
         let node = at as usize;
         let share = at - node as f64;
-        if node + 1 >= NODES {
-            return;
-        }
+        let Some([before, after]) = self.nodes.get_mut(node..node.saturating_add(2)) else { return };
         // Points that coincide have no distance to divide by: they count at r = 0 of the other divisor only.
-        let by_d = if d > 0. { weight / d } else { 0. };
-        self.nodes[node] += weight * (1. - share);
-        self.nodes[node + 1] += weight * share;
-        self.nodes_by_d[node] += by_d * (1. - share);
-        self.nodes_by_d[node + 1] += by_d * share;
+        let by_d = if d > 0. { 1. / d } else { 0. };
+        let weights = [translation, isotropic, translation * by_d, isotropic * by_d];
+        for ((before, after), weight) in before.iter_mut().zip(after).zip(weights) {
+            *before += weight * (1. - share);
+            *after += weight * share;
+        }
     }
 
     pub(super) fn merge(&mut self, other: &Self) {
-        let own = self.nodes.iter_mut().chain(&mut self.nodes_by_d);
-        for (a, b) in own.zip(other.nodes.iter().chain(&other.nodes_by_d)) {
+        for (a, b) in self.nodes.as_flattened_mut().iter_mut().zip(other.nodes.as_flattened()) {
             *a += b;
         }
     }
 
-    /// `per_pair`: A/(n(n−1)).
-    pub(super) fn curves(&self, r: &[f64], per_pair: f64) -> PcfCurves {
+    /// The curves with translation and with isotropic weights. `per_pair`: A/(n(n−1)).
+    pub(super) fn curves(&self, r: &[f64], per_pair: f64) -> [PcfCurves; 2] {
         let range = self.high - self.low;
         // R takes 2n nodes over twice the range for the kernel, which are not quite as far apart as those of the data.
         let kernel_step = 2. * range / (2 * NODES - 1) as f64;
@@ -81,12 +81,12 @@ impl Binned {
             .take_while(|&x| x < half)
             .map(|x| 0.75 * (1. - (x / half) * (x / half)) / half)
             .collect();
-        let smooth = |nodes: &[f64]| -> Vec<f64> {
+        let smooth = |of: usize| -> Vec<f64> {
             let smoothed: Vec<f64> = (0..NODES)
                 .map(|i| {
                     let first = (i + 1).saturating_sub(kernel.len());
                     let last = (i + kernel.len()).min(NODES);
-                    (first..last).map(|j| nodes[j] * kernel[i.abs_diff(j)]).sum()
+                    (first..last).map(|j| self.nodes[j][of] * kernel[i.abs_diff(j)]).sum()
                 })
                 .collect();
             let at_distance = |r: &f64| {
@@ -96,12 +96,14 @@ impl Binned {
             };
             r.iter().map(at_distance).collect()
         };
-        let by_r = smooth(&self.nodes)
-            .iter()
-            .zip(r)
-            .map(|(sum, &r)| if r > 0. { per_pair * sum / (TAU * r) } else { f64::NAN })
-            .collect();
-        let by_d = smooth(&self.nodes_by_d).iter().map(|sum| per_pair * sum / TAU).collect();
-        PcfCurves { by_r, by_d }
+        [0, 1].map(|of| {
+            let by_r = smooth(of)
+                .iter()
+                .zip(r)
+                .map(|(sum, &r)| if r > 0. { per_pair * sum / (TAU * r) } else { f64::NAN })
+                .collect();
+            let by_d = smooth(of + 2).iter().map(|sum| per_pair * sum / TAU).collect();
+            PcfCurves { by_r, by_d }
+        })
     }
 }

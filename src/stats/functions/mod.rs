@@ -1,5 +1,9 @@
 //! Functions of distance: G, F, J, K, L and g, with the edge corrections and the binning of spatstat 3.0 (Baddeley,
 //! Rubak & Turner 2015), so that values can be compared digit by digit.
+//!
+//! In a polygon spatstat takes pixels for some of it: for F the distance to the nearest pixel outside instead of to the border (its F is up
+//! to .004 off for that, measured on one outline), for translation weights a table of the set covariance (as here; K is then within
+//! .2 % of the exact value), for Hanisch's estimates the area of an eroded mask (as here; within 1 % of F and G).
 
 mod empty_space;
 mod first_distance;
@@ -85,15 +89,14 @@ pub fn functions(
     all_inside(points, window)?;
     let density = points.len() as f64 / window.area();
     let empty = empty_space(points, window);
-    let g = (!nearest.distances.is_empty()).then(|| {
-        let borders: Vec<f64> = points.iter().map(|&p| window.border_distance(p)).collect();
-        FirstDistance::new(&nearest.distances, &borders, &r, |r| empty.eroded(window, r))
-    });
+    let borders = window.border_distances(points);
+    let g = (!nearest.distances.is_empty())
+        .then(|| FirstDistance::new(&nearest.distances, &borders, &r, |r| empty.eroded(window, r)));
     let f = (!points.is_empty())
         .then(|| FirstDistance::new(&empty.distances, &empty.borders, &r, |r| empty.eroded(window, r)));
     Ok(Functions {
         poisson: r.iter().map(|r| -(-density * PI * r * r).exp_m1()).collect(),
-        ripley: (points.len() > 1).then(|| Ripley::new(points, window, &r)),
+        ripley: (points.len() > 1).then(|| Ripley::new(points, &borders, window, &r)),
         g,
         f,
         r,
@@ -154,7 +157,7 @@ impl Functions {
 /// Index of the first of the `r` that is at least `d`; `r` begins with 0 and is even.
 fn first_at_least(r: &[f64], d: f64) -> usize {
     let step = r.get(1).copied().unwrap_or(f64::INFINITY);
-    let mut k = ((d / step).floor().max(0.) as usize).min(r.len());
+    let mut k = ((d / step) as usize).min(r.len());
     while k > 0 && r[k - 1] >= d {
         k -= 1;
     }

@@ -23,18 +23,16 @@ pub(super) struct Ripley {
 
 /// Sums over the pairs of one part of the pattern, by the first row that reaches them.
 struct Sums {
-    none: Vec<u64>,
+    /// Weights without correction, with translation and with isotropic correction.
+    k: Vec<[f64; 3]>,
     /// Pairs seen from a point whose border distance is at least r: begun at a row, ended before another.
     border: Vec<i64>,
-    translation: Vec<f64>,
-    isotropic: Vec<f64>,
-    g_translation: Binned,
-    g_isotropic: Binned,
+    g: Binned,
 }
 
 impl Ripley {
-    /// Of at least two points, all inside the window.
-    pub(super) fn new(points: &[Point], window: &Window, r: &[f64]) -> Self {
+    /// Of at least two points, all inside the window, with their distances to the border.
+    pub(super) fn new(points: &[Point], borders: &[f64], window: &Window, r: &[f64]) -> Self {
         let (n, area, rows) = (points.len(), window.area(), r.len());
         let density = n as f64 / area;
         let empty = Binned::new(r[rows - 1], density);
@@ -42,38 +40,27 @@ impl Ripley {
         let grid = PairGrid::new(points, window, torus, r[rows - 1] + empty.half_width());
         let weights = EdgeWeights::new(window);
         // Rows that the border distance of each point reaches; sorted as the grid's points.
-        let seen_from: Vec<usize> =
-            (0..n).map(|i| rows_up_to(r, window.border_distance(grid.point(i)))).collect();
+        let borders = grid.sorted(borders);
+        let seen_from: Vec<usize> = borders.iter().map(|&b| rows_up_to(r, b)).collect();
         let chunks = if n < CHUNKED_FROM { 1 } else { CHUNKS.min(grid.rows()) };
         let sums_of = |chunk: usize| {
             let part = chunk * grid.rows() / chunks..(chunk + 1) * grid.rows() / chunks;
-            let mut sums = Sums {
-                none: vec![0; rows + 1],
-                border: vec![0; rows + 1],
-                translation: vec![0.; rows + 1],
-                isotropic: vec![0.; rows + 1],
-                g_translation: empty.clone(),
-                g_isotropic: empty.clone(),
-            };
+            let mut sums = Sums { k: vec![[0.; 3]; rows], border: vec![0; rows + 1], g: empty.clone() };
             grid.visit(part, |i, j, dx, dy| {
                 let d = (dx * dx + dy * dy).sqrt();
-                let from = grid.point(i);
-                let to = Point::new(from.x + dx, from.y + dy);
-                let (translation, isotropic) = if torus {
-                    (1., 1.)
+                let translation = if torus { 1. } else { weights.translation(dx, dy) };
+                // circles that do not reach the border are whole
+                let isotropic = if borders[i] >= d && borders[j] >= d {
+                    1.
                 } else {
-                    (weights.translation(dx, dy), weights.isotropic(from, to, d))
+                    let from = grid.point(i);
+                    weights.isotropic(from, Point::new(from.x + dx, from.y + dy), d)
                 };
                 // A pair was visited once and counts in both orders.
-                sums.g_translation.add(d, 2. * translation);
-                sums.g_isotropic.add(d, 2. * isotropic);
+                sums.g.add(d, 2. * translation, 2. * isotropic);
                 let at = first_at_least(r, d);
-                if at == rows {
-                    return;
-                }
-                sums.none[at] += 2;
-                sums.translation[at] += 2. * translation;
-                sums.isotropic[at] += 2. * isotropic;
+                let Some(k) = sums.k.get_mut(at) else { return };
+                *k = [k[0] + 2., k[1] + 2. * translation, k[2] + 2. * isotropic];
                 for end in [seen_from[i], seen_from[j]] {
                     if at < end {
                         sums.border[at] += 1;
@@ -111,18 +98,16 @@ impl Ripley {
                 if left > 0 { pairs / (density * left as f64) } else { f64::NAN }
             })
             .collect();
-        let (mut g_translation, mut g_isotropic) = (empty.clone(), empty);
-        for part in &parts {
-            g_translation.merge(&part.g_translation);
-            g_isotropic.merge(&part.g_isotropic);
-        }
+        let mut g = empty;
+        parts.iter().for_each(|part| g.merge(&part.g));
+        let [g_translation, g_isotropic] = g.curves(r, per_pair);
         Self {
-            none: k_of(&|s, k| s.none[k] as f64),
+            none: k_of(&|s, k| s.k[k][0]),
             border,
-            translation: k_of(&|s, k| s.translation[k]),
-            isotropic: k_of(&|s, k| s.isotropic[k]),
-            g_translation: g_translation.curves(r, per_pair),
-            g_isotropic: g_isotropic.curves(r, per_pair),
+            translation: k_of(&|s, k| s.k[k][1]),
+            isotropic: k_of(&|s, k| s.k[k][2]),
+            g_translation,
+            g_isotropic,
         }
     }
 }

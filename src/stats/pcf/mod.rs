@@ -22,7 +22,7 @@ pub enum EdgeCorrection {
     #[default]
     SetCovariance,
     /// Each pair weighs the area of the window W over |W ∩ (W + Δ)|, at most 100: wh/((w−|Δx|)(h−|Δy|)) in a rectangle,
-    /// within 10⁻³ of the exact value in a polygon (Ohser & Stoyan 1981).
+    /// within 2 · 10⁻³ of the exact value in a polygon (Ohser & Stoyan 1981).
     Translation,
     /// Each pair weighs the inverse share, within the window, of the circles around either point through the other,
     /// at most 100 (Ripley 1976).
