@@ -212,7 +212,7 @@ pub(super) const FOURIER: &[Metric] = &[
         group: Fourier,
         quantity: SHARE,
         edge: NotAffected,
-        definition: "Share of what the background leaves of the profile in all directions that the ring explains.",
+        definition: "Share of the variance of the profile in all directions about its background that the ring explains, less what it explains of noise by three standard deviations: 0 of noise.",
         source: "Cooper, Aguirre & Morgan 2019, with another background and fit",
         only: IMAGES,
         value: One(|s| s.image().and_then(|r| r.fourier.all).map(|f| f.confidence).into()),
