@@ -55,6 +55,7 @@ fn a_region_is_measured_as_a_mosaic_of_its_own() {
 #[test]
 fn one_table_serves_a_folder() {
     let place = Place::new();
+    place.write("marks/.keep", "");
     for (name, seed) in [("JC_10.csv", "1"), ("JC_2.csv", "2"), ("AD_1.csv", "3")] {
         cones(&place, &format!("marks/{name}"), seed);
     }
@@ -177,7 +178,8 @@ fn regions_that_cannot_be_are_refused() {
         (&["--rois", "bare.csv"], &["bare.csv, line 1", "x0, y0"]),
         (&["--rois", "none.csv"], &["none.csv", "cannot be read"]),
         (&["--roi-cells", "50"], &["--rois"]),
-        (&["--roi-step", "5", "--rois", "flat.csv"], &["--roi-side"]),
+        (&["--roi-step", "5", "--rois", "flat.csv"], &["--roi-step", "cannot be used with"]),
+        (&["--roi-step", "5"], &["--roi-side"]),
         (&["--roi-side", "5", "--rois", "flat.csv"], &["cannot be used with"]),
         (&["--roi-side", "5", "--roi-cells", "0"], &["1 to 100000"]),
         (&["--roi-side", "much"], &["um behind it"]),

@@ -158,6 +158,9 @@ pub enum BatchError {
     /// See [`AmbiguousRow`].
     #[error(transparent)]
     Manifest(#[from] AmbiguousRow),
+    /// Tables that cannot be held against each other.
+    #[error("{0}")]
+    Tables(String),
     /// Images that cannot be grouped as asked.
     #[error("{0}")]
     Group(String),

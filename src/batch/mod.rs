@@ -1,6 +1,7 @@
 //! Folders of files: finds them, names them, gives them their scale, works through them on all cores, keeps
 //! failures apart. Knows nothing of mathematics.
 
+mod agreement;
 mod comparison;
 mod coordinates;
 mod crop;
@@ -26,6 +27,7 @@ mod validation;
 mod verdicts;
 mod work;
 
+pub use agreement::{AgreementOutcome, ColumnAgreement, agree_files};
 pub use comparison::{CompareOptions, compare_files};
 pub use coordinates::{CoordinatesOptions, CoordinatesOutcome, measure_files};
 pub use crop::Crop;

@@ -1,6 +1,7 @@
 //! The command line: one file a subcommand. Arguments become options, options go into one call, its outcome becomes
 //! words and an exit code. Only here is anything printed.
 
+mod agree;
 mod common;
 mod compare;
 mod completions;
@@ -52,6 +53,7 @@ enum Command {
     Measure(Box<measure::Measure>),
     Compare(compare::Compare),
     Validate(validate::Validate),
+    Agree(agree::Agree),
     Sample(sample::Sample),
     Render(Box<render::Render>),
     Paper(paper::Paper),
@@ -87,6 +89,7 @@ pub fn main() -> ExitCode {
         Command::Measure(command) => command.execute(common),
         Command::Compare(command) => command.execute(common),
         Command::Validate(command) => command.execute(common),
+        Command::Agree(command) => command.execute(common),
         Command::Sample(command) => command.execute(common),
         Command::Paper(command) => command.execute(common),
         Command::Render(command) => command.execute(common),

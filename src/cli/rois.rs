@@ -18,7 +18,7 @@ pub struct RoiArgs {
     #[arg(long, value_name = "SIDE", group = "roi_source")]
     roi_side: Option<Length>,
     /// From one of these squares to the next [default: their side, so that they tile the window]
-    #[arg(long, value_name = "STEP", requires = "roi_side")]
+    #[arg(long, value_name = "STEP", requires = "roi_side", conflicts_with = "rois")]
     roi_step: Option<Length>,
     /// Each region grows about its centre, in proportion, until it holds this many bound cells (1–100000); one that ends at the
     /// border of the window first is flagged “few”

@@ -30,7 +30,7 @@ pub use crate::geometry::{NearestNeighbours, nearest_neighbours};
 pub use clark_evans::ClarkEvans;
 pub use density_recovery::{BinWidth, DensityRecovery, DensityRecoveryOptions, density_recovery};
 pub use error::StatsError;
-pub use functions::{FirstDistance, FunctionOptions, Functions, functions};
+pub use functions::{FirstDistance, FunctionOptions, Functions, RipleyK, functions, ripley_k};
 pub use histogram::Histogram;
 pub use inhomogeneous::{Inhomogeneous, inhomogeneous};
 pub use intensity::default_intensity_bandwidth;

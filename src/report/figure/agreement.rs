@@ -35,8 +35,8 @@ pub struct AgreementPanel<'a> {
     pub limits: Option<[AgreementLine; 2]>,
 }
 
-/// Draws two Bland–Altman plots (Bland & Altman 1986) side by side, 180 mm wide, as a self-contained SVG.
-pub fn agreement_figure(title: &str, panels: &[AgreementPanel; 2]) -> String {
+/// Draws one or two Bland–Altman plots (Bland & Altman 1986) side by side, 180 mm wide, as a self-contained SVG.
+pub fn agreement_figure(title: &str, panels: &[AgreementPanel]) -> String {
     let mut canvas = two_panels(title);
     for (panel, area) in panels.iter().zip(two_areas()) {
         draw(&mut canvas, area, panel);
@@ -56,8 +56,8 @@ fn draw(canvas: &mut Canvas, area: Area, panel: &AgreementPanel) {
     let ends = lines.iter().flat_map(|l| [Some(l.value), l.interval.map(|i| i[0]), l.interval.map(|i| i[1])]);
     let y = with_margin(pairs.iter().map(|p| p.1).chain(ends.flatten()).chain([0.]));
     let x = with_margin(pairs.iter().map(|p| p.0));
-    // no measurement is below 0
-    let x = (x.0.max(0.), x.1);
+    // what is never below 0 has no axis below 0
+    let x = if pairs.iter().all(|p| p.0 >= 0.) { (x.0.max(0.), x.1) } else { x };
     let step = round_above((y.1 - y.0) / 6.);
     let place = canvas.axes(area, Ranges { x, y }, (panel.mean_label, panel.difference_label), step);
     for (k, line) in lines.iter().enumerate() {

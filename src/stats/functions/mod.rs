@@ -96,7 +96,7 @@ pub fn functions(
         .then(|| FirstDistance::new(&empty.distances, &empty.borders, &r, |r| empty.eroded(window, r)));
     Ok(Functions {
         poisson: r.iter().map(|r| -(-density * PI * r * r).exp_m1()).collect(),
-        ripley: (points.len() > 1).then(|| Ripley::new(points, &borders, window, &r)),
+        ripley: (points.len() > 1).then(|| Ripley::new(points, &borders, window, &r, true)),
         g,
         f,
         r,
@@ -154,10 +154,46 @@ impl Functions {
     }
 }
 
+/// Ripley's K with its edge corrections, at the distances `r`; in squared units of the coordinates.
+#[derive(Clone, Debug)]
+pub struct RipleyK {
+    /// Distances, in the unit of the coordinates.
+    pub r: Vec<f64>,
+    /// No correction.
+    pub none: Vec<f64>,
+    /// Border correction: from the points with b ≥ r; NaN where there is none.
+    pub border: Vec<f64>,
+    /// Translation correction (Ohser & Stoyan 1981).
+    pub translation: Vec<f64>,
+    /// Isotropic correction (Ripley 1976).
+    pub isotropic: Vec<f64>,
+}
+
+/// K alone of the [`functions`], which has the same values.
+///
+/// # Errors
+/// If the distances are out of range, a point is not inside the window, or there are fewer than two.
+pub fn ripley_k(points: &[Point], window: &Window, options: &FunctionOptions) -> Result<RipleyK, StatsError> {
+    let r = options.distances(points.len(), window)?;
+    all_inside(points, window)?;
+    if points.len() < 2 {
+        return Err(StatsError::TooFewPoints { statistic: "Ripley's K", needed: 2, found: points.len() });
+    }
+    let found = Ripley::new(points, &window.border_distances(points), window, &r, false);
+    let Ripley { none, border, translation, isotropic, .. } = found;
+    Ok(RipleyK { r, none, border, translation, isotropic })
+}
+
 /// Index of the first of the `r` that is at least `d`; `r` begins with 0 and is even.
 fn first_at_least(r: &[f64], d: f64) -> usize {
     let step = r.get(1).copied().unwrap_or(f64::INFINITY);
-    let mut k = ((d / step) as usize).min(r.len());
+    settle(r, (d / step) as usize, d)
+}
+
+/// The same, from an index that is near.
+#[inline]
+fn settle(r: &[f64], near: usize, d: f64) -> usize {
+    let mut k = near.min(r.len());
     while k > 0 && r[k - 1] >= d {
         k -= 1;
     }

@@ -1,5 +1,5 @@
-use super::first_at_least;
 use super::kernel_pcf::{Binned, PcfCurves};
+use super::{first_at_least, settle};
 use crate::geometry::{Point, Window};
 use crate::stats::edge_weight::EdgeWeights;
 use crate::stats::pairs::PairGrid;
@@ -31,13 +31,15 @@ struct Sums {
 }
 
 impl Ripley {
-    /// Of at least two points, all inside the window, with their distances to the border.
-    pub(super) fn new(points: &[Point], borders: &[f64], window: &Window, r: &[f64]) -> Self {
+    /// Of at least two points, all inside the window, with their distances to the border; g is 0 unless it is wanted.
+    pub(super) fn new(points: &[Point], borders: &[f64], window: &Window, r: &[f64], with_g: bool) -> Self {
         let (n, area, rows) = (points.len(), window.area(), r.len());
         let density = n as f64 / area;
         let empty = Binned::new(r[rows - 1], density);
         let torus = window.is_torus();
-        let grid = PairGrid::new(points, window, torus, r[rows - 1] + empty.half_width());
+        let reach = r[rows - 1] + if with_g { empty.half_width() } else { 0. };
+        let per_step = r.get(1).map_or(0., |step| step.recip());
+        let grid = PairGrid::new(points, window, torus, reach);
         let weights = EdgeWeights::new(window);
         // Rows that the border distance of each point reaches; sorted as the grid's points.
         let borders = grid.sorted(borders);
@@ -57,11 +59,19 @@ impl Ripley {
                     weights.isotropic(from, Point::new(from.x + dx, from.y + dy), d)
                 };
                 // A pair was visited once and counts in both orders.
-                sums.g.add(d, 2. * translation, 2. * isotropic);
-                let at = first_at_least(r, d);
+                if with_g {
+                    sums.g.add(d, 2. * translation, 2. * isotropic);
+                }
+                let at = settle(r, (d * per_step) as usize, d);
                 let Some(k) = sums.k.get_mut(at) else { return };
                 *k = [k[0] + 2., k[1] + 2. * translation, k[2] + 2. * isotropic];
-                for end in [seen_from[i], seen_from[j]] {
+                let ends = [seen_from[i], seen_from[j]];
+                // what ends behind the last row is not read
+                if ends == [rows; 2] {
+                    sums.border[at] += 2;
+                    return;
+                }
+                for end in ends {
                     if at < end {
                         sums.border[at] += 1;
                         sums.border[end] -= 1;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 const RANGE: (f64, f64) = (0.6, 1.6);
 /// Step between the frequencies that are tried, in √λ.
 const STEP: f64 = 0.01;
-/// Standard deviation of the kernel that averages power over frequency, in √λ: half as wide as the rings of cone mosaics.
+/// Standard deviation of the kernel that averages power over frequency, in √λ.
 const SMOOTHING: f64 = 0.05;
 /// Fewest points that have a ring: of fewer, too few waves are as long as their spacing.
 const FEWEST: usize = 20;

@@ -11,8 +11,8 @@ const FIRST: f64 = 3.;
 const PERIODS: f64 = 5.;
 /// Degree of the polynomial that is the background.
 const DEGREE: usize = 3;
-/// Standard deviation of a ring in the natural logarithm of frequency, that of mosaics with the regularity of cones. Between .1 and .15
-/// spacings found in images change by .2 %.
+/// Standard deviation of a ring in the natural logarithm of frequency. With .15 instead spacings are on average .05 % wider in
+/// confocal images, .5 % closer in split-detector ones, 1.2 % wider in simulated histology.
 const WIDTH: f64 = 0.12;
 
 /// Least squares of a background and a ring to profiles of tiles of one size.

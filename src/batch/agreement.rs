@@ -1,0 +1,342 @@
+use super::BatchError;
+use super::outputs::OutputFolder;
+use crate::compare::{Agreement, Intraclass, agreement, intraclass};
+use crate::report::{AgreementLine, AgreementPanel, Cell, agreement_figure};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Numbers of the same images by one grader, session or program: a `summary.csv`, or any CSV with a column `name` or `file`.
+struct Readings {
+    label: String,
+    columns: Vec<String>,
+    /// By image, the value of every column; `None` where it is no number.
+    items: BTreeMap<String, Vec<Option<f64>>>,
+}
+
+/// How two graders agree in one column.
+#[derive(Clone, Debug)]
+pub struct ColumnAgreement {
+    /// The column.
+    pub column: String,
+    /// Who is held against whom.
+    pub graders: [String; 2],
+    /// Of every image that both have: its name and both values.
+    pub pairs: Vec<(String, [f64; 2])>,
+    /// Bias and limits of agreement.
+    pub agreement: Agreement,
+    /// Intraclass correlation of the two.
+    pub intraclass: Option<Intraclass>,
+}
+
+/// What came of comparing graders.
+#[derive(Clone, Debug)]
+pub struct AgreementOutcome {
+    /// One a column and pair of graders.
+    pub columns: Vec<ColumnAgreement>,
+    /// Correlations over all graders, where there are more than two, by column.
+    pub overall: Vec<(String, Intraclass)>,
+    /// Images that not all graders have, and those who lack them.
+    pub unpaired: Vec<(String, String)>,
+}
+
+/// Columns that name images or say how they were taken rather than measure them.
+const NO_MEASURE: [&str; 6] =
+    ["width_px", "height_px", "um_per_px", "um_per_unit", "um_per_degree", "eccentricity_mm"];
+/// What figures show, the first of each row that there is.
+const SHOWN: [&[&str]; 2] =
+    [&["density_per_mm2", "density_per_px2", "density", "n"], &["nn_mean_um", "nn_mean_px", "nn_mean", "ri"]];
+
+/// Holds the numbers of graders, sessions or programs against each other, image by image: paired differences, limits of agreement and
+/// intraclass correlation of every column of numbers that all of them have, or of `columns`.
+///
+/// Writes `agreement.csv` (one row a column and pair of graders; with more than two a row over all), `differences.csv` (one row an
+/// image), `unpaired.csv` (images that somebody lacks) and `agreement.svg`.
+///
+/// # Errors
+/// If there are fewer than two tables, one cannot be read or has no column that names images, an image stands in it twice, a column
+/// asked for is missing, nothing can be paired, or `out` cannot be written to.
+pub fn agree_files(
+    files: &[PathBuf],
+    columns: &[String],
+    out: &Path,
+) -> Result<AgreementOutcome, BatchError> {
+    if files.len() < 2 {
+        return Err(BatchError::Tables(
+            "agreement needs two tables or more: give those of each grader".into(),
+        ));
+    }
+    let mut readings: Vec<Readings> = files.iter().map(|f| read(f)).collect::<Result<_, _>>()?;
+    for k in 0..readings.len() {
+        if readings[..k].iter().any(|r| r.label == readings[k].label) {
+            readings[k].label = files[k].display().to_string();
+        }
+    }
+    let chosen = chosen_columns(&readings, columns)?;
+    let out = OutputFolder::create(out)?;
+    let value = |r: &Readings, item: &str, column: &str| -> Option<f64> {
+        let k = r.columns.iter().position(|c| c == column)?;
+        r.items.get(item)?.get(k).copied().flatten()
+    };
+    let mut items: Vec<&String> = readings.iter().flat_map(|r| r.items.keys()).collect();
+    items.sort_unstable();
+    items.dedup();
+    let unpaired: Vec<(String, String)> = items
+        .iter()
+        .filter_map(|item| {
+            let lacking = readings.iter().filter(|r| !r.items.contains_key(*item));
+            let lacking: Vec<&str> = lacking.map(|r| r.label.as_str()).collect();
+            (!lacking.is_empty()).then(|| ((*item).clone(), lacking.join(", ")))
+        })
+        .collect();
+    let (mut found, mut overall) = (Vec::new(), Vec::new());
+    for column in &chosen {
+        for (k, first) in readings.iter().enumerate() {
+            for second in &readings[k + 1..] {
+                let both = |item: &&String| {
+                    let values = [value(first, item, column)?, value(second, item, column)?];
+                    Some(((*item).clone(), values))
+                };
+                let pairs: Vec<(String, [f64; 2])> = items.iter().filter_map(both).collect();
+                let differences: Vec<f64> = pairs.iter().map(|(_, [a, b])| a - b).collect();
+                let Some(agreement) = agreement(&differences) else { continue };
+                let rows: Vec<Vec<f64>> = pairs.iter().map(|(_, values)| values.to_vec()).collect();
+                found.push(ColumnAgreement {
+                    column: column.clone(),
+                    graders: [first.label.clone(), second.label.clone()],
+                    pairs,
+                    agreement,
+                    intraclass: intraclass(&rows),
+                });
+            }
+        }
+        if readings.len() > 2 {
+            let row = |item: &&String| {
+                readings.iter().map(|r| value(r, item, column)).collect::<Option<Vec<f64>>>()
+            };
+            let rows: Vec<Vec<f64>> = items.iter().filter_map(row).collect();
+            overall.extend(intraclass(&rows).map(|icc| (column.clone(), icc)));
+        }
+    }
+    if found.is_empty() {
+        let labels: Vec<&str> = readings.iter().map(|r| r.label.as_str()).collect();
+        return Err(BatchError::Tables(format!(
+            "no image has numbers in the tables of {}: images are paired by file name without folder and extension",
+            labels.join(" and ")
+        )));
+    }
+    let outcome = AgreementOutcome { columns: found, overall, unpaired };
+    write(&out, &outcome)?;
+    Ok(outcome)
+}
+
+fn read(path: &Path) -> Result<Readings, BatchError> {
+    let inside = path.join("summary.csv");
+    let file = if path.is_dir() { &inside } else { path };
+    let fail = |problem: String| BatchError::Tables(format!("{}: {problem}", file.display()));
+    let bytes = std::fs::read(file)
+        .map_err(|e| fail(format!("cannot be read ({e}): give a summary.csv, or a folder that holds one")))?;
+    let mut reader =
+        csv::ReaderBuilder::new().from_reader(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes));
+    let header: Vec<String> = reader
+        .headers()
+        .map_err(|e| fail(format!("is no CSV: {e}")))?
+        .iter()
+        .map(|h| h.trim().to_owned())
+        .collect();
+    let key = ["name", "file", "image", "identifier"].iter().find_map(|n| header.iter().position(|h| h == n));
+    let Some(key) = key else {
+        return Err(fail(
+            "expected a column name or file that names the images, found none: add it to the header".into(),
+        ));
+    };
+    let mut items: BTreeMap<String, Vec<Option<f64>>> = BTreeMap::new();
+    for (k, row) in reader.records().enumerate() {
+        let line = k + 2;
+        let row = row.map_err(|e| fail(format!("line {line} cannot be read: {e}")))?;
+        let name = row.get(key).unwrap_or_default().trim();
+        let base = name.rsplit(['/', '\\']).next().unwrap_or(name);
+        let known = [".csv", ".png", ".tif", ".tiff", ".txt", ".json", ".roi", ".zip", ".tsv", ".tar"];
+        let lower = base.to_lowercase();
+        let ending = known.iter().find(|e| lower.ends_with(**e)).map_or(0, |e| e.len());
+        let item = base[..base.len() - ending].trim_end_matches("_coords").to_owned();
+        if item.is_empty() {
+            return Err(fail(format!("line {line} names no image: fill column {}", header[key])));
+        }
+        let values = row.iter().map(|c| c.trim().parse().ok().filter(|v: &f64| v.is_finite())).collect();
+        if items.insert(item.clone(), values).is_some() {
+            return Err(fail(format!(
+                "line {line}: {item} stands in the table twice: keep one row an image"
+            )));
+        }
+    }
+    let folder =
+        path.is_dir().then_some(path).or_else(|| path.parent().filter(|_| path.ends_with("summary.csv")));
+    let named = folder.and_then(Path::file_name).or_else(|| path.file_stem()).unwrap_or(path.as_os_str());
+    Ok(Readings { label: named.to_string_lossy().into_owned(), columns: header, items })
+}
+
+/// The columns asked for, or all that hold numbers in every table.
+fn chosen_columns(readings: &[Readings], asked: &[String]) -> Result<Vec<String>, BatchError> {
+    for column in asked {
+        if let Some(lacking) = readings.iter().find(|r| !r.columns.contains(column)) {
+            return Err(BatchError::Tables(format!(
+                "{} has no column {column}: it has {}",
+                lacking.label,
+                lacking.columns.join(", ")
+            )));
+        }
+    }
+    if !asked.is_empty() {
+        return Ok(asked.to_vec());
+    }
+    let numbers = |r: &Readings, column: &String| {
+        r.columns
+            .iter()
+            .position(|c| c == column)
+            .is_some_and(|k| r.items.values().any(|v| v.get(k).copied().flatten().is_some()))
+    };
+    let first = readings.first().map_or(&[][..], |r| &r.columns);
+    Ok(first
+        .iter()
+        .filter(|c| !NO_MEASURE.contains(&c.as_str()) && readings.iter().all(|r| numbers(r, c)))
+        .cloned()
+        .collect())
+}
+
+fn interval(i: Option<[f64; 2]>) -> [Cell; 2] {
+    [i.map(|i| i[0]).into(), i.map(|i| i[1]).into()]
+}
+
+fn reliability(icc: Option<&Intraclass>) -> Vec<Cell> {
+    let of = |value: fn(&Intraclass) -> Option<f64>| Cell::from(icc.and_then(value));
+    let [agreement_low, agreement_high] = interval(icc.and_then(|i| i.agreement_interval));
+    let [consistency_low, consistency_high] = interval(icc.and_then(|i| i.consistency_interval));
+    vec![
+        of(|i| i.agreement),
+        agreement_low,
+        agreement_high,
+        of(|i| i.consistency),
+        consistency_low,
+        consistency_high,
+        of(|i| Some(i.within_sd)),
+        of(|i| Some(i.repeatability)),
+        of(|i| i.within_cv_percent),
+    ]
+}
+
+fn write(out: &OutputFolder, outcome: &AgreementOutcome) -> Result<(), BatchError> {
+    let header = [
+        "column",
+        "first",
+        "second",
+        "n",
+        "mean_first",
+        "mean_second",
+        "difference",
+        "difference_low",
+        "difference_high",
+        "sd",
+        "limit_low",
+        "limit_low_from",
+        "limit_low_to",
+        "limit_high",
+        "limit_high_from",
+        "limit_high_to",
+        "icc_agreement",
+        "icc_agreement_low",
+        "icc_agreement_high",
+        "icc_consistency",
+        "icc_consistency_low",
+        "icc_consistency_high",
+        "within_sd",
+        "repeatability",
+        "within_cv_percent",
+    ]
+    .map(str::to_owned);
+    let mut rows: Vec<Vec<Cell>> = Vec::new();
+    for c in &outcome.columns {
+        let mean = |k: usize| c.pairs.iter().map(|(_, v)| v[k]).sum::<f64>() / c.pairs.len() as f64;
+        let mut row: Vec<Cell> = vec![
+            c.column.as_str().into(),
+            c.graders[0].as_str().into(),
+            c.graders[1].as_str().into(),
+            c.agreement.n.into(),
+            mean(0).into(),
+            mean(1).into(),
+            c.agreement.bias.into(),
+        ];
+        row.extend(interval(c.agreement.bias_interval()));
+        row.push(c.agreement.sd.into());
+        let (limits, intervals) = (c.agreement.limits, c.agreement.limit_intervals());
+        for k in 0..2 {
+            row.push(limits.map(|l| l[k]).into());
+            row.extend(interval(intervals.map(|i| i[k])));
+        }
+        row.extend(reliability(c.intraclass.as_ref()));
+        rows.push(row);
+    }
+    for (column, icc) in &outcome.overall {
+        let mut row: Vec<Cell> = vec![column.as_str().into(), "all".into(), "all".into(), icc.items.into()];
+        row.extend((0..12).map(|_| Cell::Missing));
+        row.extend(reliability(Some(icc)));
+        rows.push(row);
+    }
+    out.write_table("agreement.csv", &header, &rows)?;
+    let header = ["image", "column", "first", "second", "value_first", "value_second", "mean", "difference"]
+        .map(str::to_owned);
+    let mut rows: Vec<Vec<Cell>> = Vec::new();
+    for c in &outcome.columns {
+        for (item, [a, b]) in &c.pairs {
+            let texts = [item, &c.column, &c.graders[0], &c.graders[1]];
+            let mut row: Vec<Cell> = texts.map(|t| t.as_str().into()).to_vec();
+            row.extend([*a, *b, (a + b) / 2., a - b].map(Cell::from));
+            rows.push(row);
+        }
+    }
+    out.write_table("differences.csv", &header, &rows)?;
+    let rows: Vec<Vec<Cell>> = outcome
+        .unpaired
+        .iter()
+        .map(|(item, lacking)| vec![item.as_str().into(), lacking.as_str().into()])
+        .collect();
+    out.write_table("unpaired.csv", &["image", "missing_from"].map(str::to_owned), &rows)?;
+    out.write("agreement.svg", figure(outcome).as_bytes())
+}
+
+/// Bland–Altman plots of the first two graders.
+fn figure(outcome: &AgreementOutcome) -> String {
+    let Some(first) = outcome.columns.first() else { return agreement_figure("", &[]) };
+    let of_pair: Vec<&ColumnAgreement> =
+        outcome.columns.iter().filter(|c| c.graders == first.graders).collect();
+    let mut shown: Vec<&ColumnAgreement> = SHOWN
+        .iter()
+        .filter_map(|names| names.iter().find_map(|n| of_pair.iter().find(|c| c.column == *n)).copied())
+        .collect();
+    if shown.is_empty() {
+        shown = of_pair.into_iter().take(2).collect();
+    }
+    let points: Vec<Vec<(f64, f64)>> =
+        shown.iter().map(|c| c.pairs.iter().map(|(_, [a, b])| ((a + b) / 2., a - b)).collect()).collect();
+    let labels: Vec<[String; 2]> =
+        shown.iter().map(|c| [format!("mean {}", c.column), format!("difference of {}", c.column)]).collect();
+    let panels: Vec<AgreementPanel> = shown
+        .iter()
+        .zip(&points)
+        .zip(&labels)
+        .map(|((c, pairs), [mean, difference])| {
+            let line = |value: f64, interval| AgreementLine { value, interval };
+            let intervals = c.agreement.limit_intervals();
+            AgreementPanel {
+                mean_label: mean,
+                difference_label: difference,
+                pairs,
+                bias: Some(line(c.agreement.bias, c.agreement.bias_interval())),
+                limits: c
+                    .agreement
+                    .limits
+                    .map(|l| [line(l[0], intervals.map(|i| i[0])), line(l[1], intervals.map(|i| i[1]))]),
+            }
+        })
+        .collect();
+    agreement_figure(&format!("{} − {}", first.graders[0], first.graders[1]), &panels)
+}
