@@ -8,7 +8,8 @@ const KINDS: [(SummaryKind, &str); 2] = [(SummaryKind::Images, "run"), (SummaryK
 const INTRODUCTION: &str = "\
 Columns of `summary.csv`. Lengths, areas and densities are given in several units at once, which the column's name ends in; those that need \
 a scale are empty without one. In the summary of `measure` a name without unit means the unit of the coordinates, which the column `unit` names. \
-A cell is empty where its value is not defined or not known. Columns of a manifest follow behind.
+A cell is empty where its value is not defined or not known: metrics of bound cells where there are none (below four points at \
+least), standard deviations below two values, and ratios over one where all values are equal. Columns of a manifest follow behind.
 
 Edge rules: *all*: nothing is done about the border. *interior*: points at least as far from the border as from their nearest neighbour. \
 *bound*: points whose Voronoi cell is finite and has every vertex strictly inside the window (Cooper et al. 2016).";

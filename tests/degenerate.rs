@@ -1,0 +1,151 @@
+//! Too few points, collinear, coincident and border points: every statistic has a value with a meaning or an empty cell.
+
+mod common;
+
+use common::Place;
+use std::collections::BTreeSet;
+
+/// Empty below two points.
+const NEED_TWO: &[&str] = &[
+    "nn_mean",
+    "nn_sd",
+    "icd_all_mean",
+    "furthest_all_mean",
+    "clark_evans_naive",
+    "clark_evans_donnelly",
+    "recovery_reliability",
+    "recovery_bin_width",
+];
+/// Empty below three: of two points both distances are the same, and so are both axes, none of them interior.
+const NEED_THREE: &[&str] = &["ri", "clark_evans_cdf", "nn_axis_resultant", "nn_axis_deg"];
+/// Empty without a bound cell, which takes four points at least.
+const NEED_BOUND: &[&str] = &[
+    "density_bound",
+    "nn_bound_mean",
+    "nn_bound_ri",
+    "icd_bound_mean",
+    "icd_bound_ri",
+    "furthest_bound_mean",
+    "furthest_bound_ri",
+    "voronoi_area_mean",
+    "voronoi_area_cv",
+    "voronoi_area_ri",
+    "voronoi_sides_ri",
+    "six_sided_percent",
+    "psi6_mean",
+    "psi6_global",
+    "anisotropy",
+    "anisotropy_axis_deg",
+    "neighbour_ellipse_major",
+    "neighbour_ellipse_minor",
+    "hexagon_axis_deg",
+];
+/// Empty below 20 points (10 groups of neighbours, two interior distances that differ).
+const NEED_MORE: &[&str] = &[
+    "ri_interior",
+    "nn_axis_p",
+    "modal_spacing",
+    "modal_row_spacing",
+    "modal_power",
+    "trend_p",
+    "density_variation",
+    "density_variation_low",
+    "density_variation_high",
+    "density_ratio",
+];
+/// Where the profile of three points or fewer never recovers.
+const NEED_RECOVERY: &[&str] = &["recovery_effective_radius", "recovery_packing"];
+
+/// Name and coordinates of every pattern, in a window of 10 × 10.
+const PATTERNS: [(&str, &str); 9] = [
+    ("n0", ""),
+    ("n1", "5,5\n"),
+    ("n2", "5,5\n9,9\n"),
+    ("n3", "5,5\n9,9\n3,1\n"),
+    ("line", "1,1\n2,2\n3,3\n4,4\n"),
+    ("level", "1,5\n2,5\n3,5\n9,5\n"),
+    ("same", "5,5\n5,5\n5,5\n5,5\n"),
+    ("twice", "5,5\n5,5\n2,3\n2,3\n7,1\n"),
+    ("border", "0,0\n10,0\n0,10\n10,10\n5,0\n"),
+];
+
+fn patterns() -> Place {
+    let place = Place::new();
+    for (name, points) in PATTERNS {
+        place.write(&format!("in/{name}.csv"), format!("x,y\n{points}"));
+    }
+    place.write("window.csv", "x,y\n0,0\n10,0\n10,10\n5,11\n0,10\n");
+    place
+}
+
+/// Columns of a row that are empty, less those that only lack a scale or a manifest.
+fn empty(row: &std::collections::BTreeMap<String, String>) -> BTreeSet<String> {
+    let known = ["_um", "_mm2", "_deg2", "_arcmin", "_arcmin2", "_um_per_unit"];
+    let other = [
+        "um_per_unit",
+        "um_per_degree",
+        "eccentricity_mm",
+        "meridian",
+        "density_of_expected_percent",
+        "warnings",
+    ];
+    let unscaled = |name: &str| {
+        known.iter().any(|end| name.ends_with(end))
+            || other.contains(&name)
+            // a length in degrees, as there is one of the same name without unit; an angle has none
+            || name.strip_suffix("_deg").is_some_and(|stem| row.contains_key(stem))
+    };
+    row.iter()
+        .filter(|(name, value)| value.is_empty() && !unscaled(name))
+        .map(|(name, _)| name.clone())
+        .collect()
+}
+
+#[test]
+fn what_few_points_do_not_define_is_empty_and_the_rest_is_not() {
+    let place = patterns();
+    place.ok(&["measure", "in", "--window", "0,0,10,10", "--functions", "--out", "out", "-q"]);
+    let rows = place.table("out/summary.csv");
+    for (name, lists) in [
+        ("n0", &[&["spacing"][..], NEED_TWO, NEED_THREE, NEED_BOUND, NEED_MORE, NEED_RECOVERY][..]),
+        ("n1", &[NEED_TWO, NEED_THREE, NEED_BOUND, NEED_MORE, NEED_RECOVERY]),
+        ("n2", &[NEED_THREE, NEED_BOUND, NEED_MORE, NEED_RECOVERY]),
+        ("n3", &[NEED_BOUND, NEED_MORE, NEED_RECOVERY]),
+    ] {
+        let row = rows.iter().find(|r| r["file"] == format!("in/{name}.csv")).unwrap();
+        let expected: BTreeSet<String> =
+            lists.iter().flat_map(|l| l.iter()).map(|s| (*s).to_owned()).collect();
+        let found = empty(row);
+        let (more, less): (Vec<_>, Vec<_>) =
+            (found.difference(&expected).collect(), expected.difference(&found).collect());
+        assert!(more.is_empty() && less.is_empty(), "{name}: empty too {more:?}, not empty {less:?}");
+    }
+}
+
+#[test]
+fn no_pattern_fails_or_leaves_what_is_no_number() {
+    let place = patterns();
+    for (k, window) in
+        [&["0,0,10,10"][..], &["0,0,10,10", "--torus"], &["window.csv"]].into_iter().enumerate()
+    {
+        let out = format!("out{k}");
+        let measure =
+            ["measure", "in", "--functions", "--maps", "--roi-side", "5", "--out", &out, "-q", "--window"];
+        place.ok(&[&measure[..], window].concat());
+        assert_eq!(place.table(&format!("{out}/summary.csv")).len(), PATTERNS.len());
+        for (file, bytes) in place.files(&out) {
+            let text = String::from_utf8_lossy(&bytes).to_lowercase();
+            if file.ends_with(".csv") {
+                let mut cells = text.split([',', '\n']);
+                assert!(
+                    !cells.any(|c| matches!(c, "nan" | "inf" | "-inf" | "infinity")),
+                    "{window:?} {file}"
+                );
+            }
+        }
+        // every point has its row
+        for (name, points) in PATTERNS {
+            assert_eq!(place.table(&format!("{out}/{name}.points.csv")).len(), points.lines().count());
+        }
+    }
+}
