@@ -9,7 +9,7 @@ p.lead { margin-top: 0; opacity: .75; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .85rem; }
 th, td { padding: .3rem .5rem; border-bottom: 1px solid var(--line); text-align: right; white-space: nowrap; }
-th { vertical-align: bottom; white-space: normal; } th.sampler span { writing-mode: vertical-rl; transform: rotate(180deg); } th:first-child, td:first-child, .word { text-align: left; }
+th { vertical-align: bottom; white-space: normal; } th.sampler span { writing-mode: vertical-rl; transform: rotate(180deg); } .sampler { padding: .3rem .25rem; } th:first-child, td:first-child, .word { text-align: left; }
 td:first-child { max-width: 22rem; overflow: hidden; text-overflow: ellipsis; }
 tr:hover td { background: var(--soft); }
 .warning { color: var(--warn); }
@@ -42,7 +42,7 @@ pub fn page(records: &[ImageRecord], failures: &[(&str, &str)], samplers: &[Stri
                 div.scroll { (overview(records, samplers, scaled)) }
                 p {
                     "NN: distance to the nearest neighbour, mean ± standard deviation. RI: regularity index, their ratio, of all points "
-                    "and of those whose neighbours cannot lie beyond the border. ℓ∞: largest difference of the pair correlation functions of "
+                    "and of those whose neighbours cannot lie beyond the border. Under the name of each sampler its ℓ∞: largest difference of the pair correlation functions of "
                     "the mosaic and of a sampler (mean of several samples of as many points in the same window). Expected errors: false "
                     "alarms and misses that the scores of the cones and of the rejected candidates lead to expect; images that most need "
                     "the eye of a person come first."
@@ -71,7 +71,7 @@ fn overview(records: &[ImageRecord], samplers: &[String], scaled: bool) -> Marku
                 th { "spacing" br; "px" } th { "NN" br; @if scaled { "µm" } @else { "px" } }
                 th { "RI" } th { "RI" br; "interior" }
                 th { "expected" br; "errors" } th.word { "closest to" }
-                @for sampler in samplers { th.sampler { span { "ℓ∞ " (sampler) } } }
+                @for sampler in samplers { th.sampler title=(format!("ℓ∞ to {sampler}")) { span { (sampler) } } }
             } }
             tbody { @for k in by_need(records) {
                 @let r = &records[k];
@@ -92,7 +92,7 @@ fn overview(records: &[ImageRecord], samplers: &[String], scaled: bool) -> Marku
                     td { (expected_errors(&r.detection)) }
                     td.word { (Cell::from(m.closest_sampler()).readable()) }
                     @for sampler in samplers {
-                        td { (distance(m, sampler)) }
+                        td.sampler { (distance(m, sampler)) }
                     }
                 }
             } }
