@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Place, number};
+use common::{FEW_POINTS, Place, number};
 
 /// A bump of density, 200 × 160 px, its peak at (80, 90).
 fn bump(place: &Place) {
@@ -121,28 +121,19 @@ fn windows_of_a_side_may_be_in_micrometres() {
 #[test]
 fn few_points_have_maps_without_values_and_a_reason() {
     let place = Place::new();
-    let points = [
-        "",
-        "5,5\n",
-        "5,5\n9,9\n",
-        "5,5\n9,9\n3,1\n",
-        "1,1\n2,2\n3,3\n4,4\n",
-        "5,5\n5,5\n5,5\n5,5\n",
-        "0,0\n10,0\n0,10\n",
-    ];
-    for (k, rows) in points.iter().enumerate() {
+    for (k, rows) in FEW_POINTS.iter().enumerate() {
         place.write(&format!("marks/{k}.csv"), format!("x,y\n{rows}"));
     }
     place.ok(&["measure", "marks", "--window", "0,0,10,10", "--maps", "--out", "out", "-q"]);
     let landmarks = place.table("out/landmarks.csv");
-    assert_eq!(landmarks.len(), points.len());
+    assert_eq!(landmarks.len(), FEW_POINTS.len());
     for row in &landmarks {
         assert!(
             row["pcd"].is_empty() && row["cdc_x"].is_empty() && row["note"].starts_with("no map"),
             "{row:?}"
         );
     }
-    for k in 0..points.len() {
+    for k in 0..FEW_POINTS.len() {
         assert!(place.table(&format!("out/{k}.maps.csv")).iter().all(|r| r["flag"] == "few"));
         assert!(place.table(&format!("out/{k}.profiles.csv")).is_empty());
         roxmltree::Document::parse(&place.read(&format!("out/{k}.maps.svg"))).unwrap();

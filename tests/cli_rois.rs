@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Place, number};
+use common::{FEW_POINTS, Place, number};
 use std::collections::BTreeMap;
 
 type Row = BTreeMap<String, String>;
@@ -142,22 +142,13 @@ fn a_region_in_a_polygon_is_the_part_of_it_in_the_box() {
 #[test]
 fn few_points_are_measured_as_far_as_they_go() {
     let place = Place::new();
-    let points = [
-        "",
-        "5,5\n",
-        "5,5\n9,9\n",
-        "5,5\n9,9\n3,1\n",
-        "1,1\n2,2\n3,3\n4,4\n",
-        "5,5\n5,5\n5,5\n5,5\n",
-        "0,0\n10,0\n0,10\n",
-    ];
-    for (k, rows) in points.iter().enumerate() {
+    for (k, rows) in FEW_POINTS.iter().enumerate() {
         place.write(&format!("marks/{k}.csv"), format!("x,y\n{rows}"));
     }
     let measure = ["measure", "marks", "--window", "0,0,10,10", "-q", "--out"];
     place.ok(&[&measure[..], &["tiles", "--roi-side", "5"]].concat());
     let rows = place.table("tiles/rois.csv");
-    assert_eq!(rows.len(), 4 * points.len());
+    assert_eq!(rows.len(), 4 * FEW_POINTS.len());
     // points on a shared border belong to both
     assert!(rows[4..8].iter().all(|r| number(r, "n") == 1.) && number(&rows[0], "n") == 0.);
     place.ok(&[&measure[..], &["grown", "--roi-side", "5", "--roi-cells", "1"]].concat());

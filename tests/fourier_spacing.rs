@@ -6,7 +6,7 @@ use conemosaic::image::{Plane, read};
 use conemosaic::mosaic::hexagonal_spacing;
 use conemosaic::mosaic::io::{Origin, ReadOptions, read_coordinates};
 use conemosaic::render::{MosaicOptions, RenderOptions, simulate};
-use conemosaic::stats::{modal_spacing, nearest_neighbours, orientation, voronoi};
+use conemosaic::stats::{interior, modal_spacing, nearest_neighbours, orientation, voronoi};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -163,7 +163,10 @@ fn marks_and_spectra_of_confocal_images_are_stretched_alike() {
         .map(|path| {
             let (image, marks, window) = image_and_marks(path);
             let (nearest, cells) = (nearest_neighbours(&marks, &window), voronoi(&marks, &window));
-            let ellipse = orientation(&marks, &window, &nearest, &cells).ellipse.unwrap();
+            let ellipse =
+                orientation(&marks, &window, &nearest, &interior(&marks, &window, &nearest), &cells)
+                    .ellipse
+                    .unwrap();
             let along_x = ellipse.direction.map_or(0., |d| (2. * d.to_radians()).cos());
             let found = fourier_spacing(&image).unwrap();
             let ratio = found.cell.unwrap().spacing / found.row.unwrap().spacing;

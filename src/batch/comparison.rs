@@ -73,7 +73,7 @@ pub fn compare_files(
         out.write_table("verdicts.csv", &header, &rows)?;
     }
     let samplers = serde_json::json!({ "names": names, "seed": seed, "verdict": with.verdict });
-    out.write("options.json", &options_json(options, samplers)?)?;
+    out.write_json("options.json", &options_json(options, samplers))?;
     write_failures(&out, &failures)?;
     Ok(CoordinatesOutcome { records, failures, findings })
 }
@@ -81,10 +81,7 @@ pub fn compare_files(
 /// The paper's main finding on these mosaics, one record a sampler: regularity against distance.
 fn findings(records: &[CoordinatesRecord], samplers: &[String], seed: u64) -> Vec<FindingRecord> {
     let of = |sampler: &String| {
-        let both = |r: &CoordinatesRecord| {
-            let distance = r.mosaic.l_infinity.iter().find(|d| d.sampler == *sampler)?;
-            Some((r.mosaic.nearest.ri?, distance.l_infinity))
-        };
+        let both = |r: &CoordinatesRecord| Some((r.mosaic.nearest.ri?, r.mosaic.distance_to(sampler)?));
         let pairs: Vec<(f64, f64)> = records.iter().filter_map(both).collect();
         FindingRecord::of(sampler, &pairs, seed)
     };

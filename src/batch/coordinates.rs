@@ -129,7 +129,7 @@ pub fn measure_files(
     let rows: Vec<_> = subjects.iter().map(|(_, subject)| summary.row(subject)).collect();
     out.write_table("summary.csv", &summary.header(), &rows)?;
     let objects: Result<Vec<_>, _> = subjects.iter().map(|(_, subject)| summary.json(subject)).collect();
-    out.write("summary.json", &json(&objects?)?)?;
+    out.write_json("summary.json", &objects?)?;
     options.labels.write_groups(&out, &summary, &subjects)?;
     if options.maps.is_some() {
         maps::write_landmarks(&out, &landmarks)?;
@@ -137,7 +137,7 @@ pub fn measure_files(
     if options.rois.is_some() {
         rois::write(&out, &summary, &of_regions)?;
     }
-    out.write("options.json", &options_json(options, serde_json::Value::Null)?)?;
+    out.write_json("options.json", &options_json(options, serde_json::Value::Null))?;
     write_failures(&out, &failures)?;
     Ok(CoordinatesOutcome { records, failures, findings: Vec::new() })
 }
@@ -166,11 +166,8 @@ fn write_spectrum(
 }
 
 /// How coordinates were read and measured, and what they were compared with.
-pub(super) fn options_json(
-    options: &CoordinatesOptions,
-    samplers: serde_json::Value,
-) -> Result<Vec<u8>, BatchError> {
-    json(&serde_json::json!({
+pub(super) fn options_json(options: &CoordinatesOptions, samplers: serde_json::Value) -> serde_json::Value {
+    serde_json::json!({
         "program": "conemosaic",
         "version": env!("CARGO_PKG_VERSION"),
         "read": options.read,
@@ -184,13 +181,7 @@ pub(super) fn options_json(
         "maps": options.maps,
         "rois": options.rois.as_ref().map(RoiRequest::describe),
         "samplers": samplers,
-    }))
-}
-
-fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, BatchError> {
-    let mut json = serde_json::to_vec_pretty(value)?;
-    json.push(b'\n');
-    Ok(json)
+    })
 }
 
 pub(super) fn line_about(record: &CoordinatesRecord) -> String {

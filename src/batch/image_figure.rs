@@ -20,7 +20,7 @@ pub(super) fn figure(
             name: &c.sampler,
             r: &c.pcf.r,
             g: &c.pcf.g,
-            l_infinity: record.l_infinity.iter().find(|d| d.sampler == c.sampler).map(|d| d.l_infinity),
+            l_infinity: record.distance_to(&c.sampler),
         })
         .collect();
     Ok(mosaic_figure(&MosaicFigure {

@@ -1,13 +1,20 @@
 use super::outputs::OutputFolder;
 use super::{BatchError, Length};
-use crate::mosaic::Mosaic;
+use crate::detect::{FourierMapOptions, fourier_map};
+use crate::geometry::Point;
+use crate::image::Plane;
+use crate::mosaic::{Mosaic, Scale};
 use crate::report::{Cell, LandmarkRecord, maps_figure};
 use crate::stats::{LocalWindow, MapOptions, Maps, Measures, maps};
 use serde::Serialize;
 use std::path::Path;
 
 /// What [`write`] writes, after the name of the mosaic.
-pub(super) const FILES: [&str; 3] = ["maps.csv", "maps.svg", "profiles.csv"];
+const FILES: [&str; 3] = ["maps.csv", "maps.svg", "profiles.csv"];
+/// What [`write_fourier`] writes.
+const FOURIER: &str = "fourier_map.csv";
+/// What the folder of an image holds of its maps.
+pub(super) const OF_IMAGE: [&str; 4] = [FILES[0], FILES[1], FILES[2], FOURIER];
 /// What was read off the maps, one row a file.
 const LANDMARKS: &str = "landmarks.csv";
 
@@ -168,4 +175,31 @@ fn profile_table(mosaic: &Mosaic, maps: &Maps) -> (Vec<String>, Vec<Vec<Cell>>) 
 
 fn per_mm2(density: Option<f64>, um: Option<f64>) -> Cell {
     density.zip(um).map(|(d, um)| d * 1e6 / (um * um)).into()
+}
+
+/// Spacing by the spectra of overlapping tiles of the image; no rows where its spectrum has no ring.
+pub(super) fn write_fourier(
+    folder: &OutputFolder,
+    image: &Plane,
+    scale: Option<Scale>,
+) -> Result<(), BatchError> {
+    let header = ["x_px", "y_px", "spacing_px", "spacing_um", "confidence"].map(str::to_owned);
+    let mut rows: Vec<Vec<Cell>> = Vec::new();
+    if let Ok(map) = fourier_map(image, &FourierMapOptions::default()) {
+        for &y in &map.y {
+            for &x in &map.x {
+                let middle = Point::new(x, y);
+                let spacing = map.spacing.at(middle);
+                let um = scale.map(|s| spacing * s.micrometres_per_pixel());
+                rows.push(vec![
+                    x.into(),
+                    y.into(),
+                    spacing.into(),
+                    um.into(),
+                    map.confidence_at(middle).into(),
+                ]);
+            }
+        }
+    }
+    folder.write_table(FOURIER, &header, &rows)
 }

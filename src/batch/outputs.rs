@@ -1,6 +1,7 @@
 use super::BatchError;
 use crate::files::write_atomically;
 use crate::report::{Cell, write_csv};
+use serde::Serialize;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -27,6 +28,13 @@ impl OutputFolder {
         let path = self.join(name);
         write_atomically(&path, |writer| writer.write_all(bytes))
             .map_err(|source| BatchError::Output { path, source })
+    }
+
+    /// A record as JSON to be read by people too.
+    pub fn write_json(&self, name: &str, value: &impl Serialize) -> Result<(), BatchError> {
+        let mut json = serde_json::to_vec_pretty(value)?;
+        json.push(b'\n');
+        self.write(name, &json)
     }
 
     pub fn write_table(&self, name: &str, header: &[String], rows: &[Vec<Cell>]) -> Result<(), BatchError> {

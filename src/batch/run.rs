@@ -9,12 +9,12 @@ use super::verdicts::{self, verdicts_on};
 use super::work::for_each;
 use super::{BatchError, Crop, Failure, ImageWindow, Input, Labels, MapRequest, Progress, ScaleSource, maps};
 use crate::compare::{ReferenceCurve, References, VerdictOptions};
-use crate::detect::{DetectOptions, Detections, FourierMapOptions, fourier_map, fourier_spacing, weights};
-use crate::geometry::{Point, Window};
+use crate::detect::{DetectOptions, Detections, fourier_spacing, weights};
+use crate::geometry::Window;
 use crate::image::Plane;
 use crate::mosaic::{LengthUnit, Mosaic, Scale};
 use crate::report::{
-    Cell, DetectionRecord, ImageRecord, LandmarkRecord, MetricSelection, Subject, Summary, SummaryKind, page,
+    DetectionRecord, ImageRecord, LandmarkRecord, MetricSelection, Subject, Summary, SummaryKind, page,
 };
 use crate::sample::Sampler;
 use crate::stats::{Histogram, MeasureOptions, Measures, PcfOptions, measure};
@@ -27,8 +27,6 @@ use std::time::Instant;
 
 const IMAGES: &str = "images";
 const METRICS: &str = "metrics.json";
-/// With maps.
-const FOURIER_MAP: &str = "fourier_map.csv";
 /// What an image's folder holds.
 const FILES: [&str; 5] = ["points.csv", "overlay.png", "pcf.csv", METRICS, "figure.svg"];
 
@@ -169,7 +167,7 @@ pub fn run_files(
     let records: Vec<ImageRecord> = done.iter().map(|d| d.record.clone()).collect();
     let reasons: Vec<(&str, &str)> = failures.iter().map(|f| (f.file.as_str(), f.reason.as_str())).collect();
     out.write("index.html", page(&records, &reasons, &samplers).as_bytes())?;
-    out.write("run.json", &run_json(options, &done, &failures, started)?)?;
+    out.write_json("run.json", &run_json(options, &done, &failures, started))?;
     let reused = done.iter().filter(|d| d.seconds.is_none()).count();
     Ok(RunOutcome { records, failures, reused })
 }
@@ -269,11 +267,10 @@ fn one_image(
         let map = |request| maps::write(folder, "", &record.name, &input.path, (&mosaic, &measures), request);
         landmarks = options.maps.as_ref().map(map).transpose()?;
         if options.maps.is_some() {
-            write_fourier_map(folder, &image, scale)?;
+            maps::write_fourier(folder, &image, scale)?;
         }
-        let metrics = metrics_json(&record, &measures, &curves, landmarks.as_ref())?;
         write_image_folder(folder, &image, &found, &mosaic, &measures, &curves, &record)?;
-        folder.write(METRICS, &metrics)?;
+        folder.write_json(METRICS, &metrics(&record, &measures, &curves, landmarks.as_ref()))?;
         verdicts::write(folder, "", &record.name, &measures, &verdicts)
     })?;
     lap(&mut seconds.report);
@@ -293,30 +290,7 @@ fn one_image(
 
 /// Every file that an image's folder of results may hold.
 fn known_files() -> Vec<&'static str> {
-    [&FILES[..], &verdicts::FILES, &maps::FILES, &[FOURIER_MAP]].concat()
-}
-
-/// Spacing by the spectra of overlapping tiles of the image; no rows where its spectrum has no ring.
-fn write_fourier_map(folder: &OutputFolder, image: &Plane, scale: Option<Scale>) -> Result<(), BatchError> {
-    let header = ["x_px", "y_px", "spacing_px", "spacing_um", "confidence"].map(str::to_owned);
-    let mut rows: Vec<Vec<Cell>> = Vec::new();
-    if let Ok(map) = fourier_map(image, &FourierMapOptions::default()) {
-        for &y in &map.y {
-            for &x in &map.x {
-                let middle = Point::new(x, y);
-                let spacing = map.spacing.at(middle);
-                let um = scale.map(|s| spacing * s.micrometres_per_pixel());
-                rows.push(vec![
-                    x.into(),
-                    y.into(),
-                    spacing.into(),
-                    um.into(),
-                    map.confidence_at(middle).into(),
-                ]);
-            }
-        }
-    }
-    folder.write_table(FOURIER_MAP, &header, &rows)
+    [&FILES[..], &verdicts::FILES, &maps::OF_IMAGE].concat()
 }
 
 fn write_image_folder(
@@ -336,21 +310,18 @@ fn write_image_folder(
     folder.write("figure.svg", figure.as_bytes())
 }
 
-fn metrics_json(
-    record: &ImageRecord,
-    measures: &Measures,
-    curves: &[ReferenceCurve],
-    landmarks: Option<&LandmarkRecord>,
-) -> Result<Vec<u8>, BatchError> {
+fn metrics<'a>(
+    record: &'a ImageRecord,
+    measures: &'a Measures,
+    curves: &'a [ReferenceCurve],
+    landmarks: Option<&'a LandmarkRecord>,
+) -> Metrics<'a> {
     let samplers = curves
         .iter()
         .map(|c| SamplerNote { sampler: &c.sampler, n: c.n, realisations: c.realisations, ri: c.ri })
         .collect();
     let pcf_options = measures.pcf.as_ref().map_or_else(|_| PcfOptions::default(), |pcf| pcf.options);
-    let metrics = Metrics { record, histogram: &measures.histogram, pcf_options, samplers, landmarks };
-    let mut json = serde_json::to_vec_pretty(&metrics)?;
-    json.push(b'\n');
-    Ok(json)
+    Metrics { record, histogram: &measures.histogram, pcf_options, samplers, landmarks }
 }
 
 /// What identifies the options that one image's results depend on, the networks' weights among them.
@@ -397,7 +368,7 @@ fn earlier(
         return None;
     }
     let Kept { landmarks } = serde_json::from_slice(&text).ok()?;
-    if landmarks.is_some() && !maps::FILES.iter().all(|file| folder.join(file).is_file()) {
+    if landmarks.is_some() && !maps::OF_IMAGE.iter().all(|file| folder.join(file).is_file()) {
         return None;
     }
     let same = record.sha256 == sha256 && record.options_sha256 == options_sha256;
@@ -413,7 +384,7 @@ fn run_json(
     done: &[Done],
     failures: &[Failure],
     started: Instant,
-) -> Result<Vec<u8>, BatchError> {
+) -> serde_json::Value {
     let images: Vec<_> = done
         .iter()
         .map(|d| {
@@ -422,7 +393,7 @@ fn run_json(
             })
         })
         .collect();
-    let mut json = serde_json::to_vec_pretty(&serde_json::json!({
+    serde_json::json!({
         "program": "conemosaic",
         "version": env!("CARGO_PKG_VERSION"),
         "command": options.command,
@@ -443,9 +414,7 @@ fn run_json(
         "seconds": started.elapsed().as_secs_f64(),
         "images": images,
         "failures": failures,
-    }))?;
-    json.push(b'\n');
-    Ok(json)
+    })
 }
 
 fn hex(bytes: &[u8]) -> String {

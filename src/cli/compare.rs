@@ -108,8 +108,7 @@ fn distances(outcome: &CoordinatesOutcome, samplers: &[&'static dyn Sampler]) ->
         .iter()
         .map(|r| {
             let distance = |s: &&'static dyn Sampler| {
-                let found = r.mosaic.l_infinity.iter().find(|d| d.sampler == s.name());
-                found.map_or("–".into(), |d| significant(d.l_infinity, 3))
+                r.mosaic.distance_to(s.name()).map_or("–".into(), |d| significant(d, 3))
             };
             let ri = r.mosaic.nearest.ri.map_or("–".into(), |ri| significant(ri, 3));
             [marked(r), r.mosaic.n.to_string(), ri]

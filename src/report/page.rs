@@ -109,8 +109,7 @@ pub fn expected_errors(found: &DetectionRecord) -> String {
 
 /// Two decimals, so that a column can be compared at a glance.
 fn distance(mosaic: &MosaicRecord, sampler: &str) -> String {
-    let found = mosaic.l_infinity.iter().find(|d| d.sampler == sampler);
-    found.map_or("–".into(), |d| format!("{:.2}", d.l_infinity))
+    mosaic.distance_to(sampler).map_or("–".into(), |d| format!("{d:.2}"))
 }
 
 fn one(k: usize, record: &ImageRecord) -> Markup {

@@ -3,7 +3,7 @@
 use super::{Cell, VerdictRecord};
 use crate::detect::{Detector, FourierEstimate, Modality, Polarity};
 use crate::geometry::Polygon;
-use crate::mosaic::{LengthUnit, RetinalPlace};
+use crate::mosaic::{LengthUnit, RetinalPlace, hexagonal_spacing};
 use crate::stats::{
     ClarkEvans, DensityRecovery, Deviation, ModalSpacing, Moments, NeighbourEllipse, Orientation, Trend,
     VoronoiSummary,
@@ -137,6 +137,11 @@ impl MosaicRecord {
         self.um_per_unit.map(|um| self.window_area * um * um / 1e6)
     }
 
+    /// l-infinity distance to the sampler of this name, if it was compared with.
+    pub fn distance_to(&self, sampler: &str) -> Option<f64> {
+        self.l_infinity.iter().find(|d| d.sampler == sampler).map(|d| d.l_infinity)
+    }
+
     /// The sampler of least l-infinity distance.
     pub fn closest_sampler(&self) -> Option<&str> {
         let closest = self.l_infinity.iter().min_by(|a, b| a.l_infinity.total_cmp(&b.l_infinity))?;
@@ -151,7 +156,7 @@ impl MosaicRecord {
 
     /// Hexagonal spacing of that density, in µm.
     pub fn expected_spacing_um(&self) -> Option<f64> {
-        self.expected_cones_per_mm2().map(|density| 1e3 * (2. / (3f64.sqrt() * density)).sqrt())
+        self.expected_cones_per_mm2().and_then(|density| hexagonal_spacing(1, 1e6 / density))
     }
 }
 
@@ -239,13 +244,6 @@ pub struct CoordinatesRecord {
     pub warnings: Vec<String>,
 }
 
-/// Columns of distances to samplers, in the order of their names.
-fn sampler_cells<'a>(record: &'a MosaicRecord, samplers: &'a [String]) -> impl Iterator<Item = Cell> + 'a {
-    samplers
-        .iter()
-        .map(|name| record.l_infinity.iter().find(|d| d.sampler == *name).map(|d| d.l_infinity).into())
-}
-
 impl CoordinatesRecord {
     /// Columns of `regularity.csv`, in the form of Table 1 of Lanaro et al. (population deviation), and with the sample's.
     pub fn regularity_header() -> Vec<String> {
@@ -284,7 +282,7 @@ impl CoordinatesRecord {
     pub fn distance_row(&self, samplers: &[String]) -> Vec<Cell> {
         [self.file.as_str().into()]
             .into_iter()
-            .chain(sampler_cells(&self.mosaic, samplers))
+            .chain(samplers.iter().map(|name| self.mosaic.distance_to(name).into()))
             .chain([
                 self.mosaic.closest_sampler().into(),
                 self.mosaic.n.into(),

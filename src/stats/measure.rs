@@ -64,7 +64,8 @@ pub fn measure(mosaic: &Mosaic, options: &MeasureOptions) -> Measures {
         moments(&distances, options.deviation)
     };
     let borders = window.border_distances(points);
-    let nearest_interior = nearest_of(&mut interior_by(&borders, &neighbours));
+    let interior: Vec<bool> = interior_by(&borders, &neighbours).collect();
+    let nearest_interior = nearest_of(&mut interior.iter().copied());
     let trend = trend(points, window);
     let cells = voronoi(points, window);
     let nearest_bound = nearest_of(&mut cells.cells.iter().map(|cell| cell.bound));
@@ -76,7 +77,7 @@ pub fn measure(mosaic: &Mosaic, options: &MeasureOptions) -> Measures {
         nearest_bound,
         clark_evans: clark_evans(window, &neighbours, &borders),
         voronoi: cells.summary(),
-        orientation: orientation(points, window, &neighbours, &cells),
+        orientation: orientation(points, window, &neighbours, &interior, &cells),
         density_recovery: density_recovery(points, window, &DensityRecoveryOptions::default()),
         modal: modal_spacing(points, window),
         cells,

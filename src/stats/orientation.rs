@@ -1,4 +1,4 @@
-use super::{NearestNeighbours, Voronoi, interior};
+use super::{NearestNeighbours, Voronoi};
 use crate::geometry::{Point, Window};
 use serde::{Deserialize, Serialize};
 
@@ -70,19 +70,20 @@ pub struct NeighbourEllipse {
     pub direction: Option<f64>,
 }
 
-/// Orientation and anisotropy of a mosaic (Curcio & Sloan 1992; Cooper et al. 2016), from its nearest neighbours and its cells. Linear
-/// in n; never fails: what is not defined is `None`.
+/// Orientation and anisotropy of a mosaic (Curcio & Sloan 1992; Cooper et al. 2016), from its nearest neighbours, which of
+/// its points are [`interior`](super::interior), and its cells. Linear in n; never fails: what is not defined is `None`.
 pub fn orientation(
     points: &[Point],
     window: &Window,
     nearest: &NearestNeighbours,
+    interior: &[bool],
     cells: &Voronoi,
 ) -> Orientation {
     let bound_psi6 = || cells.cells.iter().map(|c| c.psi6.filter(|_| c.bound));
     let sum = bound_psi6().flatten().fold([0.; 2], |sum, psi| [sum[0] + psi[0], sum[1] + psi[1]]);
     let count = bound_psi6().flatten().count() as f64;
     Orientation {
-        nearest: nearest_axes(points, window, nearest),
+        nearest: nearest_axes(points, window, nearest, interior),
         ellipse: ellipse(cells),
         hexagons: bound_psi6().map(|psi| psi.and_then(|p| phase(p, 6., ROUNDING))).collect(),
         hexagon_direction: phase(sum, 6., ROUNDING * count),
@@ -99,7 +100,12 @@ fn phase([re, im]: [f64; 2], fold: f64, least: f64) -> Option<f64> {
     (re.hypot(im) > least).then_some(if angle < turn { angle } else { 0. })
 }
 
-fn nearest_axes(points: &[Point], window: &Window, nearest: &NearestNeighbours) -> NearestAxes {
+fn nearest_axes(
+    points: &[Point],
+    window: &Window,
+    nearest: &NearestNeighbours,
+    interior: &[bool],
+) -> NearestAxes {
     // exp(2iθ), θ clockwise as in coordinates
     let axis = |i: usize| {
         let &j = nearest.indices.get(i)?;
@@ -116,7 +122,7 @@ fn nearest_axes(points: &[Point], window: &Window, nearest: &NearestNeighbours) 
     }
     let (mut n, mut counts, mut sum) = (0, [0; AXIS_BINS], [0.; 2]);
     let mut of_group: Vec<Option<[f64; 2]>> = vec![None; points.len()];
-    for (i, inside) in interior(points, window, nearest).into_iter().enumerate() {
+    for (i, &inside) in interior.iter().enumerate() {
         let (true, Some([re, im]), Some(angle)) = (inside, axes[i], degrees[i]) else { continue };
         n += 1;
         counts[((angle / AXIS_BIN) as usize).min(AXIS_BINS - 1)] += 1;
@@ -187,13 +193,15 @@ mod tests {
     use super::*;
     use crate::geometry::{Rectangle, nearest_neighbours};
     use crate::sample::sampler;
-    use crate::stats::voronoi;
+    use crate::stats::{interior, voronoi};
     use proptest::prelude::*;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
     fn of(points: &[Point], window: &Window) -> Orientation {
-        orientation(points, window, &nearest_neighbours(points, window), &voronoi(points, window))
+        let nearest = nearest_neighbours(points, window);
+        let interior = interior(points, window, &nearest);
+        orientation(points, window, &nearest, &interior, &voronoi(points, window))
     }
 
     /// A triangular lattice of spacing 1 with rows at `rows` degrees, stretched by `stretch` along the axis at `axis` degrees (both
@@ -279,7 +287,9 @@ mod tests {
                         let rng = &mut ChaCha8Rng::seed_from_u64(1000 * n as u64 + seed);
                         let points = sampler("uniform").unwrap().sample(n, window, rng).unwrap();
                         let nearest = nearest_neighbours(&points, window);
-                        nearest_axes(&points, window, &nearest).p_value.unwrap()
+                        nearest_axes(&points, window, &nearest, &interior(&points, window, &nearest))
+                            .p_value
+                            .unwrap()
                     })
                     .collect();
                 p.sort_by(f64::total_cmp);

@@ -131,6 +131,17 @@ fn collect(root: &Path, folder: &Path, found: &mut BTreeMap<String, Vec<u8>>) {
     }
 }
 
+/// Too few points for most statistics, collinear, coincident and border ones, as rows x,y of a window of 10 × 10.
+pub const FEW_POINTS: [&str; 7] = [
+    "",
+    "5,5\n",
+    "5,5\n9,9\n",
+    "5,5\n9,9\n3,1\n",
+    "1,1\n2,2\n3,3\n4,4\n",
+    "5,5\n5,5\n5,5\n5,5\n",
+    "0,0\n10,0\n0,10\n",
+];
+
 /// A folder of the shared data, or a word that the test is skipped.
 pub fn shared(folder: &str, what: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared").join(folder);

@@ -19,9 +19,7 @@ pub(super) fn write(
     options: &ValidationOptions,
 ) -> Result<(), BatchError> {
     tables::images(out, rows, options.versus.is_some())?;
-    let mut json = serde_json::to_vec_pretty(&analysis.map(|a| record(a, options)))?;
-    json.push(b'\n');
-    out.write("validation.json", &json)?;
+    out.write_json("validation.json", &analysis.map(|a| record(a, options)))?;
 
     let mut figures: Vec<(&str, String)> = Vec::new();
     let mut files = vec![("validation.csv", "a row an image"), ("validation.json", "everything")];

@@ -1,5 +1,6 @@
 use super::cells::{Row, Table};
 use super::error::{Located, ReadFault, listed, shortened};
+use super::identifier::{best_fits, without_folder};
 use super::read::read_file;
 use super::{ReadError, text};
 use crate::mosaic::{Meridian, RetinalPlace};
@@ -85,11 +86,8 @@ impl Manifest {
     /// # Errors
     /// If several fit equally well.
     pub fn row_of(&self, file_name: &str) -> Result<Option<&ManifestRow>, AmbiguousRow> {
-        let name = file_name.rsplit(['/', '\\']).next().unwrap_or(file_name);
-        let rank = |r: &ManifestRow| (r.identifier.len(), name.starts_with(&r.identifier));
-        let fitting: Vec<&ManifestRow> = self.rows.iter().filter(|r| name.contains(&r.identifier)).collect();
-        let best = fitting.iter().map(|r| rank(r)).max();
-        let winners: Vec<&ManifestRow> = fitting.into_iter().filter(|r| Some(rank(r)) == best).collect();
+        let name = without_folder(file_name);
+        let winners = best_fits(&self.rows, name, |e| &e.identifier);
         match winners.as_slice() {
             [] => Ok(None),
             [only] => Ok(Some(only)),

@@ -7,6 +7,7 @@ mod delimited;
 mod error;
 mod group_table;
 mod header;
+mod identifier;
 mod imagej;
 mod manifest;
 mod origin;

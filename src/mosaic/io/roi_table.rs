@@ -1,6 +1,7 @@
 use super::cells::{Row, Table};
 use super::error::{Located, ReadFault, listed, shortened};
 use super::header::{Name, Unit};
+use super::identifier::{best_fits, without_folder};
 use super::read::read_file;
 use super::{Origin, ReadError, ReadOptions, text};
 use crate::geometry::Rectangle;
@@ -102,15 +103,12 @@ impl RoiTable {
     /// # Errors
     /// If no row fits, or several identifiers do equally well.
     pub fn boxes_of(&self, file_name: &str) -> Result<Vec<&Roi>, RoiTableError> {
-        let name = file_name.rsplit(['/', '\\']).next().unwrap_or(file_name);
-        let rank = |e: &Entry| (e.identifier.len(), name.starts_with(&e.identifier));
-        let fits = |e: &&Entry| !e.identifier.is_empty() && name.contains(&e.identifier);
-        let best = self.entries.iter().filter(fits).map(rank).max();
-        let mut winners: Vec<&str> = self
-            .entries
+        let name = without_folder(file_name);
+        let fitting = best_fits(&self.entries, name, |e| &e.identifier);
+        let mut winners: Vec<&str> = fitting
             .iter()
-            .filter(|e| fits(e) && Some(rank(e)) == best)
             .map(|e| e.identifier.as_str())
+            .filter(|identifier| !identifier.is_empty())
             .collect();
         winners.sort_unstable();
         winners.dedup();

@@ -1,5 +1,6 @@
 use super::cells::{Row, Table};
 use super::error::{Located, ReadFault, listed, shortened};
+use super::identifier::{best_fits, without_folder};
 use super::read::read_file;
 use super::{ReadError, text};
 use crate::mosaic::{Scale, micrometres_per_degree};
@@ -81,11 +82,8 @@ impl ScaleTable {
     /// # Errors
     /// If no row fits, or several do equally well.
     pub fn scale_for(&self, file_name: &str) -> Result<Scale, ScaleTableError> {
-        let name = file_name.rsplit(['/', '\\']).next().unwrap_or(file_name);
-        let rank = |e: &Entry| (e.identifier.len(), name.starts_with(&e.identifier));
-        let fitting: Vec<&Entry> = self.entries.iter().filter(|e| name.contains(&e.identifier)).collect();
-        let best = fitting.iter().map(|e| rank(e)).max();
-        let winners: Vec<&Entry> = fitting.into_iter().filter(|e| Some(rank(e)) == best).collect();
+        let name = without_folder(file_name);
+        let winners = best_fits(&self.entries, name, |e| &e.identifier);
         match winners.as_slice() {
             [only] => Ok(only.scale),
             [] => Err(ScaleTableError::Missing {

@@ -101,9 +101,7 @@ pub(super) const SAMPLERS: &[Metric] = &[
                      same window; one column a sampler. Pairs hidden by the border are made up for by the window's set covariance.",
         source: "Lanaro et al. 2020",
         only: Some(super::SummaryKind::Images),
-        value: PerSampler(|s, name| {
-            s.mosaic().l_infinity.iter().find(|d| d.sampler == name).map(|d| d.l_infinity).into()
-        }),
+        value: PerSampler(|s, name| s.mosaic().distance_to(name).into()),
     },
     Metric {
         name: "closest_sampler",
