@@ -176,6 +176,8 @@ fn a_run_maps_every_image_and_keeps_what_is_done() {
     assert_eq!(landmarks.len(), 2);
     assert!(landmarks[0]["file"].ends_with("a.png") && number(&landmarks[0], "pcd") > 0.);
     assert_eq!(place.json("out/run.json")["options"]["maps"]["window"]["cells"], 25);
+    let page = place.read("out/index.html");
+    assert!(page.contains("images/a/maps.svg") && page.contains("Peak density"), "{page}");
 
     let again = place.ok(&maps);
     assert!(again.stdout.contains("2 kept from an earlier run"), "{}", again.stdout);

@@ -39,14 +39,35 @@ fn the_data_dictionary_is_the_programs_own() {
     place.write("dictionary.csv", place.ok(&["metrics", "--csv"]).stdout);
     let rows = place.table("dictionary.csv");
     for row in &rows {
-        assert!(list.contains(&row["column"]) && page.contains(&row["column"]), "{}", row["column"]);
+        assert!(
+            list.contains(&row["column"]) && page.contains(&row["column"]) && !row["definition"].is_empty(),
+            "{}",
+            row["column"]
+        );
     }
     let place = two_files();
-    measured(&place, &[]);
+    measured(&place, &["--functions", "--spectrum", "--maps", "--roi-side", "30", "--group-by", "^(.)"]);
+    let told = |table: &str, column: &str| {
+        let row = rows.iter().find(|r| {
+            r["table"] == table
+                && r["column"] == column
+                && (table != "summary.csv" || r["commands"].contains("measure"))
+        });
+        row.is_some_and(|r| !r["definition"].is_empty() && !r["unit"].is_empty())
+    };
     for column in place.header("out/summary.csv") {
-        let row = rows.iter().find(|r| r["column"] == column && r["commands"].contains("measure"));
-        assert!(row.is_some_and(|r| !r["definition"].is_empty() && !r["unit"].is_empty()), "{column}");
+        assert!(told("summary.csv", &column), "{column}");
     }
+    let own = ["pcf", "functions", "points", "density_recovery", "spectrum", "maps", "profiles"]
+        .map(|kind| (format!("NAME.{kind}.csv"), format!("out/B2_dense.{kind}.csv")));
+    let of_all = ["landmarks.csv", "groups.csv"].map(|name| (name.to_owned(), format!("out/{name}")));
+    for (table, file) in own.into_iter().chain(of_all) {
+        for column in place.header(&file) {
+            assert!(told(&table, &column), "{table}: {column}");
+        }
+    }
+    let places = rows.iter().filter(|r| r["table"] == "rois.csv").map(|r| &r["column"]);
+    assert!(place.header("out/rois.csv").iter().zip(places).all(|(a, b)| a == b));
 }
 
 #[test]
@@ -183,7 +204,7 @@ fn a_run_takes_manifest_groups_and_metrics_and_resumes_by_them() {
         "--manifest",
         "m.csv",
     ];
-    let more = ["--group-by", "column:subject", "--metrics", "expected,samplers,density_per_mm2"];
+    let more = ["--group-by", "column:subject", "--metrics", "expected,samplers,density_per_mm2,fourier"];
     let outcome = place.ok(&[&run[..], &more].concat());
     assert!(outcome.stdout.contains("density_per_mm2 (1/mm²)"), "{}", outcome.stdout);
     let rows = place.table("out/summary.csv");
@@ -192,6 +213,17 @@ fn a_run_takes_manifest_groups_and_metrics_and_resumes_by_them() {
     assert!(place.table("out/groups.csv").iter().any(|r| r["group"] == "s2" && r["column"] == "n"));
     assert!(place.ok(&run).stdout.contains("2 kept"));
     assert_eq!(place.table("out/summary.csv")[0]["subject"], "s1");
+    // what no column wants is not computed, and computed when one does
+    let spacing = |out: &str| {
+        place.json(&format!("{out}/images/a_1/metrics.json"))["fourier"]["all"]["spacing"].as_f64()
+    };
+    assert!(spacing("out").is_some());
+    let few = ["run", "in", "--samplers", "jittered", "--resume", "--out", "few"];
+    place.ok(&[&few[..], &["--metrics", "density"]].concat());
+    assert_eq!(spacing("few"), None);
+    assert!(place.ok(&[&few[..], &["--metrics", "nearest"]].concat()).stdout.contains("2 kept"));
+    assert!(!place.ok(&[&few[..], &["--metrics", "fourier_spacing"]].concat()).stdout.contains("kept"));
+    assert!(spacing("few").is_some());
     place.write("m.csv", "identifier,subject,eccentricity_mm\na_,s1,1\nb_,s3,3\n");
     assert!(place.ok(&run).stdout.contains("1 kept"));
     assert_eq!(place.table("out/summary.csv")[1]["subject"], "s3");

@@ -138,3 +138,28 @@ fn windows_that_cannot_be_say_why() {
         assert!(outcome.code == 2 && outcome.stderr.contains(words), "{}", outcome.stderr);
     }
 }
+
+#[test]
+fn measure_crops_about_the_middle_of_the_window() {
+    let place = Place::new();
+    let mut marks = String::from("x_px,y_px\n300,300\n");
+    for k in 0..400 {
+        marks.push_str(&format!("{},{}\n", 5 * (k % 20) + 2 + k % 3, 5 * (k / 20) + 2));
+    }
+    place.write("marks.csv", marks);
+    let measure = ["measure", "marks.csv", "--window", "100x100", "--um-per-px", "0.5", "--out"];
+    for (out, crop) in [("px", "60x40"), ("um", "30x20um"), ("edges", "19.5,29.5,79.5,69.5px")] {
+        place.ok(&[&measure[..], &[out, "--crop", crop]].concat());
+        let row = &place.table(&format!("{out}/summary.csv"))[0];
+        assert_eq!(number(row, "window_area"), 2400., "{crop}");
+        assert_eq!((number(row, "n"), number(row, "outside_window")), (96., 1.), "{crop}");
+    }
+    let options = place.json("um/options.json");
+    assert_eq!((options["crop"].as_str(), options["window"].as_str()), (Some("30x20um"), Some("100x100")));
+    let outcome = place.run(&[&measure[..], &["no", "--crop", "200,200,300,300"]].concat());
+    assert_eq!(outcome.code, 2, "{}", outcome.stdout);
+    let complaint = &outcome.stderr;
+    assert!(complaint.contains("marks.csv") && complaint.contains("crop 200,200,300,300"), "{complaint}");
+    let complaint = place.refused(&[&measure[..], &["no", "--crop", "20x20", "--torus"]].concat());
+    assert!(complaint.contains("--torus"), "{complaint}");
+}

@@ -137,7 +137,7 @@ fn marked(path: &Path) -> [f64; 5] {
     let truth = density_spacing(marks.len(), image.dim());
     let found = fourier_spacing(&image).unwrap();
     let points = modal_spacing(&marks, &window).unwrap();
-    let map = fourier_map(&image, &FourierMapOptions::default());
+    let map = fourier_map(&image, &found, &FourierMapOptions::default());
     let log = |spacing: Option<f64>| spacing.map_or(f64::INFINITY, |s| (s / truth).ln());
     [
         off(found.all, truth),

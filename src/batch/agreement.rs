@@ -1,7 +1,7 @@
 use super::BatchError;
 use super::outputs::OutputFolder;
 use crate::compare::{Agreement, Intraclass, agreement, intraclass};
-use crate::report::{AgreementLine, AgreementPanel, Cell, agreement_figure};
+use crate::report::{AgreementLine, AgreementPanel, Cell, agreement_figure, tables};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -225,34 +225,6 @@ fn reliability(icc: Option<&Intraclass>) -> Vec<Cell> {
 }
 
 fn write(out: &OutputFolder, outcome: &AgreementOutcome) -> Result<(), BatchError> {
-    let header = [
-        "column",
-        "first",
-        "second",
-        "n",
-        "mean_first",
-        "mean_second",
-        "difference",
-        "difference_low",
-        "difference_high",
-        "sd",
-        "limit_low",
-        "limit_low_from",
-        "limit_low_to",
-        "limit_high",
-        "limit_high_from",
-        "limit_high_to",
-        "icc_agreement",
-        "icc_agreement_low",
-        "icc_agreement_high",
-        "icc_consistency",
-        "icc_consistency_low",
-        "icc_consistency_high",
-        "within_sd",
-        "repeatability",
-        "within_cv_percent",
-    ]
-    .map(str::to_owned);
     let mut rows: Vec<Vec<Cell>> = Vec::new();
     for c in &outcome.columns {
         let mean = |k: usize| c.pairs.iter().map(|(_, v)| v[k]).sum::<f64>() / c.pairs.len() as f64;
@@ -281,9 +253,7 @@ fn write(out: &OutputFolder, outcome: &AgreementOutcome) -> Result<(), BatchErro
         row.extend(reliability(Some(icc)));
         rows.push(row);
     }
-    out.write_table("agreement.csv", &header, &rows)?;
-    let header = ["image", "column", "first", "second", "value_first", "value_second", "mean", "difference"]
-        .map(str::to_owned);
+    out.write_table(tables::AGREEMENT.file, &tables::AGREEMENT.header(), &rows)?;
     let mut rows: Vec<Vec<Cell>> = Vec::new();
     for c in &outcome.columns {
         for (item, [a, b]) in &c.pairs {
@@ -293,13 +263,13 @@ fn write(out: &OutputFolder, outcome: &AgreementOutcome) -> Result<(), BatchErro
             rows.push(row);
         }
     }
-    out.write_table("differences.csv", &header, &rows)?;
+    out.write_table(tables::DIFFERENCES.file, &tables::DIFFERENCES.header(), &rows)?;
     let rows: Vec<Vec<Cell>> = outcome
         .unpaired
         .iter()
         .map(|(item, lacking)| vec![item.as_str().into(), lacking.as_str().into()])
         .collect();
-    out.write_table("unpaired.csv", &["image", "missing_from"].map(str::to_owned), &rows)?;
+    out.write_table(tables::UNPAIRED.file, &tables::UNPAIRED.header(), &rows)?;
     out.write("agreement.svg", figure(outcome).as_bytes())
 }
 

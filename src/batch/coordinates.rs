@@ -3,7 +3,9 @@ use super::measured::{functions_table, pcf_table, points_table, record_of, recov
 use super::outputs::OutputFolder;
 use super::region::{Region, Regions};
 use super::work::for_each;
-use super::{BatchError, Failure, Input, Labels, MapRequest, Progress, RoiRequest, ScaleSource, maps, rois};
+use super::{
+    BatchError, Crop, Failure, Input, Labels, MapRequest, Progress, RoiRequest, ScaleSource, maps, rois,
+};
 use crate::geometry::{Point, Window};
 use crate::mosaic::io::{ReadOptions, read_coordinates};
 use crate::mosaic::{LengthUnit, Mosaic};
@@ -23,7 +25,9 @@ pub struct CoordinatesOptions {
     pub read: ReadOptions,
     /// Where points could have been seen.
     pub region: Region,
-    /// Opposite edges of the window are the same place.
+    /// The rectangle of that window that counts; `None`: all of it.
+    pub crop: Option<Crop>,
+    /// Opposite edges of the window are the same place; not with a crop.
     pub torus: bool,
     /// Where scales come from.
     pub scales: ScaleSource,
@@ -172,6 +176,7 @@ pub(super) fn options_json(options: &CoordinatesOptions, samplers: serde_json::V
         "version": env!("CARGO_PKG_VERSION"),
         "read": options.read,
         "window": options.region.to_string(),
+        "crop": options.crop.map(|c| c.to_string()),
         "torus": options.torus,
         "scale": options.scales.describe(),
         "measure": options.measure,
@@ -204,7 +209,8 @@ pub(super) fn record(
     CoordinatesRecord { file: input.path.display().to_string(), outside, mosaic, warnings }
 }
 
-/// The mosaic in a coordinate file, and how many of its points lie outside the window.
+/// The mosaic in a coordinate file, and how many of its points lie outside the window (those cut off by a crop are not
+/// counted: to leave them out is its purpose).
 pub(super) fn load(
     input: &Input,
     options: &CoordinatesOptions,
@@ -221,6 +227,17 @@ pub(super) fn load(
     if unit == LengthUnit::Micrometre && expansion != 1. {
         points.iter_mut().for_each(|p| *p = Point::new(p.x * expansion, p.y * expansion));
     }
+    let outside = points.iter().filter(|&&p| !window.contains(p)).count();
+    let window = match &options.crop {
+        None => window,
+        Some(crop) => {
+            let frame = crop.frame("--crop", &input.path, &window.bounds(), unit, scale)?;
+            frame.and_then(|frame| window.within(&frame)).ok_or_else(|| BatchError::NothingCropped {
+                file: input.path.clone(),
+                crop: crop.to_string(),
+            })?
+        }
+    };
     let window = match window {
         Window::Polygon(_) if options.torus => {
             return Err(BatchError::NoTorus { file: input.path.clone() });
@@ -228,6 +245,7 @@ pub(super) fn load(
         window if options.torus => Window::Torus(window.bounds()),
         window => window,
     };
-    Mosaic::new(points, window, unit, scale)
-        .map_err(|source| BatchError::Mosaic { file: input.path.clone(), source })
+    let (mosaic, _) = Mosaic::new(points, window, unit, scale)
+        .map_err(|source| BatchError::Mosaic { file: input.path.clone(), source })?;
+    Ok((mosaic, outside))
 }

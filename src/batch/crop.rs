@@ -1,15 +1,17 @@
 use super::BatchError;
-use crate::geometry::Window;
-use crate::mosaic::Scale;
+use crate::geometry::{Rectangle, Window};
+use crate::mosaic::{LengthUnit, Scale};
 use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
-/// The part of an image whose cones count: a centred rectangle or given edges, in px or µm.
+/// The part of a window whose cones count: a centred rectangle or given edges, in px, in µm or in the unit of the
+/// coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crop {
     shape: Shape,
-    micrometres: bool,
+    /// `None`: that of the coordinates; px of an image.
+    unit: Option<LengthUnit>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,13 +26,15 @@ impl FromStr for Crop {
     fn from_str(text: &str) -> Result<Self, String> {
         let bad = || {
             format!(
-                "“{text}” is no crop: expected WxH (centred) or X0,Y0,X1,Y1, in px, or in µm with um behind it"
+                "“{text}” is no crop: expected WxH (centred) or X0,Y0,X1,Y1, with px or um behind it to name the unit"
             )
         };
-        let (body, micrometres) = match text.strip_suffix("um") {
-            Some(body) => (body, true),
-            None => (text.strip_suffix("px").unwrap_or(text), false),
-        };
+        let suffixes =
+            [("um", LengthUnit::Micrometre), ("µm", LengthUnit::Micrometre), ("px", LengthUnit::Pixel)];
+        let (body, unit) = suffixes
+            .into_iter()
+            .find_map(|(suffix, unit)| text.strip_suffix(suffix).map(|body| (body, Some(unit))))
+            .unwrap_or((text, None));
         let numbers = |separator: char| -> Option<Vec<f64>> {
             body.split(separator)
                 .map(|part| part.trim().parse().ok().filter(|v: &f64| v.is_finite()))
@@ -41,7 +45,7 @@ impl FromStr for Crop {
             (_, Some(&[x0, y0, x1, y1])) if x0 < x1 && y0 < y1 => Shape::Edges([x0, y0, x1, y1]),
             _ => return Err(bad()),
         };
-        Ok(Self { shape, micrometres })
+        Ok(Self { shape, unit })
     }
 }
 
@@ -51,21 +55,59 @@ impl fmt::Display for Crop {
             Shape::Centred { width, height } => write!(f, "{width}x{height}")?,
             Shape::Edges([x0, y0, x1, y1]) => write!(f, "{x0},{y0},{x1},{y1}")?,
         }
-        f.write_str(if self.micrometres { "um" } else { "px" })
+        f.write_str(self.unit.map_or("", LengthUnit::symbol))
     }
 }
 
 impl Crop {
-    /// Whether it is in µm, so that a scale is needed.
-    pub const fn in_micrometres(&self) -> bool {
-        self.micrometres
+    /// Whether it is in µm, so that an image needs a scale.
+    pub fn in_micrometres(&self) -> bool {
+        self.unit == Some(LengthUnit::Micrometre)
     }
 
-    /// The window, in px, that the crop leaves of an image of `width` × `height` px. `option` is what it was given as.
+    /// The rectangle, in the `unit` of `bounds`, in which it is centred; `None` if none of it lies within. `option` is what
+    /// it was given as.
+    ///
+    /// # Errors
+    /// If it is in another unit and there is no scale.
+    pub(super) fn frame(
+        &self,
+        option: &'static str,
+        file: &Path,
+        bounds: &Rectangle,
+        unit: LengthUnit,
+        scale: Option<Scale>,
+    ) -> Result<Option<Rectangle>, BatchError> {
+        let um_per_px = || {
+            let missing = || BatchError::NoScale { what: option, file: file.to_owned() };
+            scale.map(|s| s.micrometres_per_pixel()).ok_or_else(missing)
+        };
+        let factor = match (self.unit, unit) {
+            (None, _) | (Some(LengthUnit::Pixel), LengthUnit::Pixel) => 1.,
+            (Some(LengthUnit::Micrometre), LengthUnit::Micrometre) => 1.,
+            (Some(LengthUnit::Micrometre), LengthUnit::Pixel) => 1. / um_per_px()?,
+            (Some(LengthUnit::Pixel), LengthUnit::Micrometre) => um_per_px()?,
+            (Some(_), LengthUnit::Unit) | (Some(LengthUnit::Unit), _) => {
+                return Err(BatchError::CropUnit { crop: self.to_string(), file: file.to_owned() });
+            }
+        };
+        let [x0, y0, x1, y1] = match self.shape {
+            Shape::Centred { width, height } => {
+                let (dx, dy) =
+                    ((bounds.width() - width * factor) / 2., (bounds.height() - height * factor) / 2.);
+                [bounds.x0() + dx, bounds.y0() + dy, bounds.x1() - dx, bounds.y1() - dy]
+            }
+            Shape::Edges(edges) => edges.map(|v| v * factor),
+        };
+        let [x0, y0] = [x0.max(bounds.x0()), y0.max(bounds.y0())];
+        Ok(Rectangle::new(x0, y0, x1.min(bounds.x1()), y1.min(bounds.y1())).ok())
+    }
+
+    /// The window, in px, that the crop leaves of an image of `width` × `height` px.
     ///
     /// # Errors
     /// If it leaves nothing, or is in µm and there is no scale.
-    pub fn window(
+    pub(super) fn window(
         &self,
         option: &'static str,
         file: &Path,
@@ -73,23 +115,13 @@ impl Crop {
         height: usize,
         scale: Option<Scale>,
     ) -> Result<Window, BatchError> {
-        let px = match (self.micrometres, scale) {
-            (false, _) => 1.,
-            (true, Some(scale)) => 1. / scale.micrometres_per_pixel(),
-            (true, None) => return Err(BatchError::NoScale { what: option, file: file.to_owned() }),
-        };
-        let (w, h) = (width as f64, height as f64);
-        let [x0, y0, x1, y1] = match self.shape {
-            Shape::Centred { width, height } => {
-                let (dx, dy) = ((w - width * px) / 2., (h - height * px) / 2.);
-                [dx - 0.5, dy - 0.5, w - dx - 0.5, h - dy - 0.5]
-            }
-            Shape::Edges(edges) => edges.map(|v| v * px),
-        };
-        Window::rectangle(x0.max(-0.5), y0.max(-0.5), x1.min(w - 0.5), y1.min(h - 0.5)).map_err(|_| {
-            let file = file.to_owned();
-            let window = format!("{} {self}", option.trim_start_matches('-'));
-            BatchError::Nowhere { file, window, width, height }
+        let bounds = Window::of_image(width, height)?.bounds();
+        let frame = self.frame(option, file, &bounds, LengthUnit::Pixel, scale)?;
+        frame.map(Window::Rectangle).ok_or_else(|| BatchError::Nowhere {
+            file: file.to_owned(),
+            window: format!("{} {self}", option.trim_start_matches('-')),
+            width,
+            height,
         })
     }
 }
@@ -114,6 +146,31 @@ mod tests {
     #[test]
     fn edges_are_held_within_the_image() {
         assert_eq!(window("10,10,500,30", None).unwrap(), [10., 10., 99.5, 30.]);
+    }
+
+    #[test]
+    fn it_is_centred_in_the_window_of_coordinates_in_their_unit() {
+        let frame = |crop: &str, unit, scale: Option<f64>| {
+            let scale = scale.map(|um| Scale::new(um, 288.).unwrap());
+            let bounds = Rectangle::new(10., 20., 110., 60.).unwrap();
+            let crop: Crop = crop.parse().unwrap();
+            crop.frame("--crop", Path::new("a.csv"), &bounds, unit, scale)
+        };
+        let (px, um) = (LengthUnit::Pixel, LengthUnit::Micrometre);
+        let middle = Some(Rectangle::new(50., 35., 70., 45.).unwrap());
+        for (crop, unit, scale) in [
+            ("20x10", px, None),
+            ("20x10", um, None),
+            ("20x10um", um, None),
+            ("10x5um", px, Some(0.5)),
+            ("40x20px", um, Some(0.5)),
+        ] {
+            assert_eq!(frame(crop, unit, scale).unwrap(), middle, "{crop}");
+        }
+        assert_eq!(frame("20x10", LengthUnit::Unit, None).unwrap(), middle);
+        assert_eq!(frame("0,0,5,5", px, None).unwrap(), None);
+        assert!(matches!(frame("20x10px", um, None), Err(BatchError::NoScale { .. })));
+        assert!(matches!(frame("20x10px", LengthUnit::Unit, None), Err(BatchError::CropUnit { .. })));
     }
 
     #[test]

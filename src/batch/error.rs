@@ -58,6 +58,24 @@ pub enum BatchError {
         /// Height of the image in px.
         height: usize,
     },
+    /// A crop leaves nothing of the window of coordinates.
+    #[error("{file}: the crop {crop} leaves nothing of the window: choose a part of it")]
+    NothingCropped {
+        /// The coordinate file.
+        file: PathBuf,
+        /// As given.
+        crop: String,
+    },
+    /// A crop in px or µm of coordinates in the unit square.
+    #[error(
+        "{file}: the crop {crop} names a unit, but the coordinates are in the unit square: give it without"
+    )]
+    CropUnit {
+        /// The coordinate file.
+        file: PathBuf,
+        /// As given.
+        crop: String,
+    },
     /// Opposite edges of a window that has none.
     #[error(
         "{file}: --torus needs a rectangle, its window is a polygon: leave out --torus or give --window WxH"

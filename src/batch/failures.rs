@@ -1,9 +1,8 @@
 use super::BatchError;
 use super::outputs::OutputFolder;
 use crate::report::Cell;
+use crate::report::tables::FAILURES;
 use serde::Serialize;
-
-const FILE: &str = "failures.csv";
 
 /// A file that could not be worked on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -17,9 +16,9 @@ pub struct Failure {
 /// Lists the failures; without any, a list of an earlier batch goes.
 pub(super) fn write_failures(out: &OutputFolder, failures: &[Failure]) -> Result<(), BatchError> {
     if failures.is_empty() {
-        return out.remove(FILE);
+        return out.remove(FAILURES.file);
     }
     let rows: Vec<Vec<Cell>> =
         failures.iter().map(|f| vec![f.file.as_str().into(), f.reason.as_str().into()]).collect();
-    out.write_table(FILE, &["file".into(), "reason".into()], &rows)
+    out.write_table(FAILURES.file, &FAILURES.header(), &rows)
 }

@@ -2,7 +2,7 @@ use super::outputs::OutputFolder;
 use super::{BatchError, Grouping};
 use crate::mosaic::io::Manifest;
 use crate::mosaic::{MICROMETRES_PER_DEGREE, RetinalPlace, Scale};
-use crate::report::{Cell, MosaicRecord, Subject, Summary, significant};
+use crate::report::{Cell, MosaicRecord, Subject, Summary, significant, tables};
 use crate::stats::{Deviation, moments};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -162,7 +162,6 @@ impl Labels {
                 ]);
             }
         }
-        let header = ["group", "images", "column", "unit", "n", "mean", "sd"].map(str::to_owned);
-        out.write_table("groups.csv", &header, &rows)
+        out.write_table(tables::GROUPS.file, &tables::GROUPS.header(), &rows)
     }
 }

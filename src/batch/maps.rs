@@ -1,10 +1,10 @@
 use super::outputs::OutputFolder;
 use super::{BatchError, Length};
-use crate::detect::{FourierMapOptions, fourier_map};
+use crate::detect::{FourierEstimate, FourierMapOptions, fourier_map};
 use crate::geometry::Point;
 use crate::image::Plane;
 use crate::mosaic::{Mosaic, Scale};
-use crate::report::{Cell, LandmarkRecord, maps_figure};
+use crate::report::{Cell, LandmarkRecord, maps_figure, tables};
 use crate::stats::{LocalWindow, MapOptions, Maps, Measures, maps};
 use serde::Serialize;
 use std::path::Path;
@@ -94,29 +94,16 @@ pub(super) fn write(
 }
 
 /// Writes `landmarks.csv`.
-pub(super) fn write_landmarks(out: &OutputFolder, records: &[LandmarkRecord]) -> Result<(), BatchError> {
-    let rows: Vec<_> = records.iter().map(LandmarkRecord::row).collect();
+pub(super) fn write_landmarks<'a>(
+    out: &OutputFolder,
+    records: impl IntoIterator<Item = &'a LandmarkRecord>,
+) -> Result<(), BatchError> {
+    let rows: Vec<_> = records.into_iter().map(LandmarkRecord::row).collect();
     out.write_table(LANDMARKS, &LandmarkRecord::header(), &rows)
 }
 
 /// Lengths in the unit of the coordinates where the column does not say otherwise. What is not defined is empty.
 fn map_table(mosaic: &Mosaic, maps: &Maps) -> (Vec<String>, Vec<Vec<Cell>>) {
-    let header = [
-        "x",
-        "y",
-        "side",
-        "bound",
-        "flag",
-        "density",
-        "icd",
-        "nnd",
-        "ri",
-        "psi6",
-        "six_sided_percent",
-        "density_per_mm2",
-        "icd_um",
-        "nnd_um",
-    ];
     let um = mosaic.micrometres_per_unit();
     let row = |(p, v): (&crate::geometry::Point, &crate::stats::LocalValues)| -> Vec<Cell> {
         vec![
@@ -137,23 +124,10 @@ fn map_table(mosaic: &Mosaic, maps: &Maps) -> (Vec<String>, Vec<Vec<Cell>>) {
         ]
     };
     let rows = mosaic.points().iter().zip(&maps.local).map(row).collect();
-    (header.map(str::to_owned).into(), rows)
+    (tables::MAPS.header(), rows)
 }
 
 fn profile_table(mosaic: &Mosaic, maps: &Maps) -> (Vec<String>, Vec<Vec<Cell>>) {
-    let header = [
-        "along",
-        "r",
-        "bound",
-        "share",
-        "density",
-        "spacing",
-        "icd",
-        "nnd",
-        "r_um",
-        "density_per_mm2",
-        "spacing_um",
-    ];
     let um = mosaic.micrometres_per_unit();
     let row = |p: &crate::stats::ProfileRow| -> Vec<Cell> {
         vec![
@@ -170,7 +144,7 @@ fn profile_table(mosaic: &Mosaic, maps: &Maps) -> (Vec<String>, Vec<Vec<Cell>>) 
             p.spacing.zip(um).map(|(s, um)| s * um).into(),
         ]
     };
-    (header.map(str::to_owned).into(), maps.profile.iter().map(row).collect())
+    (tables::PROFILES.header(), maps.profile.iter().map(row).collect())
 }
 
 fn per_mm2(density: Option<f64>, um: Option<f64>) -> Cell {
@@ -181,11 +155,11 @@ fn per_mm2(density: Option<f64>, um: Option<f64>) -> Cell {
 pub(super) fn write_fourier(
     folder: &OutputFolder,
     image: &Plane,
+    whole: Option<&FourierEstimate>,
     scale: Option<Scale>,
 ) -> Result<(), BatchError> {
-    let header = ["x_px", "y_px", "spacing_px", "spacing_um", "confidence"].map(str::to_owned);
     let mut rows: Vec<Vec<Cell>> = Vec::new();
-    if let Ok(map) = fourier_map(image, &FourierMapOptions::default()) {
+    if let Some(Ok(map)) = whole.map(|whole| fourier_map(image, whole, &FourierMapOptions::default())) {
         for &y in &map.y {
             for &x in &map.x {
                 let middle = Point::new(x, y);
@@ -201,5 +175,5 @@ pub(super) fn write_fourier(
             }
         }
     }
-    folder.write_table(FOURIER, &header, &rows)
+    folder.write_table(FOURIER, &tables::FOURIER_MAP.header(), &rows)
 }

@@ -4,7 +4,7 @@ use crate::compare::{ReferenceCurve, l_infinity};
 use crate::detect::Detections;
 use crate::geometry::Window;
 use crate::mosaic::Mosaic;
-use crate::report::{Cell, MosaicRecord, RecoveryRecord, SamplerDistance, counted};
+use crate::report::{Cell, MosaicRecord, RecoveryRecord, SamplerDistance, counted, tables};
 use crate::sample::Sampler;
 use crate::stats::{Functions, Measures};
 
@@ -130,24 +130,6 @@ pub(super) fn warnings_of(
 /// Columns of `NAME.points.csv`: lengths in the unit of the coordinates, areas in its square. What is not defined (no
 /// neighbour, an infinite cell, a point that coincides with an earlier one) is empty.
 pub(super) fn points_table(mosaic: &Mosaic, measures: &Measures) -> (Vec<String>, Vec<Vec<Cell>>) {
-    let header = [
-        "x",
-        "y",
-        "nndist",
-        "nnwhich",
-        "bdist",
-        "dirichlet_area",
-        "cell_area",
-        "sides",
-        "bound",
-        "icd",
-        "furthest",
-        "psi6",
-        "nn_direction_deg",
-        "hexagon_direction_deg",
-    ]
-    .map(str::to_owned)
-    .to_vec();
     let angle = |angles: &[Option<f64>], k: usize| angles.get(k).copied().flatten().into();
     let rows = mosaic
         .points()
@@ -174,7 +156,7 @@ pub(super) fn points_table(mosaic: &Mosaic, measures: &Measures) -> (Vec<String>
             ]
         })
         .collect();
-    (header, rows)
+    (tables::POINTS.header(), rows)
 }
 
 /// Columns of `NAME.density_recovery.csv`: middle radius of every annulus in the unit of the coordinates, points per squared unit there,

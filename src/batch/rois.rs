@@ -4,7 +4,7 @@ use super::{BatchError, Input, Length};
 use crate::geometry::Rectangle;
 use crate::mosaic::io::RoiTable;
 use crate::mosaic::{LengthUnit, Mosaic};
-use crate::report::{Cell, MosaicRecord, Subject, Summary};
+use crate::report::{Cell, MosaicRecord, Subject, Summary, tables};
 use crate::stats::{grown, lies_in, measure, sliding};
 use rayon::prelude::*;
 use std::path::Path;
@@ -116,7 +116,7 @@ fn factor(table: &RoiTable, mosaic: &Mosaic, file: &Path) -> Result<f64, BatchEr
 
 /// The columns of `rois.csv`: where a region is, then those of `summary.csv` for the points in it.
 fn header(summary: &Summary) -> Vec<String> {
-    let place = ["file", "roi", "x0", "y0", "x1", "y1", "flag"].map(str::to_owned);
+    let place = tables::ROIS.header();
     place.into_iter().chain(summary.header().into_iter().filter(|name| name != "file")).collect()
 }
 

@@ -14,7 +14,8 @@ use crate::geometry::Window;
 use crate::image::Plane;
 use crate::mosaic::{LengthUnit, Mosaic, Scale};
 use crate::report::{
-    DetectionRecord, ImageRecord, LandmarkRecord, MetricSelection, Subject, Summary, SummaryKind, page,
+    DetectionRecord, ImageRecord, LandmarkRecord, MetricGroup, MetricSelection, Subject, Summary,
+    SummaryKind, page,
 };
 use crate::sample::Sampler;
 use crate::stats::{Histogram, MeasureOptions, Measures, PcfOptions, measure};
@@ -160,13 +161,13 @@ pub fn run_files(
         let (header, rows) = verdicts::table(found);
         out.write_table("verdicts.csv", &header, &rows)?;
     }
+    let landmarks: Vec<Option<LandmarkRecord>> = done.iter().map(|d| d.landmarks.clone()).collect();
     if options.maps.is_some() {
-        let landmarks: Vec<_> = done.iter().filter_map(|d| d.landmarks.clone()).collect();
-        maps::write_landmarks(&out, &landmarks)?;
+        maps::write_landmarks(&out, landmarks.iter().flatten())?;
     }
     let records: Vec<ImageRecord> = done.iter().map(|d| d.record.clone()).collect();
     let reasons: Vec<(&str, &str)> = failures.iter().map(|f| (f.file.as_str(), f.reason.as_str())).collect();
-    out.write("index.html", page(&records, &reasons, &samplers).as_bytes())?;
+    out.write("index.html", page(&records, &landmarks, &reasons, &samplers).as_bytes())?;
     out.write_json("run.json", &run_json(options, &done, &failures, started))?;
     let reused = done.iter().filter(|d| d.seconds.is_none()).count();
     Ok(RunOutcome { records, failures, reused })
@@ -203,9 +204,12 @@ fn one_image(
     let label = options.labels.of(&input.path, scale)?;
     let options_sha256 = fingerprint(options, scale, &window, &label)?;
     drop(bytes);
+    let wants_fourier =
+        options.maps.is_some() || options.metrics.has_any_of(MetricGroup::Fourier, SummaryKind::Images);
     if options.resume
         && let Some((record, landmarks)) = earlier(images, input, &sha256, &options_sha256)
         && landmarks.is_some() == options.maps.is_some()
+        && (record.fourier.is_some() || !wants_fourier)
     {
         let line =
             format!("{} cones, {}, kept from an earlier run", record.mosaic.n, record.detection.modality);
@@ -237,6 +241,9 @@ fn one_image(
     warnings.extend(not_compared(&measures, &options.samplers, &curves));
     warnings.extend(no_verdicts);
     label.put_on(&mut mosaic_record, &mut warnings);
+    let fourier = wants_fourier.then(|| {
+        fourier_spacing(&image).map_err(|source| BatchError::Detect { file: input.path.clone(), source })
+    });
     let record = ImageRecord {
         file: input.path.display().to_string(),
         name: input.name.clone(),
@@ -257,8 +264,7 @@ fn one_image(
             expected_false_alarms: found.expected_false_alarms(),
             expected_misses: found.expected_misses(),
         },
-        fourier: fourier_spacing(&image)
-            .map_err(|source| BatchError::Detect { file: input.path.clone(), source })?,
+        fourier: fourier.transpose()?,
         warnings,
         mosaic: mosaic_record,
     };
@@ -267,7 +273,7 @@ fn one_image(
         let map = |request| maps::write(folder, "", &record.name, &input.path, (&mosaic, &measures), request);
         landmarks = options.maps.as_ref().map(map).transpose()?;
         if options.maps.is_some() {
-            maps::write_fourier(folder, &image, scale)?;
+            maps::write_fourier(folder, &image, record.fourier.as_ref(), scale)?;
         }
         write_image_folder(folder, &image, &found, &mosaic, &measures, &curves, &record)?;
         folder.write_json(METRICS, &metrics(&record, &measures, &curves, landmarks.as_ref()))?;

@@ -8,7 +8,7 @@ use super::short_table;
 use anyhow::Result;
 use clap::Args;
 use conemosaic::batch::{
-    CoordinatesOptions, CoordinatesOutcome, Labels, Region, coordinate_files, measure_files,
+    CoordinatesOptions, CoordinatesOutcome, Crop, Labels, Region, coordinate_files, measure_files,
 };
 use conemosaic::mosaic::io::{Origin, ReadOptions};
 use conemosaic::report::{Cell, CoordinatesRecord, MetricSelection, PowerScale, Subject, counted};
@@ -53,6 +53,10 @@ pub struct MosaicArgs {
     /// column “ring” parts rings, rings within rings are holes), WebPlotDigitizer project or ImageJ ROI
     #[arg(long, value_name = "WINDOW", default_value = "auto", allow_hyphen_values = true)]
     window: Region,
+    /// Of that window only this rectangle: WxH (centred in it) or X0,Y0,X1,Y1, in the unit of the coordinates, or with px or
+    /// um behind it; points outside are left out
+    #[arg(long, value_name = "RECT", allow_hyphen_values = true, conflicts_with = "torus")]
+    crop: Option<Crop>,
     /// Opposite edges of the window are the same place
     #[arg(long)]
     torus: bool,
@@ -123,6 +127,7 @@ impl MosaicArgs {
         Ok(CoordinatesOptions {
             read: self.coordinates.options()?,
             region: self.window.clone(),
+            crop: self.crop,
             torus: self.torus,
             scales: self.scale.source()?,
             labels: Labels::default(),
@@ -141,13 +146,14 @@ impl MosaicArgs {
 #[command(after_help = "\
 Examples:
   conemosaic measure marks --window 150x150 --origin 1 --um-per-px 0.42 --out measured
+  conemosaic measure marks --um-per-px 0.42 --crop 55x55um --out middle
   conemosaic measure montage.csv --um-per-px 0.42 --maps --out maps
   conemosaic measure montage.csv --um-per-px 0.42 --roi-side 40um --roi-cells 100 --out regions
 
 Reads CSV and its relatives, WebPlotDigitizer projects and CSVs, ImageJ results and regions.
 
 Writes to measured/:
-  summary.csv    one row a file; `conemosaic metrics` says what each column is
+  summary.csv    one row a file; `conemosaic metrics` says what each column is, here and below
   summary.json   the same
   groups.csv     with --group-by: mean, SD and number of every column by group
   NAME.pcf.csv   pair correlation function (r in hexagonal spacings, g)

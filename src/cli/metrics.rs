@@ -7,7 +7,7 @@ use conemosaic::mosaic::io::Manifest;
 use conemosaic::report::{MetricSelection, dictionary, dictionary_table, dictionary_text, write_csv};
 use std::path::PathBuf;
 
-/// What every column of summary.csv means: definition, unit, edge rule, source
+/// What every column of every table means: definition, unit, edge rule, source
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

@@ -1,4 +1,4 @@
-use super::{Cell, counted, significant};
+use super::{Cell, counted, significant, tables};
 use crate::stats::{FEWEST_PAIRS, RankCorrelation, rank_correlation};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -24,9 +24,7 @@ impl FindingRecord {
 
     /// Columns of `finding.csv`.
     pub fn header() -> Vec<String> {
-        ["sampler", "mosaics", "spearman_rho_of_ri_and_l_infinity", "p_value", "in_words"]
-            .map(str::to_owned)
-            .into()
+        tables::FINDING.header()
     }
 
     /// The row under [`Self::header`].

@@ -1,4 +1,4 @@
-use super::Cell;
+use super::{Cell, significant};
 use crate::geometry::Point;
 use crate::mosaic::{LengthUnit, Mosaic};
 use crate::stats::{Ellipse, LocalWindow, Maps};
@@ -111,6 +111,30 @@ impl LandmarkRecord {
         density.zip(self.um_per_unit).map(|(d, um)| d * 1e6 / (um * um))
     }
 
+    /// Peak, centroid and area in words; why there are none.
+    pub fn words(&self) -> String {
+        let number = |v: f64| significant(v, 4);
+        let density = |d: f64| match self.per_mm2(Some(d)) {
+            Some(d) => format!("{} cones/mm²", number(d)),
+            None => format!("{} cones/{}²", number(d), self.unit.symbol()),
+        };
+        let place = |p: Point| format!("({}, {}) {}", number(p.x), number(p.y), self.unit.symbol());
+        let peak = self
+            .peak
+            .zip(self.peak_at)
+            .map(|(d, at)| format!("Peak density {} at {}.", density(d), place(at)));
+        let centroid = self.centroid.zip(self.centroid_density).map(|(at, d)| {
+            format!(
+                "Centroid of the region above {} % of it: {} at {}.",
+                number(100. * self.isodensity),
+                density(d),
+                place(at)
+            )
+        });
+        let note = (!self.note.is_empty()).then(|| format!("Note: {}.", self.note));
+        [peak, centroid, note].into_iter().flatten().collect::<Vec<_>>().join(" ")
+    }
+
     /// Columns of `landmarks.csv`.
     pub fn header() -> Vec<String> {
         COLUMNS.iter().map(|(name, _)| (*name).to_owned()).collect()
@@ -119,5 +143,15 @@ impl LandmarkRecord {
     /// The row under [`Self::header`].
     pub fn row(&self) -> Vec<Cell> {
         COLUMNS.iter().map(|(_, value)| value(self)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_dictionary_tells_the_columns() {
+        assert_eq!(crate::report::tables::LANDMARKS.header(), LandmarkRecord::header());
     }
 }

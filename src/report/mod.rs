@@ -17,6 +17,7 @@ mod paper_page;
 mod record;
 mod spectrum;
 mod table;
+pub mod tables;
 mod validation;
 mod validation_page;
 mod verdict;

@@ -1,4 +1,6 @@
-use super::{Cell, DetectionRecord, ImageRecord, MosaicRecord, by_need, counted, significant};
+use super::{
+    Cell, DetectionRecord, ImageRecord, LandmarkRecord, MosaicRecord, by_need, counted, significant,
+};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 pub(super) const STYLE: &str = "
@@ -19,7 +21,13 @@ nav a { margin-right: 1rem; font-size: .9rem; }
 ";
 
 /// The page of a run: a table of all images and the figure of each. Refers to the files beside it.
-pub fn page(records: &[ImageRecord], failures: &[(&str, &str)], samplers: &[String]) -> String {
+/// `landmarks` are what the maps of each image say, where there are maps.
+pub fn page(
+    records: &[ImageRecord],
+    landmarks: &[Option<LandmarkRecord>],
+    failures: &[(&str, &str)],
+    samplers: &[String],
+) -> String {
     let cones: usize = records.iter().map(|r| r.mosaic.n).sum();
     let scaled = records.iter().any(|r| r.mosaic.um_per_unit.is_some());
     html! {
@@ -47,7 +55,7 @@ pub fn page(records: &[ImageRecord], failures: &[(&str, &str)], samplers: &[Stri
                     "alarms and misses that the scores of the cones and of the rejected candidates lead to expect; images that most need "
                     "the eye of a person come first."
                 }
-                @for k in by_need(records) { (one(k, &records[k])) }
+                @for k in by_need(records) { (one(k, &records[k], landmarks.get(k).and_then(Option::as_ref))) }
             }
         }
     }
@@ -112,7 +120,7 @@ fn distance(mosaic: &MosaicRecord, sampler: &str) -> String {
     mosaic.distance_to(sampler).map_or("–".into(), |d| format!("{d:.2}"))
 }
 
-fn one(k: usize, record: &ImageRecord) -> Markup {
+fn one(k: usize, record: &ImageRecord, landmarks: Option<&LandmarkRecord>) -> Markup {
     let folder = format!("images/{}", in_url(&record.name));
     html! {
         section id=(format!("i{k}")) {
@@ -123,6 +131,12 @@ fn one(k: usize, record: &ImageRecord) -> Markup {
             @if !record.mosaic.verdicts.is_empty() {
                 ul.verdicts { @for verdict in &record.mosaic.verdicts { li { (verdict.words()) } } }
                 figure { img loading="lazy" src=(format!("{folder}/verdict.svg")) alt=(format!("g(r) of {} in the envelopes of samplers", record.name)); }
+            }
+            @if let Some(landmarks) = landmarks {
+                p { (landmarks.words()) }
+                @if landmarks.whole > 0 {
+                    figure { img loading="lazy" src=(format!("{folder}/maps.svg")) alt=(format!("Maps of {}", record.name)); }
+                }
             }
             nav {
                 @for (file, words) in
@@ -161,7 +175,7 @@ mod tests {
 
     #[test]
     fn a_page_without_images_is_still_a_page() {
-        let text = page(&[], &[("a<b>.png", "it is <broken>")], &[]);
+        let text = page(&[], &[], &[("a<b>.png", "it is <broken>")], &[]);
         assert!(text.starts_with("<!DOCTYPE html>") && text.contains("it is &lt;broken&gt;"));
     }
 

@@ -1,6 +1,6 @@
 //! What is known of one mosaic, in the form in which it is written to files.
 
-use super::{Cell, VerdictRecord};
+use super::{Cell, VerdictRecord, tables};
 use crate::detect::{Detector, FourierEstimate, Modality, Polarity};
 use crate::geometry::Polygon;
 use crate::mosaic::{LengthUnit, RetinalPlace, hexagonal_spacing};
@@ -223,8 +223,9 @@ pub struct ImageRecord {
     pub height_px: usize,
     /// The cones.
     pub detection: DetectionRecord,
-    /// Spacing by the spectrum of the image.
-    pub fourier: FourierEstimate,
+    /// Spacing by the spectrum of the image; `None` if no column of it is wanted.
+    #[serde(default)]
+    pub fourier: Option<FourierEstimate>,
     /// Their statistics.
     pub mosaic: MosaicRecord,
     /// What a reader of these numbers should know.
@@ -247,9 +248,7 @@ pub struct CoordinatesRecord {
 impl CoordinatesRecord {
     /// Columns of `regularity.csv`, in the form of Table 1 of Lanaro et al. (population deviation), and with the sample's.
     pub fn regularity_header() -> Vec<String> {
-        ["file", "unit", "nn_mean", "nn_sd_population", "ri_population", "nn_sd_sample", "ri_sample", "n"]
-            .map(str::to_owned)
-            .into()
+        tables::REGULARITY.header()
     }
 
     /// The row under [`Self::regularity_header`]: nearest-neighbour distances of all points.

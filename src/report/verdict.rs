@@ -1,4 +1,4 @@
-use super::{Cell, significant};
+use super::{Cell, significant, tables};
 use crate::compare::SamplerVerdict;
 use serde::{Deserialize, Serialize};
 
@@ -97,24 +97,7 @@ impl VerdictRecord {
 
     /// Columns of `verdicts.csv`.
     pub fn header() -> Vec<String> {
-        [
-            "file",
-            "sampler",
-            "verdict",
-            "p_envelope",
-            "outside_r_in_spacings",
-            "l_infinity",
-            "p_l_infinity",
-            "l_infinity_usual",
-            "l_infinity_95_percent",
-            "ri_mean",
-            "ri_sd",
-            "simulations",
-            "points_min",
-            "points_max",
-        ]
-        .map(str::to_owned)
-        .into()
+        tables::VERDICTS.header()
     }
 
     /// The row under [`Self::header`] for the mosaic of this file.

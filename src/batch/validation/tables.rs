@@ -4,7 +4,7 @@ use super::ValidationRow;
 use crate::batch::BatchError;
 use crate::batch::outputs::OutputFolder;
 use crate::compare::{Difference, Froc, GroupSummary, Reliability, Score};
-use crate::report::Cell;
+use crate::report::{Cell, tables};
 
 type Column = (&'static str, fn(&ValidationRow) -> Cell);
 
@@ -64,24 +64,6 @@ pub(super) fn images(out: &OutputFolder, rows: &[ValidationRow], two: bool) -> R
 
 /// `groups.csv`.
 pub(super) fn groups(out: &OutputFolder, groups: &[GroupSummary]) -> Result<(), BatchError> {
-    let header = [
-        "group",
-        "images",
-        "tp",
-        "fn",
-        "fp",
-        "sensitivity",
-        "fdr",
-        "precision",
-        "dice",
-        "dice_sd",
-        "pooled_dice",
-        "localisation_px",
-        "localisation_um",
-        "localisation_s",
-        "count_bias",
-        "density_percent_bias",
-    ];
     let row = |g: &GroupSummary| -> Vec<Cell> {
         let s = &g.summary;
         vec![
@@ -104,21 +86,11 @@ pub(super) fn groups(out: &OutputFolder, groups: &[GroupSummary]) -> Result<(), 
         ]
     };
     let rows: Vec<Vec<Cell>> = groups.iter().map(row).collect();
-    out.write_table("groups.csv", &header.map(str::to_owned), &rows)
+    out.write_table(tables::SUBJECT_GROUPS.file, &tables::SUBJECT_GROUPS.header(), &rows)
 }
 
 /// `froc.csv`.
 pub(super) fn curve(out: &OutputFolder, froc: &Froc) -> Result<(), BatchError> {
-    let header = [
-        "threshold",
-        "sensitivity",
-        "precision",
-        "dice",
-        "mean_dice",
-        "false_alarms_per_image",
-        "false_alarms_per_mm2",
-        "false_alarms_per_100_marks",
-    ];
     let rows: Vec<Vec<Cell>> = froc
         .thinned(CURVE_POINTS)
         .iter()
@@ -135,12 +107,11 @@ pub(super) fn curve(out: &OutputFolder, froc: &Froc) -> Result<(), BatchError> {
             ]
         })
         .collect();
-    out.write_table("froc.csv", &header.map(str::to_owned), &rows)
+    out.write_table(tables::FROC.file, &tables::FROC.header(), &rows)
 }
 
 /// `reliability.csv`.
 pub(super) fn bins(out: &OutputFolder, reliability: &Reliability) -> Result<(), BatchError> {
-    let header = ["score_from", "score_to", "n", "mean_score", "hits", "hits_low", "hits_high"];
     let rows: Vec<Vec<Cell>> = reliability
         .bins
         .iter()
@@ -157,12 +128,11 @@ pub(super) fn bins(out: &OutputFolder, reliability: &Reliability) -> Result<(), 
             ]
         })
         .collect();
-    out.write_table("reliability.csv", &header.map(str::to_owned), &rows)
+    out.write_table(tables::RELIABILITY.file, &tables::RELIABILITY.header(), &rows)
 }
 
 /// `comparison.csv`.
 pub(super) fn differences(out: &OutputFolder, differences: &[Difference]) -> Result<(), BatchError> {
-    let header = ["measure", "images", "first", "second", "difference", "low", "high", "p"];
     let rows: Vec<Vec<Cell>> = differences
         .iter()
         .map(|d| {
@@ -178,5 +148,16 @@ pub(super) fn differences(out: &OutputFolder, differences: &[Difference]) -> Res
             ]
         })
         .collect();
-    out.write_table("comparison.csv", &header.map(str::to_owned), &rows)
+    out.write_table(tables::COMPARISON.file, &tables::COMPARISON.header(), &rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_dictionary_tells_the_columns() {
+        let header: Vec<&str> = COLUMNS.iter().chain(VERSUS).map(|c| c.0).collect();
+        assert_eq!(tables::VALIDATION.header(), header);
+    }
 }

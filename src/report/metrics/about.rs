@@ -121,7 +121,7 @@ pub(super) const FILE: &[Metric] = &[
         group: About,
         quantity: COUNT,
         edge: NotAffected,
-        definition: "Points of the file outside the window, which are left out.",
+        definition: "Points of the file outside the window, which are left out; not those that --crop leaves out.",
         source: "",
         only: COORDINATES,
         value: One(|s| s.coordinates().map(|r| r.outside).into()),

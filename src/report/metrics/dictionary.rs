@@ -1,6 +1,7 @@
 use super::summary::columns;
 use super::{Metric, MetricGroup, SummaryKind, metrics};
 use crate::report::table;
+use crate::report::tables::{OutputTable, TABLES};
 
 const KINDS: [(SummaryKind, &str); 2] = [(SummaryKind::Images, "run"), (SummaryKind::Coordinates, "measure")];
 
@@ -30,18 +31,29 @@ fn rows_of(metric: &'static Metric) -> Vec<[String; 3]> {
     rows
 }
 
-const HEADER: [&str; 7] = ["column", "group", "unit", "edge_rule", "commands", "definition", "source"];
+const HEADER: [&str; 8] =
+    ["table", "column", "group", "unit", "edge_rule", "commands", "definition", "source"];
 
-/// The data dictionary as rows of a table, and its header: a row a column of the summaries.
+/// Where the tables beside the summary begin.
+const BESIDE: &str = "\
+Other tables. `NAME` stands for the name of an image or a file of coordinates, `SAMPLER` in a column for that of each sampler; `unit` is the \
+unit of the coordinates: px of an image.";
+
+/// The data dictionary as rows of a table, and its header: a row a column of the summaries, then of all other tables.
 pub fn dictionary_table() -> (Vec<String>, Vec<Vec<String>>) {
     let rows = metrics().flat_map(|m| {
         rows_of(m).into_iter().map(move |[name, unit, commands]| {
             let texts = [m.group.name(), m.edge.name(), m.definition, m.source].map(str::to_owned);
             let [group, edge, definition, source] = texts;
-            vec![name, group, unit, edge, commands, definition, source]
+            vec!["summary.csv".to_owned(), name, group, unit, edge, commands, definition, source]
         })
     });
-    (HEADER.map(str::to_owned).to_vec(), rows.collect())
+    let beside = TABLES.into_iter().flat_map(|t| {
+        t.columns.iter().map(move |c| {
+            [t.file, c.name, "", c.unit, "", t.commands, c.definition, ""].map(str::to_owned).to_vec()
+        })
+    });
+    (HEADER.map(str::to_owned).to_vec(), rows.chain(beside).collect())
 }
 
 /// The data dictionary for a terminal: a block a metric.
@@ -66,7 +78,28 @@ pub fn dictionary_text() -> String {
             text.push_str(&format!("      {}{edge}{source}\n\n", metric.definition));
         }
     }
+    for t in TABLES {
+        text.push_str(&format!("{} ({})\n\n  {}\n\n", t.file, t.commands, t.about));
+        let rows: Vec<Vec<String>> = t
+            .columns
+            .iter()
+            .map(|c| vec![format!("  {}", c.name), c.unit.to_owned(), c.definition.to_owned()])
+            .collect();
+        text.push_str(&format!("{}\n\n", table(&["  column", "unit", "definition"], &rows)));
+    }
     text
+}
+
+/// A table beside the summary as a section in Markdown.
+fn section(t: &OutputTable) -> String {
+    let rows = t.columns.iter().map(|c| format!("| `{}` | {} | {} |\n", c.name, c.unit, c.definition));
+    format!(
+        "\n### `{}` – {}\n\n{}\n\n| column | unit | definition |\n|---|---|---|\n{}",
+        t.file,
+        t.commands,
+        t.about,
+        rows.collect::<String>()
+    )
 }
 
 /// The data dictionary as a page in Markdown.
@@ -103,6 +136,8 @@ pub fn dictionary() -> String {
             ));
         }
     }
+    page.push_str(&format!("\n## Beside the summary\n\n{BESIDE}\n"));
+    TABLES.iter().for_each(|t| page.push_str(&section(t)));
     page
 }
 
@@ -116,8 +151,9 @@ mod tests {
         let (_, rows) = dictionary_table();
         for (kind, command) in KINDS {
             let summary = Summary::new(kind, &MetricSelection::default(), &["SAMPLER".into()], &[]);
-            let of_command = |row: &&Vec<String>| row[4].split(", ").any(|c| c == command);
-            let mut told: Vec<&String> = rows.iter().filter(of_command).map(|row| &row[0]).collect();
+            let of_command =
+                |row: &&Vec<String>| row[0] == "summary.csv" && row[5].split(", ").any(|c| c == command);
+            let mut told: Vec<&String> = rows.iter().filter(of_command).map(|row| &row[1]).collect();
             let header = summary.header();
             let mut expected: Vec<&String> = header.iter().collect();
             told.sort_unstable();

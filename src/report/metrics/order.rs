@@ -185,7 +185,7 @@ pub(super) const FOURIER: &[Metric] = &[
         definition: "Spacing of the triangular lattice with the ring that cones leave in the spectrum of the image, in all directions, without looking for cones; empty without a ring.",
         source: "Cooper, Aguirre & Morgan 2019, with another background and fit",
         only: IMAGES,
-        value: One(|s| s.image().and_then(|r| r.fourier.all).map(|f| f.spacing).into()),
+        value: One(|s| s.image().and_then(|r| r.fourier?.all).map(|f| f.spacing).into()),
     },
     Metric {
         name: "fourier_spacing_row",
@@ -195,7 +195,7 @@ pub(super) const FOURIER: &[Metric] = &[
         definition: "Spacing of the triangular lattice with the ring that cones leave in the spectrum of the image, of waves within 45° of the y axis, without looking for cones; empty without a ring.",
         source: "Cooper, Aguirre & Morgan 2019, with another background and fit",
         only: IMAGES,
-        value: One(|s| s.image().and_then(|r| r.fourier.row).map(|f| f.spacing).into()),
+        value: One(|s| s.image().and_then(|r| r.fourier?.row).map(|f| f.spacing).into()),
     },
     Metric {
         name: "fourier_spacing_cell",
@@ -205,7 +205,7 @@ pub(super) const FOURIER: &[Metric] = &[
         definition: "Spacing of the triangular lattice with the ring that cones leave in the spectrum of the image, of waves within 45° of the x axis, without looking for cones; empty without a ring.",
         source: "Cooper, Aguirre & Morgan 2019, with another background and fit",
         only: IMAGES,
-        value: One(|s| s.image().and_then(|r| r.fourier.cell).map(|f| f.spacing).into()),
+        value: One(|s| s.image().and_then(|r| r.fourier?.cell).map(|f| f.spacing).into()),
     },
     Metric {
         name: "fourier_confidence",
@@ -215,6 +215,6 @@ pub(super) const FOURIER: &[Metric] = &[
         definition: "Share of the variance of the profile in all directions about its background that the ring explains, less what it explains of noise by three standard deviations: 0 of noise.",
         source: "Cooper, Aguirre & Morgan 2019, with another background and fit",
         only: IMAGES,
-        value: One(|s| s.image().and_then(|r| r.fourier.all).map(|f| f.confidence).into()),
+        value: One(|s| s.image().and_then(|r| r.fourier?.all).map(|f| f.confidence).into()),
     },
 ];

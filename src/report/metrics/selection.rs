@@ -19,6 +19,13 @@ impl MetricSelection {
         self.wanted.is_empty()
     }
 
+    /// Whether a summary of this kind has any column of a group.
+    pub fn has_any_of(&self, group: MetricGroup, kind: SummaryKind) -> bool {
+        metrics()
+            .filter(|m| m.group == group && m.is_of(kind))
+            .any(|m| columns(m, kind, &[]).any(|c| self.has(m, &c.name)))
+    }
+
     /// Whether a column of a metric is in the summary.
     pub(super) fn has(&self, metric: &Metric, column: &str) -> bool {
         self.is_all() || ALWAYS.contains(&metric.name) || self.names(metric, column)

@@ -1,4 +1,4 @@
-use super::{FourierSpacing, Polar, RingFit, Sector, estimate, profiles, starts};
+use super::{FourierEstimate, FourierSpacing, Polar, RingFit, Sector, profiles, starts};
 use crate::detect::spacing::SpacingMap;
 use crate::detect::{DetectError, MIN_SIDE, check};
 use crate::geometry::Point;
@@ -53,21 +53,24 @@ pub struct FourierMap {
 }
 
 /// Modal spacing all over an image, from tiles of a side of twelve spacings ([`FourierMapOptions::side`]; at least 24 px, at most the shorter
-/// side of the image), overlapping by three quarters. Within a factor of two of the modal spacing of the whole image. Cones much wider
+/// side of the image), overlapping by three quarters; `whole` is what [`fourier_spacing`](super::fourier_spacing) finds in the image. Within a factor of two of the modal spacing of the whole image. Cones much wider
 /// apart than on average fill no tile with enough of them: beyond that factor the map is not to be trusted. At a spacing of 9 px
 /// 1024 × 1024 px take .75 s on two cores, 4096 × 4096 px 17 s.
 ///
 /// # Errors
 /// If an option is out of its range, the image is too small, its pixels are all the same or one is not a number, or the whole image
 /// has no ring.
-pub fn fourier_map(image: &Plane, options: &FourierMapOptions) -> Result<FourierMap, DetectError> {
+pub fn fourier_map(
+    image: &Plane,
+    whole: &FourierEstimate,
+    options: &FourierMapOptions,
+) -> Result<FourierMap, DetectError> {
     options.validate()?;
     check(image)?;
     let (height, width) = image.dim();
     let empty = EmptyPixels::of(image);
     let filled = empty.as_ref().map(|e| e.filled(image));
     let image = filled.as_ref().unwrap_or(image);
-    let whole = estimate(image, empty.as_ref());
     let whole = match options.sector {
         Sector::All => whole.all,
         Sector::Row => whole.row,
@@ -138,13 +141,18 @@ impl FourierMap {
 mod tests {
     use super::super::tests::picture;
     use super::*;
+    use crate::detect::fourier_spacing;
     use crate::render::MosaicOptions;
+
+    fn mapped(image: &Plane, options: &FourierMapOptions) -> Result<FourierMap, DetectError> {
+        fourier_map(image, &fourier_spacing(image)?, options)
+    }
 
     #[test]
     fn a_gradient_of_spacing_is_followed() {
         // density 4:1 from left to right: the spacing doubles
         let mosaic = MosaicOptions { spacing: 8., gradient: 4., ..MosaicOptions::default() };
-        let map = fourier_map(&picture(&mosaic, 500, 300), &FourierMapOptions::default()).unwrap();
+        let map = mapped(&picture(&mosaic, 500, 300), &FourierMapOptions::default()).unwrap();
         let at = |x: f64| map.spacing.at(Point::new(x, 150.));
         println!("{} {:?}", map.side, [50., 150., 250., 350., 450.].map(at));
         let (left, right) = (at(60.), at(440.));
@@ -155,7 +163,7 @@ mod tests {
 
     #[test]
     fn an_even_mosaic_has_an_even_map() {
-        let map = fourier_map(&picture(&MosaicOptions::default(), 300, 200), &FourierMapOptions::default());
+        let map = mapped(&picture(&MosaicOptions::default(), 300, 200), &FourierMapOptions::default());
         let map = map.unwrap();
         let (low, high) = map.spacing.range();
         println!("{} {low} {high}", map.side);
@@ -170,13 +178,13 @@ mod tests {
         let image = picture(&MosaicOptions::default(), 150, 150).mapv(|v| v.max(0.01));
         let mut framed = Plane::zeros((200, 420));
         image.indexed_iter().for_each(|((y, x), v)| framed[[y + 20, x + 20]] = *v);
-        let map = fourier_map(&framed, &FourierMapOptions::default()).unwrap();
+        let map = mapped(&framed, &FourierMapOptions::default()).unwrap();
         assert!(map.tiles[map.x.len() - 1].is_none() && map.tiles.iter().any(Option::is_some));
         assert!(map.confidence_at(Point::new(410., 100.)) < map.confidence_at(Point::new(90., 90.)));
         let bad = FourierMapOptions { side: f64::NAN, ..FourierMapOptions::default() };
-        assert!(matches!(fourier_map(&framed, &bad), Err(DetectError::TileSide(_))));
+        assert!(matches!(mapped(&framed, &bad), Err(DetectError::TileSide(_))));
         assert!(matches!(
-            fourier_map(&Plane::zeros((50, 50)), &FourierMapOptions::default()),
+            mapped(&Plane::zeros((50, 50)), &FourierMapOptions::default()),
             Err(DetectError::Constant { .. })
         ));
     }
@@ -186,7 +194,7 @@ mod tests {
         let image = picture(&MosaicOptions::default(), 180, 150);
         let on = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| fourier_map(&image, &FourierMapOptions::default()).unwrap())
+            pool.install(|| mapped(&image, &FourierMapOptions::default()).unwrap())
         };
         assert_eq!(on(1), on(3));
     }

@@ -26,6 +26,8 @@ use serde::{Deserialize, Serialize};
 
 /// Longest side of a tile, px.
 const LONGEST: usize = 512;
+/// Images of more pixels are covered by tiles that do not overlap: the mean of so many (at least 16) is steady without.
+const LARGE: usize = 16 * LONGEST * LONGEST;
 /// Of a tile, at least this part must have been imaged.
 const IMAGED: f64 = 0.5;
 
@@ -59,7 +61,7 @@ pub struct FourierEstimate {
 }
 
 /// Modal spacing of an image between 4 and 40 px (but at most a fifth of its shorter side from row to row), from the spectra of
-/// half-overlapping square tiles that are as large as the image allows, up to 512 px. Pixels that were not imaged are filled in, and
+/// half-overlapping square tiles that are as large as the image allows, up to 512 px (beyond 4 megapixels they only touch). Pixels that were not imaged are filled in, and
 /// tiles of which more than half was not are left out unless all are.
 ///
 /// A mosaic has a ring because its patches of lattice are turned every way. A single perfect lattice has six points instead,
@@ -83,7 +85,8 @@ fn estimate(image: &Plane, empty: Option<&EmptyPixels>) -> FourierEstimate {
     let (height, width) = image.dim();
     let side = height.min(width).min(LONGEST);
     let polar = Polar::new(side);
-    let (columns, rows) = (starts(width, side, 2), starts(height, side, 2));
+    let per_side = if width * height > LARGE { 1 } else { 2 };
+    let (columns, rows) = (starts(width, side, per_side), starts(height, side, per_side));
     let mut profiles = profiles(image, &polar, empty, &columns, &rows);
     if profiles.iter().all(Option::is_none) {
         profiles = self::profiles(image, &polar, None, &columns, &rows);
