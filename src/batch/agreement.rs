@@ -1,17 +1,9 @@
 use super::BatchError;
 use super::outputs::OutputFolder;
+use super::readings::{Readings, chosen_columns};
 use crate::compare::{Agreement, Intraclass, agreement, intraclass};
 use crate::report::{AgreementLine, AgreementPanel, Cell, agreement_figure, tables};
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-
-/// Numbers of the same images by one grader, session or program: a `summary.csv`, or any CSV with a column `name` or `file`.
-struct Readings {
-    label: String,
-    columns: Vec<String>,
-    /// By image, the value of every column; `None` where it is no number.
-    items: BTreeMap<String, Vec<Option<f64>>>,
-}
 
 /// How two graders agree in one column.
 #[derive(Clone, Debug)]
@@ -39,9 +31,6 @@ pub struct AgreementOutcome {
     pub unpaired: Vec<(String, String)>,
 }
 
-/// Columns that name images or say how they were taken rather than measure them.
-const NO_MEASURE: [&str; 6] =
-    ["width_px", "height_px", "um_per_px", "um_per_unit", "um_per_degree", "eccentricity_mm"];
 /// What figures show, the first of each row that there is.
 const SHOWN: [&[&str]; 2] =
     [&["density_per_mm2", "density_per_px2", "density", "n"], &["nn_mean_um", "nn_mean_px", "nn_mean", "ri"]];
@@ -65,7 +54,7 @@ pub fn agree_files(
             "agreement needs two tables or more: give those of each grader".into(),
         ));
     }
-    let mut readings: Vec<Readings> = files.iter().map(|f| read(f)).collect::<Result<_, _>>()?;
+    let mut readings: Vec<Readings> = files.iter().map(|f| Readings::read(f)).collect::<Result<_, _>>()?;
     for k in 0..readings.len() {
         if readings[..k].iter().any(|r| r.label == readings[k].label) {
             readings[k].label = files[k].display().to_string();
@@ -73,10 +62,6 @@ pub fn agree_files(
     }
     let chosen = chosen_columns(&readings, columns)?;
     let out = OutputFolder::create(out)?;
-    let value = |r: &Readings, item: &str, column: &str| -> Option<f64> {
-        let k = r.columns.iter().position(|c| c == column)?;
-        r.items.get(item)?.get(k).copied().flatten()
-    };
     let mut items: Vec<&String> = readings.iter().flat_map(|r| r.items.keys()).collect();
     items.sort_unstable();
     items.dedup();
@@ -93,7 +78,7 @@ pub fn agree_files(
         for (k, first) in readings.iter().enumerate() {
             for second in &readings[k + 1..] {
                 let both = |item: &&String| {
-                    let values = [value(first, item, column)?, value(second, item, column)?];
+                    let values = [first.value(item, column)?, second.value(item, column)?];
                     Some(((*item).clone(), values))
                 };
                 let pairs: Vec<(String, [f64; 2])> = items.iter().filter_map(both).collect();
@@ -110,9 +95,8 @@ pub fn agree_files(
             }
         }
         if readings.len() > 2 {
-            let row = |item: &&String| {
-                readings.iter().map(|r| value(r, item, column)).collect::<Option<Vec<f64>>>()
-            };
+            let row =
+                |item: &&String| readings.iter().map(|r| r.value(item, column)).collect::<Option<Vec<f64>>>();
             let rows: Vec<Vec<f64>> = items.iter().filter_map(row).collect();
             overall.extend(intraclass(&rows).map(|icc| (column.clone(), icc)));
         }
@@ -127,80 +111,6 @@ pub fn agree_files(
     let outcome = AgreementOutcome { columns: found, overall, unpaired };
     write(&out, &outcome)?;
     Ok(outcome)
-}
-
-fn read(path: &Path) -> Result<Readings, BatchError> {
-    let inside = path.join("summary.csv");
-    let file = if path.is_dir() { &inside } else { path };
-    let fail = |problem: String| BatchError::Tables(format!("{}: {problem}", file.display()));
-    let bytes = std::fs::read(file)
-        .map_err(|e| fail(format!("cannot be read ({e}): give a summary.csv, or a folder that holds one")))?;
-    let mut reader =
-        csv::ReaderBuilder::new().from_reader(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes));
-    let header: Vec<String> = reader
-        .headers()
-        .map_err(|e| fail(format!("is no CSV: {e}")))?
-        .iter()
-        .map(|h| h.trim().to_owned())
-        .collect();
-    let key = ["name", "file", "image", "identifier"].iter().find_map(|n| header.iter().position(|h| h == n));
-    let Some(key) = key else {
-        return Err(fail(
-            "expected a column name or file that names the images, found none: add it to the header".into(),
-        ));
-    };
-    let mut items: BTreeMap<String, Vec<Option<f64>>> = BTreeMap::new();
-    for (k, row) in reader.records().enumerate() {
-        let line = k + 2;
-        let row = row.map_err(|e| fail(format!("line {line} cannot be read: {e}")))?;
-        let name = row.get(key).unwrap_or_default().trim();
-        let base = name.rsplit(['/', '\\']).next().unwrap_or(name);
-        let known = [".csv", ".png", ".tif", ".tiff", ".txt", ".json", ".roi", ".zip", ".tsv", ".tar"];
-        let lower = base.to_lowercase();
-        let ending = known.iter().find(|e| lower.ends_with(**e)).map_or(0, |e| e.len());
-        let item = base[..base.len() - ending].trim_end_matches("_coords").to_owned();
-        if item.is_empty() {
-            return Err(fail(format!("line {line} names no image: fill column {}", header[key])));
-        }
-        let values = row.iter().map(|c| c.trim().parse().ok().filter(|v: &f64| v.is_finite())).collect();
-        if items.insert(item.clone(), values).is_some() {
-            return Err(fail(format!(
-                "line {line}: {item} stands in the table twice: keep one row an image"
-            )));
-        }
-    }
-    let folder =
-        path.is_dir().then_some(path).or_else(|| path.parent().filter(|_| path.ends_with("summary.csv")));
-    let named = folder.and_then(Path::file_name).or_else(|| path.file_stem()).unwrap_or(path.as_os_str());
-    Ok(Readings { label: named.to_string_lossy().into_owned(), columns: header, items })
-}
-
-/// The columns asked for, or all that hold numbers in every table.
-fn chosen_columns(readings: &[Readings], asked: &[String]) -> Result<Vec<String>, BatchError> {
-    for column in asked {
-        if let Some(lacking) = readings.iter().find(|r| !r.columns.contains(column)) {
-            return Err(BatchError::Tables(format!(
-                "{} has no column {column}: it has {}",
-                lacking.label,
-                lacking.columns.join(", ")
-            )));
-        }
-    }
-    if !asked.is_empty() {
-        return Ok(asked.to_vec());
-    }
-    let numbers = |r: &Readings, column: &String| {
-        r.columns
-            .iter()
-            .position(|c| c == column)
-            .is_some_and(|k| r.items.values().any(|v| v.get(k).copied().flatten().is_some()))
-    };
-    let first = readings.first().map_or(&[][..], |r| &r.columns);
-    Ok(first
-        .iter()
-        .filter(|c| !NO_MEASURE.contains(&c.as_str()) && readings.iter().all(|r| numbers(r, c)))
-        .cloned()
-        .collect())
 }
 
 fn interval(i: Option<[f64; 2]>) -> [Cell; 2] {

@@ -19,6 +19,7 @@ mod outputs;
 mod pairing;
 mod paper;
 mod progress;
+mod readings;
 mod region;
 mod rois;
 mod run;

@@ -62,6 +62,18 @@ pub struct RunOptions {
     pub command: Vec<String>,
 }
 
+impl RunOptions {
+    /// Names of the samplers compared with.
+    pub fn sampler_names(&self) -> Vec<String> {
+        self.samplers.iter().map(|s| s.name().to_owned()).collect()
+    }
+
+    /// The columns of `summary.csv`.
+    pub fn summary(&self) -> Summary {
+        Summary::new(SummaryKind::Images, &self.metrics, &self.sampler_names(), self.labels.columns())
+    }
+}
+
 /// What came of a run.
 #[derive(Clone, Debug)]
 pub struct RunOutcome {
@@ -149,8 +161,7 @@ pub fn run_files(
     });
     write_failures(&out, &failures)?;
 
-    let samplers: Vec<String> = options.samplers.iter().map(|s| s.name().to_owned()).collect();
-    let summary = Summary::new(SummaryKind::Images, &options.metrics, &samplers, options.labels.columns());
+    let (samplers, summary) = (options.sampler_names(), options.summary());
     let subjects: Vec<(&str, Subject)> =
         done.iter().map(|d| (d.record.name.as_str(), Subject::Image(&d.record))).collect();
     let rows: Vec<_> = subjects.iter().map(|(_, subject)| summary.row(subject)).collect();

@@ -9,9 +9,7 @@ use anyhow::{Result, bail};
 use clap::Args;
 use conemosaic::batch::{Crop, ImageWindow, RunOptions, RunOutcome, image_files, run_files};
 use conemosaic::compare::VerdictOptions;
-use conemosaic::report::{
-    Cell, Subject, Summary, SummaryKind, by_need, counted, expected_errors, significant,
-};
+use conemosaic::report::{Cell, Subject, Summary, by_need, counted, expected_errors, significant};
 use conemosaic::stats::MeasureOptions;
 use std::path::PathBuf;
 
@@ -108,9 +106,7 @@ impl Run {
         }
         let inputs = image_files(&self.paths, Some(&self.out))?;
         let outcome = run_files(&inputs, &options, &self.out, &*common.progress())?;
-        let samplers: Vec<String> = options.samplers.iter().map(|s| s.name().to_owned()).collect();
-        let table = Summary::new(SummaryKind::Images, &options.metrics, &samplers, &[]);
-        common.say(&self.words(&outcome, &table));
+        common.say(&self.words(&outcome, &options.summary()));
         Ok(Done::with(&outcome.failures))
     }
 

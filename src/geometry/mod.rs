@@ -3,6 +3,7 @@
 mod cell_area;
 mod covariance;
 mod edge_tree;
+mod lattice;
 mod neighbours;
 mod point;
 mod polygon;
@@ -13,6 +14,7 @@ mod window;
 
 pub use cell_area::clipped_cell_area;
 pub use covariance::SetCovariance;
+pub use lattice::lattice_dual;
 pub use neighbours::{NearestNeighbours, distances_to_nearest, nearest_neighbours};
 pub use point::Point;
 pub use polygon::{Polygon, PolygonError};

@@ -102,13 +102,20 @@ impl Spectrum {
         Plane::from_shape_vec((height, width), data).unwrap_or_default()
     }
 
-    /// Multiplies every value by `factor(fx, fy)`, frequencies in cycles per pixel, 0 ≤ fx ≤ ½, −½ ≤ fy < ½.
-    pub fn multiply(&mut self, factor: impl Fn(f32, f32) -> Complex32 + Sync) {
+    /// Multiplies every value by `factor` of what `of_x` and `of_y` make of its frequencies fx and fy, in cycles per pixel,
+    /// 0 ≤ fx ≤ ½, −½ ≤ fy < ½: what depends on one of them alone is computed once a column or row.
+    pub fn multiply<X, Y: Sync>(
+        &mut self,
+        of_x: impl Fn(f32) -> X + Sync,
+        of_y: impl Fn(f32) -> Y,
+        factor: impl Fn(&X, &Y) -> Complex32 + Sync,
+    ) {
         let (width, height) = (self.width, self.height);
+        let rows: Vec<Y> = (0..height).map(|ky| of_y(signed_frequency(ky, height))).collect();
         let column = |(kx, values): (usize, &mut [Complex32])| {
-            let fx = kx as f32 / width as f32;
-            for (ky, value) in values.iter_mut().enumerate() {
-                *value *= factor(fx, signed_frequency(ky, height));
+            let x = of_x(kx as f32 / width as f32);
+            for (value, y) in values.iter_mut().zip(&rows) {
+                *value *= factor(&x, y);
             }
         };
         if self.values.len() >= PARALLEL_PIXELS / 2 {

@@ -126,7 +126,7 @@ impl LandmarkRecord {
         let centroid = self.centroid.zip(self.centroid_density).map(|(at, d)| {
             format!(
                 "Centroid of the region above {} % of it: {} at {}.",
-                number(100. * self.isodensity),
+                100. * self.isodensity,
                 density(d),
                 place(at)
             )

@@ -142,6 +142,11 @@ fn one(k: usize, record: &ImageRecord, landmarks: Option<&LandmarkRecord>) -> Ma
                 @for (file, words) in
                     [("overlay.png", "cones on the image"), ("points.csv", "points"), ("pcf.csv", "g(r)"), ("metrics.json", "all numbers")]
                 { a href=(format!("{folder}/{file}")) { (words) } }
+                @if landmarks.is_some() {
+                    @for (file, words) in [("maps.csv", "maps"), ("profiles.csv", "profiles"), ("fourier_map.csv", "spacing by spectra")] {
+                        a href=(format!("{folder}/{file}")) { (words) }
+                    }
+                }
             }
         }
     }

@@ -30,12 +30,15 @@ pub(super) fn response(image: &Plane, spacing: f64) -> (Plane, Criterion) {
     let mut spectrum = Spectrum::forward(&reflect_pad(&level, pad, pad, height, width), height, width);
     let s = spacing as f32;
     let two_pi_squared = 2. * std::f32::consts::PI.powi(2);
-    spectrum.multiply(|fx, fy| {
-        let (fx, fy) = (fx * s, fy * s);
-        let f_squared = two_pi_squared * (fx * fx + fy * fy);
-        let band = (-FINE * FINE * f_squared).exp() * (1. - (-COARSE * COARSE * f_squared).exp());
-        Complex32::new(0., fx.abs().sqrt() * fx.signum() * band)
-    });
+    // Gaussians of both frequencies are products of Gaussians of each
+    let gaussians = |f: f32| [FINE, COARSE].map(|width| (-two_pi_squared * (width * s * f).powi(2)).exp());
+    spectrum.multiply(
+        |fx| (gaussians(fx), (fx * s).abs().sqrt() * fx.signum()),
+        gaussians,
+        |([fine_x, coarse_x], half_derivative), [fine_y, coarse_y]| {
+            Complex32::new(0., half_derivative * fine_x * fine_y * (1. - coarse_x * coarse_y))
+        },
+    );
     let filtered = spectrum.inverse();
     let inner = normalise(&filtered, CONTRAST * spacing);
     (crop(&inner, pad, pad, h, w), CRITERION)

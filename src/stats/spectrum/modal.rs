@@ -1,5 +1,5 @@
 use super::{PowerSpectrum, SpectrumOptions, spectrum};
-use crate::geometry::{Point, Window};
+use crate::geometry::{Point, Window, lattice_dual};
 use crate::stats::StatsError;
 use serde::{Deserialize, Serialize};
 
@@ -76,7 +76,7 @@ impl PowerSpectrum {
         Some(ModalSpacing {
             frequency,
             row_spacing: 1. / frequency,
-            spacing: 2. / (3f64.sqrt() * frequency),
+            spacing: lattice_dual(frequency),
             power: b,
         })
     }

@@ -1,5 +1,6 @@
 use super::FourierSpacing;
 use crate::detect::SPACING_RANGE;
+use crate::geometry::lattice_dual;
 use std::ops::RangeInclusive;
 
 /// Places per octave of frequency at which profiles are fitted, and at which rings are tried.
@@ -36,11 +37,6 @@ const CORRELATED: f64 = 1.5;
 /// Rings within so many standard deviations of the scatter of power are none.
 const DEVIATIONS: f64 = 3.;
 
-/// Hexagonal spacing of the triangular lattice whose first ring has this frequency, and the other way round: 2/(√3 ·).
-pub(super) fn lattice(frequency_or_spacing: f64) -> f64 {
-    2. / (3f64.sqrt() * frequency_or_spacing)
-}
-
 impl RingFit {
     /// For tiles of `side` px transformed to `size` terms.
     pub fn new(side: usize, size: usize) -> Self {
@@ -55,7 +51,8 @@ impl RingFit {
             let power: Vec<f64> = logs.iter().map(|u| (u - middle).powi(degree as i32)).collect();
             background.extend(without(power, &background));
         }
-        let (slow, fast) = (lattice(SPACING_RANGE.1).max(PERIODS / side as f64), lattice(SPACING_RANGE.0));
+        let (slow, fast) =
+            (lattice_dual(SPACING_RANGE.1).max(PERIODS / side as f64), lattice_dual(SPACING_RANGE.0));
         let step = std::f64::consts::LN_2 / TRIED_PER_OCTAVE;
         let tried = (0..).map(|k| slow.ln() + f64::from(k) * step).take_while(|u| *u <= fast.ln());
         let rings = tried
@@ -80,7 +77,7 @@ impl RingFit {
         let gains: Vec<(f64, f64)> = self
             .rings
             .iter()
-            .filter(|(log, _)| spacings.contains(&lattice(log.exp())))
+            .filter(|(log, _)| spacings.contains(&lattice_dual(log.exp())))
             .map(|(log, ring)| (*log, dot(ring, &values).max(0.).powi(2)))
             .collect();
         let peak = gains
@@ -92,7 +89,7 @@ impl RingFit {
         let frequency = (peak[1].0 + offset * (peak[2].0 - peak[1].0)).exp();
         Some(FourierSpacing {
             row_spacing: 1. / frequency,
-            spacing: lattice(frequency),
+            spacing: lattice_dual(frequency),
             confidence: ((b - DEVIATIONS * DEVIATIONS * self.chance(frequency) / part) / left).clamp(0., 1.),
         })
     }
