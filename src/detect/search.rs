@@ -2,11 +2,12 @@
 
 use super::spacing::{SpacingMap, refined_map};
 use super::suppress::{by_score, suppress_sorted};
-use super::tiles::{Tile, tiles};
+use super::tiles::{Area, Tile, tiles};
 use super::{DetectError, Detection};
 use crate::geometry::{Point, Window, nearest_neighbours};
 use crate::image::{EmptyPixels, Plane, crop};
 use rayon::prelude::*;
+use std::collections::HashMap;
 
 /// At most this often an image is searched again at the spacing that its own detections show.
 const PASSES: usize = 5;
@@ -61,6 +62,9 @@ pub(super) trait Find: Fn(&Plane, f64) -> Result<Found, DetectError> {}
 
 impl<F: Fn(&Plane, f64) -> Result<Found, DetectError>> Find for F {}
 
+/// At which spacing parts of an image were searched, and what was found there.
+type Searched = HashMap<Area, (f64, Found)>;
+
 /// An image whose empty pixels are filled, and which those are.
 #[derive(Clone, Copy)]
 pub(super) struct Field<'a> {
@@ -69,15 +73,30 @@ pub(super) struct Field<'a> {
 }
 
 impl Field<'_> {
-    /// What `find(part, spacing)` finds in all tiles over which one spacing serves. Nothing lies where nothing was imaged.
-    fn search(&self, map: &SpacingMap, find: &(impl Find + Sync)) -> Result<Found, DetectError> {
+    /// What `find(part, spacing)` finds in all tiles over which one spacing serves. Nothing lies where nothing was imaged. A tile that
+    /// was searched before at a spacing that differs by less than the part `settled` is not searched again.
+    fn search(
+        &self,
+        map: &SpacingMap,
+        settled: f64,
+        searched: &mut Searched,
+        find: &(impl Find + Sync),
+    ) -> Result<Found, DetectError> {
         let (height, width) = self.image.dim();
         let tiles = tiles(width, height, map);
         let mut found = match &tiles[..] {
             [tile] => find(self.image, tile.spacing)?,
             _ => {
-                let parts = tiles.par_iter().map(|tile| self.search_tile(tile, find));
-                merged(parts.collect::<Result<_, _>>()?, map)
+                let part = |tile: &Tile| match searched.get(&tile.core) {
+                    Some((spacing, found)) if (tile.spacing / spacing).ln().abs() < settled => {
+                        Ok((tile.core, (*spacing, found.clone())))
+                    }
+                    _ => Ok((tile.core, (tile.spacing, self.search_tile(tile, find)?))),
+                };
+                let parts: Vec<_> = tiles.par_iter().map(part).collect::<Result<_, _>>()?;
+                let found = merged(parts.iter().map(|(_, (_, found))| found), map);
+                *searched = parts.into_iter().collect();
+                found
             }
         };
         if let Some(empty) = self.empty {
@@ -109,11 +128,12 @@ impl Field<'_> {
         let (height, width) = self.image.dim();
         let mut map = start.clone();
         let mut found = Found::default();
+        let mut searched = Searched::new();
         for _ in 0..PASSES {
-            found = self.search(&map, &find)?;
+            found = self.search(&map, settled, &mut searched, &find)?;
             let next = refined_map(&found.centres(), width, height, self.empty, start);
-            let settled = if next.is_constant() { settled } else { MAP_SETTLED };
-            let done = next.change_from(&map) < settled;
+            let enough = if next.is_constant() { settled } else { MAP_SETTLED };
+            let done = next.change_from(&map) < enough;
             map = next;
             if done {
                 break;
@@ -124,11 +144,11 @@ impl Field<'_> {
 }
 
 /// What tiles found, each cone once: a cone on a cut is seen from both sides.
-fn merged(parts: Vec<Found>, map: &SpacingMap) -> Found {
+fn merged<'a>(parts: impl Iterator<Item = &'a Found>, map: &SpacingMap) -> Found {
     let (mut cones, mut rejected) = (Vec::new(), Vec::new());
     for part in parts {
-        cones.extend(part.cones);
-        rejected.extend(part.rejected);
+        cones.extend_from_slice(&part.cones);
+        rejected.extend_from_slice(&part.rejected);
     }
     cones.sort_by(by_score);
     rejected.sort_by(by_score);
@@ -138,4 +158,37 @@ fn merged(parts: Vec<Found>, map: &SpacingMap) -> Found {
     let (cones, rejected): (Vec<_>, Vec<_>) = once.into_iter().partition(|(_, is_cone)| *is_cone);
     let only = |found: Vec<(Detection, bool)>| found.into_iter().map(|(d, _)| d).collect();
     Found { cones: only(cones), rejected: only(rejected) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    #[test]
+    fn tiles_are_searched_again_only_where_the_spacing_changed() {
+        let image = Plane::zeros((600, 600));
+        let field = Field { image: &image, empty: None };
+        // 6 px on the left; on the right as given
+        let map =
+            |right: f64| SpacingMap::on_grid(vec![200., 400.], vec![300.], &[Some(6.), Some(right)], 6.);
+        let calls = AtomicUsize::new(0);
+        let find = |part: &Plane, spacing: f64| {
+            calls.fetch_add(1, Ordering::Relaxed);
+            let centre = Point::new(0.5 * part.ncols() as f64, 0.5 * part.nrows() as f64);
+            Ok(Found { cones: vec![Detection { centre, score: 1. / spacing }], rejected: vec![] })
+        };
+        let mut searched = Searched::new();
+        let mut search = |right: f64| {
+            let before = calls.load(Ordering::Relaxed);
+            let found = field.search(&map(right), 0.03, &mut searched, &find).unwrap();
+            (found, calls.load(Ordering::Relaxed) - before)
+        };
+        let (first, all) = search(12.);
+        assert!(all > 4 && !first.cones.is_empty());
+        assert_eq!(search(12.), (first.clone(), 0));
+        assert_eq!(search(12.1), (first, 0));
+        let (_, some) = search(13.);
+        assert!((1..all).contains(&some), "{some} of {all}");
+    }
 }

@@ -14,7 +14,7 @@ const SHORTEST: f64 = 10.;
 const MARGIN: f64 = 5.;
 
 /// A stretch of rows and columns of an image, px.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Area {
     pub left: usize,
     pub top: usize,

@@ -6,10 +6,17 @@ use crate::image::{Plane, mirror};
 /// Longest side of a piece that is looked at in one go; larger planes are cut so that all cores work and memory is bounded.
 const PIECE: usize = 256;
 
-/// A convolutional network from an even plane, in which cones are 8 px apart, to the logit of a cone's centre at every pixel:
-/// a U-Net of two halvings and back. Its widths are those of the tensors in the file.
+/// From an even plane, in which cones are 8 px apart, to the logit of a cone's centre at every pixel: the mean over one or
+/// several networks that differ in the seed of their training.
 #[derive(Debug)]
 pub(super) struct Network {
+    members: Vec<Unet>,
+    views: Views,
+}
+
+/// A U-Net of two halvings and back. Its widths are those of the tensors in the file.
+#[derive(Debug)]
+struct Unet {
     first: Kernel,
     top: Kernel,
     down: Kernel,
@@ -21,8 +28,10 @@ pub(super) struct Network {
     lift: Kernel,
     merge: Kernel,
     last: Kernel,
-    views: Views,
 }
+
+/// More members than this are a damaged header.
+const MOST_MEMBERS: usize = 16;
 
 /// As what an image is looked at.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,22 +62,18 @@ impl Network {
             "odd" => Views::Mirrored { sign: -1. },
             _ => return Err(WeightsError::Metadata("flips".to_owned())),
         };
-        let [full, half, quarter] =
-            [weights.outputs("first")?, weights.outputs("down")?, weights.outputs("deep")?];
-        Ok(Self {
-            first: weights.kernel("first", full, 1, 5)?,
-            top: weights.kernel("top", full, full, 3)?,
-            down: weights.kernel("down", half, full, 3)?,
-            middle: weights.kernel("middle", half, half, 3)?,
-            deep: weights.kernel("deep", quarter, half, 3)?,
-            bottom: weights.kernel("bottom", quarter, quarter, 3)?,
-            rise: weights.kernel("rise", half, quarter, 1)?,
-            join: weights.kernel("join", half, half, 3)?,
-            lift: weights.kernel("lift", full, half, 1)?,
-            merge: weights.kernel("merge", full, full, 3)?,
-            last: weights.kernel("last", 1, full, 1)?,
-            views,
-        })
+        // a file of one network need not say so
+        let members = match weights.word("members") {
+            Ok(text) => text
+                .parse()
+                .ok()
+                .filter(|n| (1..=MOST_MEMBERS).contains(n))
+                .ok_or(WeightsError::value("members", text, "1–16"))?,
+            Err(_) => 1,
+        };
+        let prefix = |k: usize| if members == 1 { String::new() } else { format!("{k}.") };
+        let members = (0..members).map(|k| Unet::new(weights, &prefix(k))).collect::<Result<_, _>>()?;
+        Ok(Self { members, views })
     }
 
     /// The logit at every pixel of `seen`.
@@ -115,6 +120,47 @@ impl Network {
             sum = mirrored(&sum, along_x, 1., Some(&self.apply(&view)));
         }
         mirrored(&sum, true, 0.25, None)
+    }
+
+    /// The mean over the members.
+    fn apply(&self, seen: &Maps) -> Maps {
+        let [first, others @ ..] = &self.members[..] else { return Maps::zeros(1, seen.height, seen.width) };
+        let mut mean = first.apply(seen);
+        for other in others {
+            let logits = other.apply(seen);
+            for y in 0..mean.height {
+                mean.row_mut(0, y).iter_mut().zip(logits.row(0, y)).for_each(|(v, o)| *v += o);
+            }
+        }
+        if !others.is_empty() {
+            let share = 1. / self.members.len() as f32;
+            (0..mean.height).for_each(|y| mean.row_mut(0, y).iter_mut().for_each(|v| *v *= share));
+        }
+        mean
+    }
+}
+
+impl Unet {
+    /// Its tensors' names begin with `prefix`.
+    fn new(weights: &Weights, prefix: &str) -> Result<Self, WeightsError> {
+        let width = |name: &str| weights.outputs(&format!("{prefix}{name}"));
+        let [full, half, quarter] = [width("first")?, width("down")?, width("deep")?];
+        let kernel = |name: &str, outputs, inputs, side| {
+            weights.kernel(&format!("{prefix}{name}"), outputs, inputs, side)
+        };
+        Ok(Self {
+            first: kernel("first", full, 1, 5)?,
+            top: kernel("top", full, full, 3)?,
+            down: kernel("down", half, full, 3)?,
+            middle: kernel("middle", half, half, 3)?,
+            deep: kernel("deep", quarter, half, 3)?,
+            bottom: kernel("bottom", quarter, quarter, 3)?,
+            rise: kernel("rise", half, quarter, 1)?,
+            join: kernel("join", half, half, 3)?,
+            lift: kernel("lift", full, half, 1)?,
+            merge: kernel("merge", full, full, 3)?,
+            last: kernel("last", 1, full, 1)?,
+        })
     }
 
     fn apply(&self, seen: &Maps) -> Maps {

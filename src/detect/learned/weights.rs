@@ -1,4 +1,5 @@
 use super::convolution::Kernel;
+use half::f16;
 use serde_json::{Map, Value};
 use thiserror::Error;
 
@@ -34,7 +35,7 @@ pub enum WeightsError {
     #[error("unknown architecture “{0}”: expected unet")]
     Architecture(String),
     /// A tensor is missing, or of another shape or type.
-    #[error("tensor “{name}” is missing or is not F32 of shape {shape:?}")]
+    #[error("tensor “{name}” is missing or is neither F32 nor F16 of shape {shape:?}")]
     Tensor {
         /// Its name.
         name: String,
@@ -116,10 +117,16 @@ impl<'a> Weights<'a> {
             let (found, offsets) = (numbers("shape")?, numbers("data_offsets")?);
             let &[from, to] = &offsets[..] else { return None };
             let bytes = self.tensors.get(from..to)?;
-            let fits = entry.get("dtype")?.as_str()? == "F32"
-                && found == shape
-                && bytes.len() == 4 * shape.iter().product::<usize>();
-            let values: Vec<f32> = bytes.as_chunks().0.iter().map(|b| f32::from_le_bytes(*b)).collect();
+            let values: Vec<f32> = match entry.get("dtype")?.as_str()? {
+                "F32" if bytes.len().is_multiple_of(4) => {
+                    bytes.as_chunks().0.iter().map(|b| f32::from_le_bytes(*b)).collect()
+                }
+                "F16" if bytes.len().is_multiple_of(2) => {
+                    bytes.as_chunks().0.iter().map(|b| f16::from_le_bytes(*b).to_f32()).collect()
+                }
+                _ => return None,
+            };
+            let fits = found == shape && values.len() == shape.iter().product::<usize>();
             (fits && values.iter().all(|v| v.is_finite())).then_some(values)
         };
         find().ok_or_else(|| WeightsError::Tensor { name: name.to_owned(), shape: shape.to_vec() })
@@ -149,6 +156,11 @@ mod tests {
         let kernel = weights.kernel("a", 1, 1, 1).unwrap();
         assert_eq!((kernel.weights, kernel.bias), (vec![2.5], vec![-1.]));
         assert_eq!((weights.outputs("a"), weights.outputs("b").is_err()), (Ok(1), true));
+        let halves = header.replace("F32", "F16").replace("[0,4]", "[0,2]").replace("[4,8]", "[2,4]");
+        let tensors: Vec<u8> = [0x4100u16, 0xbc00].iter().flat_map(|v| v.to_le_bytes()).collect();
+        let half_bytes = file(&halves, &tensors);
+        let kernel = Weights::read(&half_bytes).unwrap().kernel("a", 1, 1, 1).unwrap();
+        assert_eq!((kernel.weights, kernel.bias), (vec![2.5], vec![-1.]));
         assert!(weights.kernel("a", 2, 1, 1).is_err());
         assert!(weights.kernel("b", 1, 1, 1).is_err());
         assert!(weights.number("rule").is_err());
