@@ -345,7 +345,7 @@ mod tests {
         assert_eq!([&curves[0].sampler, &curves[1].sampler], ["bridson", "uniform"]);
         assert!(curves[0].ri.unwrap() > 10. && (curves[1].ri.unwrap() - 1.88).abs() < 0.1);
         assert!(curves[1].pcf.g.iter().all(|g| (g - 1.).abs() < 0.1));
-        assert_eq!((curves[0].n, curves[0].realisations), (301, 53));
+        assert_eq!((curves[0].n, curves[0].realisations), (285, 56));
     }
 
     #[test]
