@@ -21,7 +21,12 @@ impl SpacingMap {
 
     /// Spacings, px, at the nodes `x` × `y` (both rising, not empty), row by row. A node without one takes the mean logarithm of
     /// the nearest nodes that have one; without any, all are `otherwise`.
-    pub(in crate::detect) fn on_grid(x: Vec<f64>, y: Vec<f64>, spacing: &[Option<f64>], otherwise: f64) -> Self {
+    pub(in crate::detect) fn on_grid(
+        x: Vec<f64>,
+        y: Vec<f64>,
+        spacing: &[Option<f64>],
+        otherwise: f64,
+    ) -> Self {
         let mut log: Vec<Option<f64>> = spacing.iter().map(|s| s.map(f64::ln)).collect();
         log.resize(x.len() * y.len(), None);
         if log.iter().all(Option::is_none) {
