@@ -163,7 +163,7 @@ fn write(out: &OutputFolder, outcome: &AgreementOutcome) -> Result<(), BatchErro
         row.extend(reliability(Some(icc)));
         rows.push(row);
     }
-    out.write_table(tables::AGREEMENT.file, &tables::AGREEMENT.header(), &rows)?;
+    out.write_described(&tables::AGREEMENT, &rows)?;
     let mut rows: Vec<Vec<Cell>> = Vec::new();
     for c in &outcome.columns {
         for (item, [a, b]) in &c.pairs {
@@ -173,13 +173,13 @@ fn write(out: &OutputFolder, outcome: &AgreementOutcome) -> Result<(), BatchErro
             rows.push(row);
         }
     }
-    out.write_table(tables::DIFFERENCES.file, &tables::DIFFERENCES.header(), &rows)?;
+    out.write_described(&tables::DIFFERENCES, &rows)?;
     let rows: Vec<Vec<Cell>> = outcome
         .unpaired
         .iter()
         .map(|(item, lacking)| vec![item.as_str().into(), lacking.as_str().into()])
         .collect();
-    out.write_table(tables::UNPAIRED.file, &tables::UNPAIRED.header(), &rows)?;
+    out.write_described(&tables::UNPAIRED, &rows)?;
     out.write("agreement.svg", figure(outcome).as_bytes())
 }
 

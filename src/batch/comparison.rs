@@ -7,7 +7,7 @@ use super::verdicts::{self, verdicts_on};
 use super::work::for_each;
 use super::{BatchError, Input, Progress};
 use crate::compare::{References, VerdictOptions};
-use crate::report::{CoordinatesRecord, FindingRecord};
+use crate::report::{CoordinatesRecord, FindingRecord, tables};
 use crate::sample::Sampler;
 use crate::stats::measure;
 use std::path::Path;
@@ -61,7 +61,7 @@ pub fn compare_files(
     });
     let names: Vec<String> = samplers.iter().map(|s| s.name().to_owned()).collect();
     let rows: Vec<_> = records.iter().map(CoordinatesRecord::regularity_row).collect();
-    out.write_table("regularity.csv", &CoordinatesRecord::regularity_header(), &rows)?;
+    out.write_described(&tables::REGULARITY, &rows)?;
     let rows: Vec<_> = records.iter().map(|r| r.distance_row(&names)).collect();
     out.write_table("l_infinity.csv", &CoordinatesRecord::distance_header(&names), &rows)?;
     let findings = findings(&records, &names, seed);

@@ -78,19 +78,11 @@ impl Crop {
         unit: LengthUnit,
         scale: Option<Scale>,
     ) -> Result<Option<Rectangle>, BatchError> {
-        let um_per_px = || {
-            let missing = || BatchError::NoScale { what: option, file: file.to_owned() };
-            scale.map(|s| s.micrometres_per_pixel()).ok_or_else(missing)
-        };
-        let factor = match (self.unit, unit) {
-            (None, _) | (Some(LengthUnit::Pixel), LengthUnit::Pixel) => 1.,
-            (Some(LengthUnit::Micrometre), LengthUnit::Micrometre) => 1.,
-            (Some(LengthUnit::Micrometre), LengthUnit::Pixel) => 1. / um_per_px()?,
-            (Some(LengthUnit::Pixel), LengthUnit::Micrometre) => um_per_px()?,
-            (Some(_), LengthUnit::Unit) | (Some(LengthUnit::Unit), _) => {
-                return Err(BatchError::CropUnit { crop: self.to_string(), file: file.to_owned() });
-            }
-        };
+        let given = self.unit.unwrap_or(unit);
+        let factor = given.factor_to(unit, scale).ok_or_else(|| match unit {
+            LengthUnit::Unit => BatchError::CropUnit { crop: self.to_string(), file: file.to_owned() },
+            _ => BatchError::NoScale { what: option, file: file.to_owned() },
+        })?;
         let [x0, y0, x1, y1] = match self.shape {
             Shape::Centred { width, height } => {
                 let (dx, dy) =

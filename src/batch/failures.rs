@@ -20,5 +20,5 @@ pub(super) fn write_failures(out: &OutputFolder, failures: &[Failure]) -> Result
     }
     let rows: Vec<Vec<Cell>> =
         failures.iter().map(|f| vec![f.file.as_str().into(), f.reason.as_str().into()]).collect();
-    out.write_table(FAILURES.file, &FAILURES.header(), &rows)
+    out.write_described(&FAILURES, &rows)
 }

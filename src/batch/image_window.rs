@@ -98,15 +98,14 @@ impl<'a> ImageWindows<'a> {
 
 /// The window of a file in px.
 fn pixels_of(outline: &OutlineFile, file: &Path, scale: Option<Scale>) -> Result<Window, BatchError> {
-    match (outline.unit, scale) {
-        (None | Some(LengthUnit::Pixel), _) => Ok(outline.window.clone()),
-        (Some(LengthUnit::Micrometre), Some(scale)) => {
-            Ok(outline.window.scaled(1. / scale.micrometres_per_pixel())?)
+    let missing = || BatchError::NoScale { what: "the file of --window", file: file.to_owned() };
+    match outline.unit {
+        None | Some(LengthUnit::Pixel) => Ok(outline.window.clone()),
+        Some(unit @ LengthUnit::Unit) => Err(BatchError::NotPixels { file: file.to_owned(), unit }),
+        Some(unit @ LengthUnit::Micrometre) => {
+            let factor = unit.factor_to(LengthUnit::Pixel, scale).ok_or_else(missing)?;
+            Ok(outline.window.scaled(factor)?)
         }
-        (Some(LengthUnit::Micrometre), None) => {
-            Err(BatchError::NoScale { what: "the file of --window", file: file.to_owned() })
-        }
-        (Some(unit @ LengthUnit::Unit), _) => Err(BatchError::NotPixels { file: file.to_owned(), unit }),
     }
 }
 

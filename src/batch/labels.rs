@@ -162,6 +162,6 @@ impl Labels {
                 ]);
             }
         }
-        out.write_table(tables::GROUPS.file, &tables::GROUPS.header(), &rows)
+        out.write_described(&tables::GROUPS, &rows)
     }
 }

@@ -1,5 +1,6 @@
 use super::BatchError;
 use crate::files::write_atomically;
+use crate::report::tables::OutputTable;
 use crate::report::{Cell, write_csv};
 use serde::Serialize;
 use std::fs;
@@ -42,6 +43,11 @@ impl OutputFolder {
         let mut bytes = Vec::new();
         write_csv(&mut bytes, &header, rows)?;
         self.write(name, &bytes)
+    }
+
+    /// A table of the data dictionary, under the name and the header that stand there.
+    pub fn write_described(&self, table: &OutputTable, rows: &[Vec<Cell>]) -> Result<(), BatchError> {
+        self.write_table(table.file, &table.header(), rows)
     }
 
     pub fn remove(&self, name: &str) -> Result<(), BatchError> {

@@ -5,6 +5,7 @@ use std::path::Path;
 /// Columns that name images or say how they were taken rather than measure them.
 const NO_MEASURE: [&str; 6] =
     ["width_px", "height_px", "um_per_px", "um_per_unit", "um_per_degree", "eccentricity_mm"];
+
 /// Numbers of the same images by one grader, session or program: a `summary.csv`, or any CSV with a column `name` or `file`.
 pub(super) struct Readings {
     /// What it is called.

@@ -120,16 +120,14 @@ impl<'a> Regions<'a> {
                 scales.scale_of(file, width.round().max(1.) as usize)?
             }
         };
-        let um_per_px = || match scale {
-            Some(scale) => Ok(scale.micrometres_per_pixel()),
-            None => Err(BatchError::NoScale { what: "one of window and coordinates", file: file.to_owned() }),
-        };
+        let missing = || BatchError::NoScale { what: "one of window and coordinates", file: file.to_owned() };
         let window = match (given, unit) {
-            (LengthUnit::Pixel, LengthUnit::Micrometre) => window.scaled(um_per_px()?)?,
-            (LengthUnit::Micrometre, LengthUnit::Pixel) => window.scaled(1. / um_per_px()?)?,
             // as its coordinates, see `load`
             (LengthUnit::Micrometre, LengthUnit::Micrometre) if scales.expansion() != 1. => {
                 window.scaled(scales.expansion())?
+            }
+            (LengthUnit::Pixel, LengthUnit::Micrometre) | (LengthUnit::Micrometre, LengthUnit::Pixel) => {
+                window.scaled(given.factor_to(unit, scale).ok_or_else(missing)?)?
             }
             _ => window,
         };

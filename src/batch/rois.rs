@@ -104,13 +104,8 @@ impl RoiRequest {
 fn factor(table: &RoiTable, mosaic: &Mosaic, file: &Path) -> Result<f64, BatchError> {
     let no_scale = || BatchError::NoScale { what: "one of regions and coordinates", file: file.to_owned() };
     match (table.unit(), mosaic.unit()) {
-        (Some(LengthUnit::Micrometre), LengthUnit::Pixel) => {
-            mosaic.micrometres_per_unit().map(f64::recip).ok_or_else(no_scale)
-        }
-        (Some(LengthUnit::Pixel), LengthUnit::Micrometre) => {
-            mosaic.scale().map(|s| s.micrometres_per_pixel()).ok_or_else(no_scale)
-        }
-        _ => Ok(1.),
+        (None | Some(LengthUnit::Unit), _) | (_, LengthUnit::Unit) => Ok(1.),
+        (Some(given), unit) => given.factor_to(unit, mosaic.scale()).ok_or_else(no_scale),
     }
 }
 

@@ -26,6 +26,17 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
+    /// What a length in this unit is multiplied by to be in `wanted`; `None` if that takes a scale that is not known, or one of the two
+    /// is the unit square.
+    pub fn factor_to(self, wanted: Self, scale: Option<Scale>) -> Option<f64> {
+        match (self, wanted) {
+            _ if self == wanted => Some(1.),
+            (Self::Pixel, Self::Micrometre) => scale.map(|s| s.micrometres_per_pixel()),
+            (Self::Micrometre, Self::Pixel) => scale.map(|s| 1. / s.micrometres_per_pixel()),
+            _ => None,
+        }
+    }
+
     /// As it stands in column headers: `px`, `um`, `unit`.
     pub const fn symbol(self) -> &'static str {
         match self {

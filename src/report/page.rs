@@ -120,6 +120,17 @@ fn distance(mosaic: &MosaicRecord, sampler: &str) -> String {
     mosaic.distance_to(sampler).map_or("–".into(), |d| format!("{d:.2}"))
 }
 
+/// Files of an image, and what they are called.
+const LINKS: [(&str, &str); 4] = [
+    ("overlay.png", "cones on the image"),
+    ("points.csv", "points"),
+    ("pcf.csv", "g(r)"),
+    ("metrics.json", "all numbers"),
+];
+/// Behind these, where there are maps.
+const MAP_LINKS: [(&str, &str); 3] =
+    [("maps.csv", "maps"), ("profiles.csv", "profiles"), ("fourier_map.csv", "spacing by spectra")];
+
 fn one(k: usize, record: &ImageRecord, landmarks: Option<&LandmarkRecord>) -> Markup {
     let folder = format!("images/{}", in_url(&record.name));
     html! {
@@ -139,13 +150,8 @@ fn one(k: usize, record: &ImageRecord, landmarks: Option<&LandmarkRecord>) -> Ma
                 }
             }
             nav {
-                @for (file, words) in
-                    [("overlay.png", "cones on the image"), ("points.csv", "points"), ("pcf.csv", "g(r)"), ("metrics.json", "all numbers")]
-                { a href=(format!("{folder}/{file}")) { (words) } }
-                @if landmarks.is_some() {
-                    @for (file, words) in [("maps.csv", "maps"), ("profiles.csv", "profiles"), ("fourier_map.csv", "spacing by spectra")] {
-                        a href=(format!("{folder}/{file}")) { (words) }
-                    }
+                @for (file, words) in LINKS.iter().chain(landmarks.map(|_| &MAP_LINKS).into_iter().flatten()) {
+                    a href=(format!("{folder}/{file}")) { (words) }
                 }
             }
         }

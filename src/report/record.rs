@@ -246,12 +246,7 @@ pub struct CoordinatesRecord {
 }
 
 impl CoordinatesRecord {
-    /// Columns of `regularity.csv`, in the form of Table 1 of Lanaro et al. (population deviation), and with the sample's.
-    pub fn regularity_header() -> Vec<String> {
-        tables::REGULARITY.header()
-    }
-
-    /// The row under [`Self::regularity_header`]: nearest-neighbour distances of all points.
+    /// A row of `regularity.csv`, in the form of Table 1 of Lanaro et al. (population deviation), and with the sample's: nearest-neighbour distances of all points.
     pub fn regularity_row(&self) -> Vec<Cell> {
         let nearest = self.mosaic.nearest;
         let [population, sample] = [Deviation::Population, Deviation::Sample]
@@ -270,11 +265,7 @@ impl CoordinatesRecord {
 
     /// Columns of `l_infinity.csv`: the file, one column a sampler, then what helps to read them.
     pub fn distance_header(samplers: &[String]) -> Vec<String> {
-        ["file".to_owned()]
-            .into_iter()
-            .chain(samplers.iter().cloned())
-            .chain(["closest_sampler", "n", "ri", "sd_kind", "warnings"].map(str::to_owned))
-            .collect()
+        tables::L_INFINITY.header_of(samplers)
     }
 
     /// The row under [`Self::distance_header`].

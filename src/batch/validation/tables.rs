@@ -86,7 +86,7 @@ pub(super) fn groups(out: &OutputFolder, groups: &[GroupSummary]) -> Result<(), 
         ]
     };
     let rows: Vec<Vec<Cell>> = groups.iter().map(row).collect();
-    out.write_table(tables::SUBJECT_GROUPS.file, &tables::SUBJECT_GROUPS.header(), &rows)
+    out.write_described(&tables::SUBJECT_GROUPS, &rows)
 }
 
 /// `froc.csv`.
@@ -107,7 +107,7 @@ pub(super) fn curve(out: &OutputFolder, froc: &Froc) -> Result<(), BatchError> {
             ]
         })
         .collect();
-    out.write_table(tables::FROC.file, &tables::FROC.header(), &rows)
+    out.write_described(&tables::FROC, &rows)
 }
 
 /// `reliability.csv`.
@@ -128,7 +128,7 @@ pub(super) fn bins(out: &OutputFolder, reliability: &Reliability) -> Result<(), 
             ]
         })
         .collect();
-    out.write_table(tables::RELIABILITY.file, &tables::RELIABILITY.header(), &rows)
+    out.write_described(&tables::RELIABILITY, &rows)
 }
 
 /// `comparison.csv`.
@@ -148,7 +148,7 @@ pub(super) fn differences(out: &OutputFolder, differences: &[Difference]) -> Res
             ]
         })
         .collect();
-    out.write_table(tables::COMPARISON.file, &tables::COMPARISON.header(), &rows)
+    out.write_described(&tables::COMPARISON, &rows)
 }
 
 #[cfg(test)]

@@ -44,6 +44,15 @@ const fn column(name: &'static str, unit: &'static str, definition: &'static str
 }
 
 impl OutputTable {
+    /// Names of the columns, those of `SAMPLER` once a sampler.
+    pub fn header_of(&self, samplers: &[String]) -> Vec<String> {
+        let names = |c: &TableColumn| match c.name.contains("SAMPLER") {
+            true => samplers.iter().map(|s| c.name.replace("SAMPLER", s)).collect(),
+            false => vec![c.name.to_owned()],
+        };
+        self.columns.iter().flat_map(names).collect()
+    }
+
     /// Names of the columns.
     pub fn header(&self) -> Vec<String> {
         self.columns.iter().map(|c| c.name.to_owned()).collect()
