@@ -40,7 +40,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         black_box(detect(&item.image, &options).map(|found| found.cones.len()).ok());
     };
     let filter = |item: &Item| {
-        let (response, criterion) = response(&item.image, item.modality, item.polarity, item.spacing);
+        let (response, criterion) =
+            response(&item.image, item.modality, item.polarity, item.spacing, f64::INFINITY);
         let maxima = local_maxima(&response, criterion.threshold);
         black_box(criterion.select(suppress(maxima, criterion.suppression * item.spacing)));
     };

@@ -144,7 +144,8 @@ fn compared() -> &'static [Compared] {
         ask_oracle(&python, &cases, out.path());
         let compare = |Case { name, image, found, .. }: Case| {
             let file = |stage: &str| out.path().join(format!("{name}.{stage}"));
-            let (response, criterion) = response(&image, found.modality, found.polarity, found.spacing);
+            let (response, criterion) =
+                response(&image, found.modality, found.polarity, found.spacing, f64::INFINITY);
             Compared {
                 flat: flatten(&image),
                 response,

@@ -127,7 +127,8 @@ impl Features {
 
     /// Evidence that a split detector shows cones dark on the left.
     fn dark_left(&self, flat: &Plane) -> f64 {
-        let (response, _) = filter::response(flat, Modality::Split, Polarity::Positive, self.split_spacing);
+        let (response, _) =
+            filter::response(flat, Modality::Split, Polarity::Positive, self.split_spacing, f64::INFINITY);
         let response = Moments::of(response.iter()).skewness();
         26.8 * response + 3. * self.coarse_slopes - 10. * self.fine_slopes + 4.6 * self.blobs_skewness + USUAL
     }

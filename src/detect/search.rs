@@ -1,6 +1,6 @@
 //! Searches an image at a spacing that may vary from place to place, and again at the spacing that its own detections show.
 
-use super::spacing::{SpacingMap, refined_map};
+use super::spacing::{SpacingMap, Start, refined_map};
 use super::suppress::{by_score, suppress_sorted};
 use super::tiles::{Area, Tile, tiles};
 use super::{DetectError, Detection};
@@ -121,12 +121,12 @@ impl Field<'_> {
     /// by less than the part `settled`. The last spacing with it.
     pub(super) fn until_settled(
         &self,
-        start: &SpacingMap,
+        start: &Start,
         settled: f64,
         find: impl Find + Sync,
     ) -> Result<(Found, SpacingMap), DetectError> {
         let (height, width) = self.image.dim();
-        let mut map = start.clone();
+        let mut map = start.map.clone();
         let mut found = Found::default();
         let mut searched = Searched::new();
         for _ in 0..PASSES {

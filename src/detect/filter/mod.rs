@@ -50,8 +50,14 @@ impl Criterion {
 }
 
 /// The cones that the modality's filter finds in an image whose cones are about `spacing` px apart.
-pub(super) fn cones(image: &Plane, modality: Modality, polarity: Polarity, spacing: f64) -> Found {
-    let (response, criterion) = response(image, modality, polarity, spacing);
+pub(super) fn cones(
+    image: &Plane,
+    modality: Modality,
+    polarity: Polarity,
+    spacing: f64,
+    clarity: f64,
+) -> Found {
+    let (response, criterion) = response(image, modality, polarity, spacing, clarity);
     let maxima = suppress(local_maxima(&response, criterion.threshold), criterion.suppression * spacing);
     let least = criterion.least(&maxima);
     let (mut cones, mut rejected): (Vec<_>, Vec<_>) = maxima.into_iter().partition(|d| d.score > least);
@@ -61,10 +67,17 @@ pub(super) fn cones(image: &Plane, modality: Modality, polarity: Polarity, spaci
 }
 
 /// The response of the modality's classical filter at the given cone spacing (px), and what counts as a cone in it. The
-/// filters are odd: the other polarity is the same with the sign turned.
-pub fn response(image: &Plane, modality: Modality, polarity: Polarity, spacing: f64) -> (Plane, Criterion) {
+/// filters are odd: the other polarity is the same with the sign turned. That of confocal images is wider where the `clarity` of
+/// the image is low ([`RingProfile::clarity`](crate::detect::RingProfile::clarity)); infinity: a clear one.
+pub fn response(
+    image: &Plane,
+    modality: Modality,
+    polarity: Polarity,
+    spacing: f64,
+    clarity: f64,
+) -> (Plane, Criterion) {
     let (mut response, criterion) = match modality {
-        Modality::Confocal => confocal::response(image, spacing),
+        Modality::Confocal => confocal::response(image, spacing, clarity),
         Modality::Split => split::response(image, spacing),
         Modality::Histology => histology::response(image, spacing),
     };

@@ -15,6 +15,7 @@ pub use weights::WeightsError;
 
 use super::calibration::Logistic;
 use super::search::Found;
+use super::spacing::CLEAR;
 use super::{Detection, Modality, Polarity, local_maxima, suppress};
 use crate::geometry::Point;
 use crate::image::Plane;
@@ -64,13 +65,10 @@ enum Network {
 /// From which logit on a maximum is a cone.
 #[derive(Debug)]
 enum Threshold {
-    Absolute(f64),
+    /// A logit, and by how much it rises with every unit that the image's clarity is below [`CLEAR`].
+    Absolute { logit: f64, in_noise: f64 },
     /// So far below the upper quartile of the image's maxima above `floor`, after suppression at `radius` spacings.
-    Relative {
-        below: f64,
-        floor: f32,
-        radius: f64,
-    },
+    Relative { below: f64, floor: f32, radius: f64 },
 }
 
 /// Whether the network of a modality finds cones better than the classical filters do, by the mean Dice coefficient on
@@ -100,7 +98,13 @@ impl Model {
     fn read(file: &[u8]) -> Result<Self, WeightsError> {
         let weights = Weights::read(file)?;
         let threshold = match weights.word("rule")? {
-            "absolute" => Threshold::Absolute(weights.number("threshold")?),
+            "absolute" => Threshold::Absolute {
+                logit: weights.number("threshold")?,
+                // files of before this rule have none
+                in_noise: weights
+                    .word("threshold_in_noise")
+                    .map_or(Ok(0.), |_| weights.number("threshold_in_noise"))?,
+            },
             "relative" => Threshold::Relative {
                 below: weights.number("threshold")?,
                 floor: weights.number("relative_floor")? as f32,
@@ -128,7 +132,7 @@ impl Model {
         Err(WeightsError::NoOnnx)
     }
 
-    /// The cones of an image whose cones are about `spacing` px apart, best first.
+    /// The cones of an image whose cones are about `spacing` px apart, best first; `clarity` of its ring at that spacing.
     ///
     /// # Errors
     /// If a user's model fails.
@@ -137,6 +141,7 @@ impl Model {
         image: &Plane,
         polarity: Polarity,
         spacing: f64,
+        clarity: f64,
     ) -> Result<Found, WeightsError> {
         let step = spacing / self.spacing;
         let seen = input::normalised(&input::resampled(image, step));
@@ -148,7 +153,7 @@ impl Model {
             Network::Onnx(network) => network.logits(&seen)?,
         };
         let maxima = local_maxima(&logits, self.candidate());
-        let threshold = self.threshold_for(&maxima);
+        let threshold = self.threshold_for(&maxima, clarity);
         let (mut cones, mut rejected): (Vec<_>, Vec<_>) =
             suppress(maxima, self.suppression * self.spacing).into_iter().partition(|d| d.score > threshold);
         for cone in cones.iter_mut().chain(&mut rejected) {
@@ -163,15 +168,15 @@ impl Model {
     /// The logit from which on a maximum is looked at.
     fn candidate(&self) -> f32 {
         match self.threshold {
-            Threshold::Absolute(logit) => CANDIDATE.min(logit as f32),
+            Threshold::Absolute { logit, .. } => CANDIDATE.min(logit as f32),
             Threshold::Relative { .. } => CANDIDATE,
         }
     }
 
     /// From which logit on a maximum is a cone.
-    fn threshold_for(&self, maxima: &[Detection]) -> f64 {
+    fn threshold_for(&self, maxima: &[Detection], clarity: f64) -> f64 {
         match self.threshold {
-            Threshold::Absolute(logit) => logit,
+            Threshold::Absolute { logit, in_noise } => logit + in_noise * (CLEAR - clarity).max(0.),
             Threshold::Relative { below, floor, radius } => {
                 let strong = maxima.iter().copied().filter(|d| d.score > f64::from(floor)).collect();
                 let scores: Vec<f64> =
@@ -245,8 +250,8 @@ mod tests {
     fn the_reverse_of_an_image_has_the_same_cones_in_the_reverse_polarity() {
         let image = Plane::from_shape_fn((96, 96), |(y, x)| (0.7 * x as f32).sin() * (0.75 * y as f32).cos());
         let model = model(Modality::Confocal).unwrap().unwrap();
-        let found = model.cones(&image, Polarity::Positive, 9.).unwrap();
+        let found = model.cones(&image, Polarity::Positive, 9., f64::INFINITY).unwrap();
         assert!(found.cones.len() > 20);
-        assert_eq!(model.cones(&-&image, Polarity::Negative, 9.).unwrap(), found);
+        assert_eq!(model.cones(&-&image, Polarity::Negative, 9., f64::INFINITY).unwrap(), found);
     }
 }

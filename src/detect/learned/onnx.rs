@@ -59,7 +59,7 @@ impl Model {
         Ok(Self {
             network: Network::Onnx(Box::new(network)),
             spacing,
-            threshold: Threshold::Absolute(logit),
+            threshold: Threshold::Absolute { logit, in_noise: 0. },
             suppression,
             modality,
             // nothing is known of its errors: the score is the network's own probability
@@ -206,7 +206,7 @@ mod tests {
         assert_eq!(model.modality, Some(Modality::Histology));
         assert!(matches!(&model.network, Network::Onnx(network) if network.multiple == 8));
         assert!(
-            matches!(model.threshold, Threshold::Absolute(logit) if (logit - (0.25f64).ln()).abs() < 1e-9)
+            matches!(model.threshold, Threshold::Absolute { logit, .. } if (logit - (0.25f64).ln()).abs() < 1e-9)
         );
     }
 

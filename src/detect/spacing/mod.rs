@@ -13,8 +13,8 @@ pub use fourier::{
 };
 pub use map::SpacingMap;
 pub use refine::{BORDER, refined};
-pub(super) use refine::{contradiction, refined_map};
-pub(in crate::detect) use ring::AROUND;
+pub(super) use refine::{Start, contradiction, refined_map};
+pub(in crate::detect) use ring::{AROUND, CLEAR};
 pub use ring::{RingEstimate, RingProfile};
 pub(super) use rings::Rings;
 

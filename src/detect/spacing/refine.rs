@@ -21,10 +21,18 @@ const IMAGED: f64 = 0.4;
 /// that far off their spacing.
 pub(in crate::detect) const EVEN: f64 = 1.2;
 
+/// What a search starts from.
+#[derive(Clone, Debug)]
+pub(in crate::detect) struct Start {
+    pub map: SpacingMap,
+    /// Detections may not make the spacing of the whole image smaller than this, px.
+    pub least: f64,
+}
+
 /// Spacing by the density of `centres` in an image of `width` × `height` px: s = √(2A/(√3 n)), n and A inside the
 /// 7 px border, held within e^±0.35 of the ring's spacing.
 pub fn refined(centres: &[Point], width: usize, height: usize, ring_spacing: f64) -> f64 {
-    by_density(centres, width, height, None, ring_spacing)
+    trusted(density_spacing(centres, width, height, None), ring_spacing)
 }
 
 /// The spacing that the density of `centres` shows if it lies farther from the ring's than detections may carry it.
@@ -37,16 +45,6 @@ pub(in crate::detect) fn contradiction(
     let (low, high) = SPACING_RANGE;
     let shown = density_spacing(centres, width, height, empty)?.clamp(low, high);
     ((shown / ring_spacing).ln().abs() > TRUST).then_some(shown)
-}
-
-fn by_density(
-    centres: &[Point],
-    width: usize,
-    height: usize,
-    empty: Option<&EmptyPixels>,
-    ring_spacing: f64,
-) -> f64 {
-    trusted(density_spacing(centres, width, height, empty), ring_spacing)
 }
 
 /// √(2A/(√3 n)), n and A inside the border; `None` if nothing lies there.
@@ -71,15 +69,19 @@ fn trusted(by_density: Option<f64>, ring_spacing: f64) -> f64 {
 }
 
 /// Spacing by the local density of `centres`, counted in squares of about 80 cones that stay inside the border, held within
-/// e^±0.35 of `ring`; one spacing where it is even (within 20 %) or the cones are few.
+/// e^±0.35 of that at the start; one spacing where it is even (within 20 %) or the cones are few. If the density of the whole shows
+/// less than the least spacing, it counts more than cones: then all is raised alike.
 pub(in crate::detect) fn refined_map(
     centres: &[Point],
     width: usize,
     height: usize,
     empty: Option<&EmptyPixels>,
-    ring: &SpacingMap,
+    start: &Start,
 ) -> SpacingMap {
-    let typical = by_density(centres, width, height, empty, ring.typical());
+    let ring = &start.map;
+    let shown = density_spacing(centres, width, height, empty);
+    let raise = shown.map_or(1., |s| (start.least / s).max(1.));
+    let typical = trusted(shown.map(|s| raise * s), ring.typical());
     let constant = || SpacingMap::constant(typical);
     if centres.len() < ENOUGH_CONES {
         return constant();
@@ -100,7 +102,7 @@ pub(in crate::detect) fn refined_map(
             let imaged = empty.map_or(1., |e| square.imaged(e));
             let known = imaged >= IMAGED;
             let by_density = hexagonal_spacing(cells.count(&square).max(1), square.area() * imaged);
-            spacing.push(known.then(|| trusted(by_density, start)));
+            spacing.push(known.then(|| trusted(by_density.map(|s| raise * s), start)));
         }
     }
     let map = SpacingMap::on_grid(x, y, &spacing, typical).smoothed();
@@ -199,9 +201,21 @@ mod tests {
         assert!((refined(&lattice(2., 100), 100, 100, 10.) - 10. * (-0.35f64).exp()).abs() < 1e-9);
     }
 
+    fn start(spacing: f64, least: f64) -> Start {
+        Start { map: SpacingMap::constant(spacing), least }
+    }
+
+    #[test]
+    fn too_many_detections_do_not_make_the_spacing_smaller_than_the_ring_allows() {
+        let centres = lattice(8., 400);
+        let shown = refined_map(&centres, 400, 400, None, &start(10., 0.)).typical();
+        assert!((shown / (8. * (2. / 3f64.sqrt()).sqrt()) - 1.).abs() < 0.02);
+        assert!((refined_map(&centres, 400, 400, None, &start(10., 9.5)).typical() - 9.5).abs() < 1e-9);
+    }
+
     #[test]
     fn an_even_mosaic_has_one_spacing() {
-        let map = refined_map(&lattice(10., 400), 400, 400, None, &SpacingMap::constant(11.));
+        let map = refined_map(&lattice(10., 400), 400, 400, None, &start(11., 0.));
         assert!(map.is_constant());
     }
 
@@ -214,7 +228,7 @@ mod tests {
             points.extend((0..(600. / step) as usize).map(|k| Point::new(x, (k as f64 + 0.5) * step)));
             x += step;
         }
-        let map = refined_map(&points, 600, 600, None, &SpacingMap::constant(9.));
+        let map = refined_map(&points, 600, 600, None, &start(9., 0.));
         for x in [30., 150., 300., 450., 570.] {
             let expected = (6. + 6. * x / 600.) * (2. / 3f64.sqrt()).sqrt();
             let found = map.at(Point::new(x, 300.));

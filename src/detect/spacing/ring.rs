@@ -14,6 +14,16 @@ const LONGEST_PERIOD: f64 = 64.;
 const BINS: usize = 121;
 /// A ring of fewer periods than this across the image cannot be told from uneven illumination.
 const PERIODS: f64 = 5.;
+/// Down to this part of its height, a peak speaks for a spacing. On hand-marked confocal images with noise of 0–1 standard deviations
+/// the flank then ends between .85 and 1.0 of the true spacing.
+const FLANK: f64 = 0.7;
+/// Of a spectrum, in cycles per spacing: from where to where the ring's power stands, and where, with what factor to either side,
+/// there is hardly anything but noise.
+const RING_BAND: (f64, f64) = (0.8, 1.4);
+const FINEST: f64 = 2.6;
+const FINEST_BAND: f64 = 1.15;
+/// Clarity from which on an image has no noise to speak of.
+pub(in crate::detect) const CLEAR: f64 = 6.2;
 /// Places around the ring at which spectra are compared.
 pub(in crate::detect) const AROUND: usize = 15;
 
@@ -35,6 +45,8 @@ pub struct RingEstimate {
     pub spacing: f64,
     /// Response of the matched kernel: about 0.7 on a clear confocal mosaic, .4 on a split-detector one, below 0.2 on noise.
     pub strength: f64,
+    /// The closest spacing, px, that the ring still speaks for: on its peak's flank, where the response is .7 of the highest.
+    pub least: f64,
 }
 
 /// One term of the transform: where it lies, which two bins share it and how, and which part of it runs along x.
@@ -197,7 +209,27 @@ impl RingProfile {
             Some(&[a, b, c]) if a - 2. * b + c < 0. => (0.5 * (a - c) / (a - 2. * b + c)).clamp(-0.5, 0.5),
             _ => 0.,
         };
-        RingEstimate { spacing: spacing_of(peak as f64 + offset), strength: response[peak] }
+        let flank = response[peak..].iter().take_while(|r| **r >= FLANK * response[peak]).count();
+        RingEstimate {
+            spacing: spacing_of(peak as f64 + offset),
+            strength: response[peak],
+            least: spacing_of((peak + flank.max(1) - 1) as f64),
+        }
+    }
+
+    /// By how much the power around the ring of the given spacing, px, exceeds that of detail finer than any cone: a natural
+    /// logarithm, above 6 on a clear image, 2 where noise is as strong as the cones.
+    pub fn clarity(&self, spacing: f64) -> f64 {
+        let bin = |cycles: f64| PER_OCTAVE * (LONGEST_PERIOD * cycles / spacing).log2();
+        let mean = |low: f64, high: f64| {
+            let last = (BINS - 1) as f64;
+            let bins = bin(low).ceil().clamp(0., last) as usize..=bin(high).floor().clamp(0., last) as usize;
+            let count = bins.clone().count().max(1) as f64;
+            self.all[bins].iter().map(|p| f64::from(*p)).sum::<f64>() / count
+        };
+        // a fine grid ends before the finest detail
+        let finest = FINEST.min(0.5 * spacing / FINEST_BAND);
+        mean(RING_BAND.0, RING_BAND.1) - mean(finest / FINEST_BAND, finest * FINEST_BAND)
     }
 
     /// Logarithm of the power around the ring of the given spacing, above the mean of all: from 1.5 octaves below to two
