@@ -28,7 +28,7 @@ pub use types::{Detection, Detections, Modality, Polarity};
 
 use crate::image::{EmptyPixels, Plane, crop, imaged_part};
 use search::Field;
-use spacing::{Rings, Start, contradiction};
+use spacing::{Rings, Start};
 use thiserror::Error;
 
 /// Shortest side of an image in px: below, there is no room for even a handful of cones at the closest spacing.
@@ -138,27 +138,26 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
         modality::decide(rings.sample(), rings.whole(), options.modality, options.polarity);
     let ring = rings.whole().spacing(modality);
     // the ring of split-detector images is wrong too often to hold a count against it
-    let mut least = if modality == Modality::Confocal && options.spacing.is_none() { ring.least } else { 0. };
+    let least = if modality == Modality::Confocal && options.spacing.is_none() { ring.least } else { 0. };
     let map = options.spacing.map_or_else(|| rings.map(modality), SpacingMap::constant);
-    let start = Start { map, least };
+    let mut start = Start { map, least };
     let filtered = |part: &Plane, spacing: f64| {
         Ok(filter::cones(part, modality, polarity, spacing, rings.whole().clarity(spacing)))
     };
     let (mut found, mut map) = field.until_settled(&start, SETTLED, filtered)?;
     if options.spacing.is_none()
-        && let Some(shown) = contradiction(&found.centres(), image.dim(), field.empty, start.map.typical())
+        && let Some(other) = start.contradicted_by(&found.centres(), image.dim(), field.empty)
     {
         // ring and density cannot both be right: the more regular mosaic is
-        let other = Start { map: SpacingMap::constant(shown), least: 0. };
-        let other = field.until_settled(&other, SETTLED, filtered)?;
-        if other.0.regularity(image.dim()) > found.regularity(image.dim()) {
-            (found, map) = other;
-            least = 0.;
+        let searched = field.until_settled(&other, SETTLED, filtered)?;
+        if searched.0.regularity(image.dim()) > found.regularity(image.dim()) {
+            (found, map) = searched;
+            start = other;
         }
     }
     let model = model_for(options, modality)?;
     if let Some(model) = model {
-        (found, map) = field.until_settled(&Start { map, least }, LEARNED_SETTLED, |part, spacing| {
+        (found, map) = field.until_settled(&Start { map, ..start }, LEARNED_SETTLED, |part, spacing| {
             model.cones(part, polarity, spacing, rings.whole().clarity(spacing)).map_err(|source| {
                 match &options.model {
                     Some(own) => DetectError::Model { name: own.name().to_owned(), source },

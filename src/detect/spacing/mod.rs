@@ -13,7 +13,7 @@ pub use fourier::{
 };
 pub use map::SpacingMap;
 pub use refine::{BORDER, refined};
-pub(super) use refine::{Start, contradiction, refined_map};
+pub(super) use refine::{Start, refined_map};
 pub(in crate::detect) use ring::{AROUND, CLEAR};
 pub use ring::{RingEstimate, RingProfile};
 pub(super) use rings::Rings;

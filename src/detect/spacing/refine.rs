@@ -29,22 +29,29 @@ pub(in crate::detect) struct Start {
     pub least: f64,
 }
 
+impl Start {
+    /// Where else to start if the density of `centres`, found from here, lies farther off than detections may carry the spacing:
+    /// there, or here without a least spacing.
+    pub(in crate::detect) fn contradicted_by(
+        &self,
+        centres: &[Point],
+        (height, width): (usize, usize),
+        empty: Option<&EmptyPixels>,
+    ) -> Option<Self> {
+        let (low, high) = SPACING_RANGE;
+        let shown = density_spacing(centres, width, height, empty)?.clamp(low, high);
+        if (shown / self.map.typical()).ln().abs() > TRUST {
+            Some(Self { map: SpacingMap::constant(shown), least: 0. })
+        } else {
+            (shown < self.least).then(|| Self { map: self.map.clone(), least: 0. })
+        }
+    }
+}
+
 /// Spacing by the density of `centres` in an image of `width` × `height` px: s = √(2A/(√3 n)), n and A inside the
 /// 7 px border, held within e^±0.35 of the ring's spacing.
 pub fn refined(centres: &[Point], width: usize, height: usize, ring_spacing: f64) -> f64 {
     trusted(density_spacing(centres, width, height, None), ring_spacing)
-}
-
-/// The spacing that the density of `centres` shows if it lies farther from the ring's than detections may carry it.
-pub(in crate::detect) fn contradiction(
-    centres: &[Point],
-    (height, width): (usize, usize),
-    empty: Option<&EmptyPixels>,
-    ring_spacing: f64,
-) -> Option<f64> {
-    let (low, high) = SPACING_RANGE;
-    let shown = density_spacing(centres, width, height, empty)?.clamp(low, high);
-    ((shown / ring_spacing).ln().abs() > TRUST).then_some(shown)
 }
 
 /// √(2A/(√3 n)), n and A inside the border; `None` if nothing lies there.
