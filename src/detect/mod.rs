@@ -137,10 +137,10 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
     let (modality, polarity) =
         modality::decide(rings.sample(), rings.whole(), options.modality, options.polarity);
     let ring = rings.whole().spacing(modality);
-    // the ring of split-detector images is wrong too often to hold a count against it
-    let least = if modality == Modality::Confocal && options.spacing.is_none() { ring.least } else { 0. };
-    let map = options.spacing.map_or_else(|| rings.map(modality), SpacingMap::constant);
-    let mut start = Start { map, least };
+    let mut start = match options.spacing {
+        None => Start { map: rings.map(modality), least: ring.least },
+        Some(spacing) => Start { map: SpacingMap::constant(spacing), least: 0. },
+    };
     let filtered = |part: &Plane, spacing: f64| {
         Ok(filter::cones(part, modality, polarity, spacing, rings.whole().clarity(spacing)))
     };
