@@ -30,8 +30,7 @@ pub(in crate::detect) struct Start {
 }
 
 impl Start {
-    /// Where else to start if the density of `centres`, found from here, lies farther off than detections may carry the spacing:
-    /// there, or here without a least spacing.
+    /// Where else to start if the density of `centres`, found from here, lies farther off than detections may carry the spacing.
     pub(in crate::detect) fn contradicted_by(
         &self,
         centres: &[Point],
@@ -40,18 +39,9 @@ impl Start {
     ) -> Option<Self> {
         let (low, high) = SPACING_RANGE;
         let shown = density_spacing(centres, width, height, empty)?.clamp(low, high);
-        if (shown / self.map.typical()).ln().abs() > TRUST {
-            Some(Self { map: SpacingMap::constant(shown), least: 0. })
-        } else {
-            (shown < self.least).then(|| Self { map: self.map.clone(), least: 0. })
-        }
+        let far = (shown / self.map.typical()).ln().abs() > TRUST;
+        far.then(|| Self { map: SpacingMap::constant(shown), least: 0. })
     }
-}
-
-/// Spacing by the density of `centres` in an image of `width` × `height` px: s = √(2A/(√3 n)), n and A inside the
-/// 7 px border, held within e^±0.35 of the ring's spacing.
-pub fn refined(centres: &[Point], width: usize, height: usize, ring_spacing: f64) -> f64 {
-    trusted(density_spacing(centres, width, height, None), ring_spacing)
 }
 
 /// √(2A/(√3 n)), n and A inside the border; `None` if nothing lies there.
