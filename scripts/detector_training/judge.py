@@ -6,7 +6,7 @@ from scipy.spatial import cKDTree
 
 from .draw import BORDER, density_spacing
 from .network import see
-from .plane import SPACING
+from .plane import CLEAR, SPACING, clarity
 
 FRACTION = 0.75        # of the median distance of neighbours: how far a cone may be from its mark (Cunefare et al. 2017)
 CANDIDATE = -4.5       # logits below are never cones
@@ -14,6 +14,7 @@ RELATIVE_FLOOR, RELATIVE_RADIUS = -2.5, 0.45  # candidates that the image-relati
 RADII = (0.45, 0.5, 0.55)
 GRIDS = {'absolute': np.arange(-2.4, -0.39, 0.1), 'relative': np.arange(0.8, 2.41, 0.1)}
 RULES = {'confocal': 'absolute', 'split': 'relative'}
+IN_NOISE = {'absolute': 0.2, 'relative': 0}  # by how much the threshold rises per unit of clarity that is missing
 START = {'absolute': -1.2, 'relative': 1.6}  # while the constants are not yet chosen
 
 
@@ -61,11 +62,14 @@ def places(found, spacing):
 
 
 def look(image, start, network, rule, sign, passes=3):
-    """All maxima, at the spacing that the network arrives at from `start`."""
+    """All maxima, at the spacing that the network arrives at from `start`. In noise the threshold rises: here the logits
+    fall instead, so that one threshold serves all images."""
     following = start
     for _ in range(passes):
         spacing = following
         found = candidates(see(image, spacing, network, sign), CANDIDATE)
+        if IN_NOISE[rule]:
+            found[:, 2] -= IN_NOISE[rule] * max(0, CLEAR - clarity(image, spacing))
         cones = suppress(found[found[:, 2] > threshold_of(found, rule, START[rule])], 0.5 * SPACING)
         following = density_spacing(places(cones, spacing), image.shape)
         low, high = (start * math.exp(side) for side in (-0.35, 0.35))
@@ -201,5 +205,5 @@ def summary(seen, disturbed, samples, folds, rule):
         'folds': folds,
     } | reliable
     return result, {
-        'threshold': constant, 'suppression': radius, 'relative_floor': RELATIVE_FLOOR, 'relative_radius': RELATIVE_RADIUS,
+        'threshold': constant, 'suppression': radius, 'relative_floor': RELATIVE_FLOOR, 'relative_radius': RELATIVE_RADIUS, 'threshold_in_noise': IN_NOISE[rule],
         'seed': seed + 1, 'dice': f'{nested.mean():.4f}', 'classical_dice': f'{by_fold(baseline).mean():.4f}'} | words
