@@ -44,6 +44,12 @@ impl Start {
     }
 }
 
+/// Spacing by the density of `centres` in an image of `width` × `height` px: s = √(2A/(√3 n)), n and A inside the
+/// 7 px border, held within e^±0.35 of the ring's spacing.
+pub fn refined(centres: &[Point], width: usize, height: usize, ring_spacing: f64) -> f64 {
+    trusted(density_spacing(centres, width, height, None), ring_spacing)
+}
+
 /// √(2A/(√3 n)), n and A inside the border; `None` if nothing lies there.
 fn density_spacing(
     centres: &[Point],
