@@ -11,6 +11,7 @@ import torch.nn.functional as F
 from .draw import draw
 from .plane import SPACING, framed, gaussian, normalise, resample
 
+TAUGHT = 0.7  # part of the target that is the teachers' word
 UNIT = 4  # sides of what the network sees are multiples of this
 
 
@@ -43,13 +44,14 @@ class UNet(torch.nn.Module):
         return self.last(merged)[:, 0]
 
 
-def train(samples, recipe, seed):
-    """AdamW, one-cycle learning rate, cross-entropy; the weights' exponential mean. bf16 in the convolutions."""
+def train(samples, recipe, seed, epochs, teacher=None):
+    """AdamW, one-cycle learning rate, cross-entropy; the weights' exponential mean. bf16 in the convolutions. A teacher's
+    probabilities stand for most of the target, and for all of it where nobody marked."""
     rng = np.random.default_rng(seed)
     torch.manual_seed(seed)
     network, averaged = (UNet(*recipe.widths).to(memory_format=torch.channels_last) for _ in range(2))
     averaged.load_state_dict(network.state_dict())
-    steps = max(20, recipe.epochs * len(samples) // recipe.batch)
+    steps = max(20, epochs * len(samples) // recipe.batch)
     optimiser = torch.optim.AdamW(network.parameters(), lr=recipe.rate, weight_decay=0.01)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, recipe.rate, total_steps=steps, pct_start=0.2,
                                                    final_div_factor=1000)
@@ -62,6 +64,11 @@ def train(samples, recipe, seed):
         target, known = batch[:, 1], batch[:, 2]
         with torch.autocast('cpu', torch.bfloat16):
             logits = network(seen, mask.bfloat16())
+            if teacher:
+                with torch.no_grad():
+                    taught = torch.sigmoid(teacher(seen, mask.bfloat16()).float())
+                target = torch.where(known > 0, TAUGHT * taught + (1 - TAUGHT) * target, taught)
+                known = torch.where(known > 0, known, mask[:, 0])
         loss = F.binary_cross_entropy_with_logits(logits.float(), target, reduction='none')
         loss = (loss * known).sum() / known.sum()
         optimiser.zero_grad()
