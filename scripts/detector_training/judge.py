@@ -6,7 +6,8 @@ from scipy.spatial import cKDTree
 
 from .draw import BORDER, density_spacing
 from .network import see
-from .plane import CLEAR, SPACING, clarity
+from .plane import SPACING
+from .ring import CLEAR, clarity, profiles
 
 FRACTION = 0.75        # of the median distance of neighbours: how far a cone may be from its mark (Cunefare et al. 2017)
 CANDIDATE = -4.5       # logits below are never cones
@@ -65,11 +66,12 @@ def look(image, start, network, rule, sign, passes=3):
     """All maxima, at the spacing that the network arrives at from `start`. In noise the threshold rises: here the logits
     fall instead, so that one threshold serves all images."""
     following = start
+    profile = profiles(image)[0] if IN_NOISE[rule] else None
     for _ in range(passes):
         spacing = following
         found = candidates(see(image, spacing, network, sign), CANDIDATE)
         if IN_NOISE[rule]:
-            found[:, 2] -= IN_NOISE[rule] * max(0, CLEAR - clarity(image, spacing))
+            found[:, 2] -= IN_NOISE[rule] * max(0, CLEAR - clarity(profile, spacing))
         cones = suppress(found[found[:, 2] > threshold_of(found, rule, START[rule])], 0.5 * SPACING)
         following = density_spacing(places(cones, spacing), image.shape)
         low, high = (start * math.exp(side) for side in (-0.35, 0.35))
@@ -205,5 +207,5 @@ def summary(seen, disturbed, samples, folds, rule):
         'folds': folds,
     } | reliable
     return result, {
-        'threshold': constant, 'suppression': radius, 'relative_floor': RELATIVE_FLOOR, 'relative_radius': RELATIVE_RADIUS, 'threshold_in_noise': IN_NOISE[rule],
-        'seed': seed + 1, 'dice': f'{nested.mean():.4f}', 'classical_dice': f'{by_fold(baseline).mean():.4f}'} | words
+        'threshold': constant, 'suppression': radius, 'relative_floor': RELATIVE_FLOOR, 'relative_radius': RELATIVE_RADIUS,
+        'threshold_in_noise': IN_NOISE[rule], 'seed': seed + 1, 'dice': f'{nested.mean():.4f}', 'classical_dice': f'{by_fold(baseline).mean():.4f}'} | words

@@ -66,31 +66,3 @@ def framed(plane, unit):
     """Mirrored at right and bottom to whole multiples of `unit`."""
     rows, columns = (mirror(np.arange(-(-n // unit) * unit), n) for n in plane.shape)
     return plane[np.ix_(rows, columns)]
-
-
-CLEAR = 6.2  # clarity from which on an image has no noise to speak of
-PER_OCTAVE, BINS, LONGEST, SIDE = 24, 121, 64, 512  # log-frequency bins of the ring, px of the transform
-
-
-@functools.lru_cache(4)
-def _bins():
-    f = np.hypot(np.fft.fftfreq(SIDE)[:, None], np.fft.fftfreq(SIDE))
-    return np.rint(PER_OCTAVE * np.log2(np.maximum(LONGEST * f, 1e-9))).astype(int)
-
-
-def clarity(image, spacing):
-    """Logarithm of the spectrum's power around the ring over that of detail finer than any cone, as
-    src/detect/spacing/ring.rs has it."""
-    sigma = max(image.shape) / 8
-    level = image - gaussian(image, sigma)
-    level = (level / np.sqrt(np.maximum(gaussian(level * level, sigma), 1e-12)))[:SIDE, :SIDE]
-    h, w = level.shape
-    power = np.abs(np.fft.fft2(level * np.outer(np.hanning(h + 2)[1:-1], np.hanning(w + 2)[1:-1]), (SIDE, SIDE))) ** 2
-    bins = _bins()
-    inside = (bins >= 0) & (bins < BINS)
-    sums, counts = (np.bincount(bins[inside], weights, BINS) for weights in (power[inside], None))
-    profile = np.log(sums / np.maximum(counts, 1) + 1e-12)
-    cycles = spacing * 2 ** (np.arange(BINS) / PER_OCTAVE) / LONGEST
-    finest = min(2.6, 0.5 * spacing / 1.15)
-    mean = lambda low, high: profile[(cycles >= low) & (cycles <= high)].mean()
-    return mean(0.8, 1.4) - mean(finest / 1.15, finest * 1.15)

@@ -141,9 +141,9 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
         None => Start { map: rings.map(modality), least: ring.least },
         Some(spacing) => Start { map: SpacingMap::constant(spacing), least: 0. },
     };
-    let filtered = |part: &Plane, spacing: f64| {
-        Ok(filter::cones(part, modality, polarity, spacing, rings.whole().clarity(spacing)))
-    };
+    let clarity = |spacing: f64| rings.whole().clarity(spacing);
+    let filtered =
+        |part: &Plane, spacing: f64| Ok(filter::cones(part, modality, polarity, spacing, clarity(spacing)));
     let (mut found, mut map) = field.until_settled(&start, SETTLED, filtered)?;
     if options.spacing.is_none()
         && let Some(other) = start.contradicted_by(&found.centres(), image.dim(), field.empty)
@@ -158,11 +158,9 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
     let model = model_for(options, modality)?;
     if let Some(model) = model {
         (found, map) = field.until_settled(&Start { map, ..start }, LEARNED_SETTLED, |part, spacing| {
-            model.cones(part, polarity, spacing, rings.whole().clarity(spacing)).map_err(|source| {
-                match &options.model {
-                    Some(own) => DetectError::Model { name: own.name().to_owned(), source },
-                    None => DetectError::Weights { modality, source },
-                }
+            model.cones(part, polarity, spacing, clarity(spacing)).map_err(|source| match &options.model {
+                Some(own) => DetectError::Model { name: own.name().to_owned(), source },
+                None => DetectError::Weights { modality, source },
             })
         })?;
     }

@@ -101,9 +101,7 @@ impl Model {
             "absolute" => Threshold::Absolute {
                 logit: weights.number("threshold")?,
                 // files of before this rule have none
-                in_noise: weights
-                    .word("threshold_in_noise")
-                    .map_or(Ok(0.), |_| weights.number("threshold_in_noise"))?,
+                in_noise: weights.number_or("threshold_in_noise", 0.)?,
             },
             "relative" => Threshold::Relative {
                 below: weights.number("threshold")?,

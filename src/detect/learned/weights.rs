@@ -85,6 +85,11 @@ impl<'a> Weights<'a> {
         number.ok_or_else(|| WeightsError::Metadata(key.to_owned()))
     }
 
+    /// The same, or `otherwise` where the header has no such word.
+    pub(super) fn number_or(&self, key: &'static str, otherwise: f64) -> Result<f64, WeightsError> {
+        if self.word(key).is_err() { Ok(otherwise) } else { self.number(key) }
+    }
+
     /// The convolution `name`, from the tensors `name.weight` and `name.bias`.
     pub(super) fn kernel(
         &self,

@@ -99,13 +99,13 @@ pub(in crate::detect) fn refined_map(
     for &cy in &y {
         for &cx in &x {
             let place = Point::new(cx, cy);
-            let start = ring.at(place);
-            let half = 0.5 * start * (COUNTED * 0.75f64.sqrt()).sqrt();
+            let before = ring.at(place);
+            let half = 0.5 * before * (COUNTED * 0.75f64.sqrt()).sqrt();
             let square = cells.square(place, half);
             let imaged = empty.map_or(1., |e| square.imaged(e));
             let known = imaged >= IMAGED;
             let by_density = hexagonal_spacing(cells.count(&square).max(1), square.area() * imaged);
-            spacing.push(known.then(|| trusted(by_density.map(|s| raise * s), start)));
+            spacing.push(known.then(|| trusted(by_density.map(|s| raise * s), before)));
         }
     }
     let map = SpacingMap::on_grid(x, y, &spacing, typical).smoothed();

@@ -220,12 +220,11 @@ impl RingProfile {
     /// By how much the power around the ring of the given spacing, px, exceeds that of detail finer than any cone: a natural
     /// logarithm, above 6 on a clear image, 2 where noise is as strong as the cones.
     pub fn clarity(&self, spacing: f64) -> f64 {
-        let bin = |cycles: f64| PER_OCTAVE * (LONGEST_PERIOD * cycles / spacing).log2();
+        // bands are several bins wide: none is empty
         let mean = |low: f64, high: f64| {
-            let last = (BINS - 1) as f64;
-            let bins = bin(low).ceil().clamp(0., last) as usize..=bin(high).floor().clamp(0., last) as usize;
-            let count = bins.clone().count().max(1) as f64;
-            self.all[bins].iter().map(|p| f64::from(*p)).sum::<f64>() / count
+            let bin = |bin: f64| bin.clamp(0., (BINS - 1) as f64) as usize;
+            let band = &self.all[bin(bin_of(spacing / low).ceil())..=bin(bin_of(spacing / high).floor())];
+            band.iter().map(|p| f64::from(*p)).sum::<f64>() / band.len() as f64
         };
         // a fine grid ends before the finest detail
         let finest = FINEST.min(0.5 * spacing / FINEST_BAND);
@@ -236,7 +235,7 @@ impl RingProfile {
     /// above in steps of a quarter octave, each the mean of five bins.
     pub fn around(&self, spacing: f64) -> [f64; AROUND] {
         const STEP: f64 = PER_OCTAVE / 4.;
-        let ring = PER_OCTAVE * (LONGEST_PERIOD / spacing).log2();
+        let ring = bin_of(spacing);
         let at = |bin: f64| f64::from(self.all[bin.clamp(0., (BINS - 1) as f64) as usize]);
         let mean = self.all.iter().map(|p| f64::from(*p)).sum::<f64>() / BINS as f64;
         std::array::from_fn(|k| {
@@ -246,10 +245,14 @@ impl RingProfile {
     }
 }
 
+/// Where among the bins a period, px, lies.
+fn bin_of(period: f64) -> f64 {
+    PER_OCTAVE * (LONGEST_PERIOD / period).log2()
+}
+
 /// The bins of the widest and of the closest spacing looked for.
 fn candidate_bins() -> (usize, usize) {
-    let bin = |spacing: f64| PER_OCTAVE * (LONGEST_PERIOD / spacing).log2();
-    (bin(SPACING_RANGE.1).floor() as usize, bin(SPACING_RANGE.0).ceil() as usize)
+    (bin_of(SPACING_RANGE.1).floor() as usize, bin_of(SPACING_RANGE.0).ceil() as usize)
 }
 
 #[cfg(test)]
