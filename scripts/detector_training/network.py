@@ -112,22 +112,14 @@ class Mean(torch.nn.Module):
 
 def write(path, network, metadata, sign):
     """Safetensors: weights as out, in, height, width; besides a small image with 10 px between cones and the logits it
-    gives, for the program's tests to make again. Several members are stored in 16 bits, the number of the member before
-    each name; a single one in 32."""
-    several = len(network.members) > 1
-    dtype, kind = ('<f2', 'F16') if several else ('<f4', 'F32')
-    weights = {}
-    for k, member in enumerate(network.members):
-        member.load_state_dict({name: torch.from_numpy(value.numpy().astype(dtype).astype('<f4'))
-                                for name, value in member.state_dict().items()})
-        weights |= {f'{k}.{name}' if several else name: value.numpy() for name, value in member.state_dict().items()}
+    gives, for the program's tests to make again."""
     image = gaussian(np.random.default_rng(1).random((44, 40), np.float32), 1.5)
-    example = {'example.image': image, 'example.logits': see(image, 10.0, network, sign)}
-    header, blob = {'__metadata__': {k: str(v) for k, v in (metadata | {'members': len(network.members)}).items()}}, b''
-    tensors = [(name, value, dtype, kind) for name, value in weights.items()]
-    for name, value, dtype, kind in tensors + [(name, value, '<f4', 'F32') for name, value in example.items()]:
-        value = np.ascontiguousarray(value, dtype)
-        header[name] = {'dtype': kind, 'shape': list(value.shape), 'data_offsets': [len(blob), len(blob) + value.nbytes]}
+    tensors = {name: value.numpy() for name, value in network.state_dict().items()}
+    tensors |= {'example.image': image, 'example.logits': see(image, 10.0, network, sign)}
+    header, blob = {'__metadata__': {k: str(v) for k, v in metadata.items()}}, b''
+    for name, value in tensors.items():
+        value = np.ascontiguousarray(value, '<f4')
+        header[name] = {'dtype': 'F32', 'shape': list(value.shape), 'data_offsets': [len(blob), len(blob) + value.nbytes]}
         blob += value.tobytes()
     text = json.dumps(header).encode()
     text += b' ' * (-len(text) % 8)

@@ -1,4 +1,6 @@
 """The spectrum in which Yellott's ring is looked for, as src/detect/spacing/ring.rs has it."""
+import functools
+
 import numpy as np
 from scipy import ndimage
 
@@ -17,11 +19,10 @@ def flatten(image):
     return centred / np.maximum(deviation, 1e-3 * deviation.max())
 
 
-def profiles(image):
-    """Log power over log-frequency: all, weighted by fx²/f², weighted by 1 − fx²/f²."""
-    h, w = image.shape
-    tapered = flatten(image) * np.outer(np.hanning(h + 2)[1:-1], np.hanning(w + 2)[1:-1])
-    power = np.abs(np.fft.rfft2(tapered, (SIZE, SIZE))) ** 2
+@functools.cache
+def terms():
+    """Of the transform: which terms count, and for each of three directions (all, fx²/f², 1 − fx²/f²) the bins that share a
+    term, with what weight, and the sum of the weights in a bin."""
     fy, fx = np.fft.fftfreq(SIZE)[:, None], np.fft.rfftfreq(SIZE)[None]
     f = np.hypot(fx, fy)
     inside = (f > 1 / 64 / 1.05) & (f < 0.5 * 1.03)
@@ -30,15 +31,26 @@ def profiles(image):
     place = PER_OCTAVE * np.log2(64 * f[inside])
     low = np.floor(place).astype(int)
     part = place - low
-    out = []
-    for weight in (np.ones_like(along_x), along_x, 1 - along_x):
-        sums, weights = np.zeros(BINS + 3), np.zeros(BINS + 3)
-        for index, share in ((low, 1 - part), (low + 1, part)):
-            index = np.clip(index + 1, 0, BINS + 2)
-            np.add.at(sums, index, share * weight * power[inside] * twice)
-            np.add.at(weights, index, share * weight * twice)
-        out.append(np.log((sums / np.maximum(weights, 1e-12))[1:BINS + 1] + 1e-12))
-    return np.array(out)
+    bins = [np.clip(low + k, 0, BINS + 2) for k in (1, 2)]
+    weights = [[share * direction * twice for share in (1 - part, part)]
+               for direction in (np.ones_like(along_x), along_x, 1 - along_x)]
+    sums = [binned(bins, shares, 1) for shares in weights]
+    return inside, bins, weights, sums
+
+
+def binned(bins, shares, power):
+    return sum(np.bincount(bin, share * power, BINS + 3) for bin, share in zip(bins, shares))
+
+
+def profiles(image):
+    """Log power over log-frequency: all, weighted by fx²/f², weighted by 1 − fx²/f². Of a large image, of its upper left."""
+    image = image[:SIZE, :SIZE]
+    h, w = image.shape
+    tapered = flatten(image) * np.outer(np.hanning(h + 2)[1:-1], np.hanning(w + 2)[1:-1])
+    inside, bins, weights, sums = terms()
+    power = (np.abs(np.fft.rfft2(tapered, (SIZE, SIZE))) ** 2)[inside]
+    return np.array([np.log((binned(bins, shares, power) / np.maximum(total, 1e-12))[1:BINS + 1] + 1e-12)
+                     for shares, total in zip(weights, sums)])
 
 
 def clarity(profile, spacing):

@@ -96,7 +96,7 @@ pub(super) fn warnings_of(
 ) -> Vec<String> {
     let mut warnings = Vec::new();
     if let Some(found) = found {
-        let confidence = found.spacing_confidence();
+        let confidence = found.spacing_confidence;
         if confidence < CONFIDENT {
             warnings.push(format!(
                 "the cone spacing is uncertain (confidence {confidence:.2}), and with it the detections: {:.1} px by Yellott's                  ring, {:.1} px by the density of the cones found; --spacing overrules both",

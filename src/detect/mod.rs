@@ -16,7 +16,7 @@ mod types;
 
 pub use filter::{Criterion, RelativeThreshold, response};
 pub use flatten::flatten;
-pub use learned::{UserModel, WeightsError, weights};
+pub use learned::{UserModel, WeightsError};
 pub use maxima::local_maxima;
 pub use options::{DetectOptions, Detector};
 pub use spacing::{
@@ -33,6 +33,12 @@ use thiserror::Error;
 
 /// Shortest side of an image in px: below, there is no room for even a handful of cones at the closest spacing.
 pub const MIN_SIDE: usize = 24;
+
+/// The weights compiled into the program: results depend on them.
+pub const fn weights() -> [&'static [u8]; 3] {
+    let [confocal, split] = learned::weights();
+    [confocal, split, spacing::ring_weights()]
+}
 
 /// Spacings that differ by less than this part are the same.
 const SETTLED: f64 = 0.005;
@@ -136,9 +142,9 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
     let rings = Rings::of(field.image, field.empty);
     let (modality, polarity) =
         modality::decide(rings.sample(), rings.whole(), options.modality, options.polarity);
-    let ring = rings.whole().spacing(modality);
+    let ring = rings.whole().spacing();
     let mut start = match options.spacing {
-        None => Start { map: rings.map(modality), least: ring.least },
+        None => Start { map: rings.map(), least: ring.least },
         Some(spacing) => Start { map: SpacingMap::constant(spacing), least: 0. },
     };
     let clarity = |spacing: f64| rings.whole().clarity(spacing);
@@ -171,7 +177,8 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
         polarity,
         detector: if model.is_some() { Detector::Learned } else { Detector::Classical },
         ring_spacing: ring.spacing,
-        ring_strength: ring.strength,
+        ring_confidence: ring.confidence,
+        spacing_confidence: calibration::spacing(rings.whole(), map.typical()),
         spacing: map.typical(),
         spacing_map: map,
     })

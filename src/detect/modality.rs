@@ -52,9 +52,8 @@ pub(super) fn decide(
 
 /// What tells images apart.
 struct Features {
-    /// Spacings under the assumption of a split detector and of discs, px.
-    split_spacing: f64,
-    disc_spacing: f64,
+    /// Spacing by the ring, px.
+    spacing: f64,
     /// Response of a filter as wide as a cone, and its skewness.
     blobs: Plane,
     blobs_skewness: f64,
@@ -72,18 +71,16 @@ struct Features {
 
 impl Features {
     fn of(flat: &Plane, ring: &RingProfile) -> Self {
-        let split_spacing = ring.spacing(Modality::Split).spacing;
-        let disc_spacing = ring.spacing(Modality::Histology).spacing;
-        let blobs = filter::blobs(flat, disc_spacing);
+        let spacing = ring.spacing().spacing;
+        let blobs = filter::blobs(flat, spacing);
         let blobs_skewness = Moments::of(blobs.iter()).skewness();
-        let fine = Slopes::of(&gaussian(flat, FINE * split_spacing));
-        let coarse = Slopes::of(&gaussian(flat, COARSE * split_spacing));
+        let fine = Slopes::of(&gaussian(flat, FINE * spacing));
+        let coarse = Slopes::of(&gaussian(flat, COARSE * spacing));
         let directed = (fine.along_x.variance() / fine.along_y.variance().max(f64::MIN_POSITIVE)).ln();
         Self {
-            split_spacing,
-            disc_spacing,
-            spectrum: ring.around(disc_spacing),
-            greys: Greys::of(flat, disc_spacing, blobs_skewness < 0.),
+            spacing,
+            spectrum: ring.around(spacing),
+            greys: Greys::of(flat, spacing, blobs_skewness < 0.),
             blobs,
             blobs_skewness,
             directed,
@@ -117,7 +114,7 @@ impl Features {
     /// Coefficient of variation of the cones' heights: waveguides scatter more than cut discs.
     fn scatter_of_heights(&self) -> f64 {
         let upright = if self.blobs_skewness < 0. { self.blobs.mapv(|v| -v) } else { self.blobs.clone() };
-        let maxima = suppress(local_maxima(&upright, 0.), 0.55 * self.disc_spacing);
+        let maxima = suppress(local_maxima(&upright, 0.), 0.55 * self.spacing);
         let median = maxima.get(maxima.len() / 2).map_or(0., |d| d.score);
         let heights: Vec<f32> =
             maxima.iter().map(|d| d.score).filter(|h| *h > CONE * median).map(|h| h as f32).collect();
@@ -128,7 +125,7 @@ impl Features {
     /// Evidence that a split detector shows cones dark on the left.
     fn dark_left(&self, flat: &Plane) -> f64 {
         let (response, _) =
-            filter::response(flat, Modality::Split, Polarity::Positive, self.split_spacing, f64::INFINITY);
+            filter::response(flat, Modality::Split, Polarity::Positive, self.spacing, f64::INFINITY);
         let response = Moments::of(response.iter()).skewness();
         26.8 * response + 3. * self.coarse_slopes - 10. * self.fine_slopes + 4.6 * self.blobs_skewness + USUAL
     }

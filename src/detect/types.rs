@@ -106,11 +106,13 @@ pub struct Detections {
     pub detector: Detector,
     /// Cone spacing estimated from Yellott's ring alone, in px.
     pub ring_spacing: f64,
-    /// How well the ring stands out (see [`crate::detect::RingEstimate`]).
-    pub ring_strength: f64,
+    /// Probability (0–1) by the ring alone that this is within 15 % of the true one.
+    pub ring_confidence: f64,
     /// Cone spacing after refinement by the density of the detections, in px: the geometric mean of `spacing_map`.
     pub spacing: f64,
-    /// The same from place to place; constant where density is even.
+    /// Probability (0–1) that this is within 15 % of the true one.
+    pub spacing_confidence: f64,
+    /// The spacing from place to place; constant where density is even.
     pub spacing_map: SpacingMap,
 }
 
@@ -123,11 +125,6 @@ impl Detections {
     /// How many cones are expected among the `rejected`: the sum of their scores. Cones that left no trace do not count.
     pub fn expected_misses(&self) -> f64 {
         self.rejected.iter().map(|d| d.score).sum()
-    }
-
-    /// Probability (0–1) that `spacing` is within 15 % of the true one.
-    pub fn spacing_confidence(&self) -> f64 {
-        super::calibration::spacing(self.ring_strength, self.ring_spacing, self.spacing)
     }
 
     /// Moves everything `left` px to the right and `top` px down.

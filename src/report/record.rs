@@ -173,8 +173,8 @@ pub struct DetectionRecord {
     pub n: usize,
     /// Cone spacing by Yellott's ring, px.
     pub ring_spacing_px: f64,
-    /// How well the ring stands out.
-    pub ring_strength: f64,
+    /// Probability, by the ring alone, that its spacing is within 15 % of the true one.
+    pub ring_confidence: f64,
     /// Cone spacing after refinement by density, px.
     pub density_spacing_px: f64,
     /// Probability that the spacing is within 15 % of the true one.

@@ -26,8 +26,8 @@ use weights::Weights;
 static CONFOCAL: &[u8] = include_bytes!("confocal.safetensors");
 static SPLIT: &[u8] = include_bytes!("split.safetensors");
 
-/// The weights compiled into the program: results depend on them.
-pub const fn weights() -> [&'static [u8]; 2] {
+/// The weights compiled into the program.
+pub(super) const fn weights() -> [&'static [u8]; 2] {
     [CONFOCAL, SPLIT]
 }
 

@@ -6,11 +6,10 @@ use crate::image::{Plane, mirror};
 /// Longest side of a piece that is looked at in one go; larger planes are cut so that all cores work and memory is bounded.
 const PIECE: usize = 256;
 
-/// From an even plane, in which cones are 8 px apart, to the logit of a cone's centre at every pixel: the mean over one or
-/// several networks that differ in the seed of their training.
+/// From an even plane, in which cones are 8 px apart, to the logit of a cone's centre at every pixel.
 #[derive(Debug)]
 pub(super) struct Network {
-    members: Vec<Unet>,
+    unet: Unet,
     views: Views,
 }
 
@@ -29,9 +28,6 @@ struct Unet {
     merge: Kernel,
     last: Kernel,
 }
-
-/// More members than this are a damaged header.
-const MOST_MEMBERS: usize = 16;
 
 /// As what an image is looked at.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,18 +58,7 @@ impl Network {
             "odd" => Views::Mirrored { sign: -1. },
             _ => return Err(WeightsError::Metadata("flips".to_owned())),
         };
-        // a file of one network need not say so
-        let members = match weights.word("members") {
-            Ok(text) => text
-                .parse()
-                .ok()
-                .filter(|n| (1..=MOST_MEMBERS).contains(n))
-                .ok_or(WeightsError::value("members", text, "1–16"))?,
-            Err(_) => 1,
-        };
-        let prefix = |k: usize| if members == 1 { String::new() } else { format!("{k}.") };
-        let members = (0..members).map(|k| Unet::new(weights, &prefix(k))).collect::<Result<_, _>>()?;
-        Ok(Self { members, views })
+        Ok(Self { unet: Unet::new(weights)?, views })
     }
 
     /// The logit at every pixel of `seen`.
@@ -111,43 +96,23 @@ impl Network {
 
     /// The mean over the views of a piece.
     fn viewed(&self, seen: Maps) -> Maps {
-        let Views::Mirrored { sign } = self.views else { return self.apply(&seen) };
-        let mut sum = self.apply(&seen);
+        let Views::Mirrored { sign } = self.views else { return self.unet.apply(&seen) };
+        let mut sum = self.unet.apply(&seen);
         let mut view = seen;
         // along y, then x, then y again: every view once, the piece itself first
         for (along_x, factor) in [(false, 1.), (true, sign), (false, 1.)] {
             view = mirrored(&view, along_x, factor, None);
-            sum = mirrored(&sum, along_x, 1., Some(&self.apply(&view)));
+            sum = mirrored(&sum, along_x, 1., Some(&self.unet.apply(&view)));
         }
         mirrored(&sum, true, 0.25, None)
-    }
-
-    /// The mean over the members.
-    fn apply(&self, seen: &Maps) -> Maps {
-        let [first, others @ ..] = &self.members[..] else { return Maps::zeros(1, seen.height, seen.width) };
-        let mut mean = first.apply(seen);
-        for other in others {
-            let logits = other.apply(seen);
-            for y in 0..mean.height {
-                mean.row_mut(0, y).iter_mut().zip(logits.row(0, y)).for_each(|(v, o)| *v += o);
-            }
-        }
-        if !others.is_empty() {
-            let share = 1. / self.members.len() as f32;
-            (0..mean.height).for_each(|y| mean.row_mut(0, y).iter_mut().for_each(|v| *v *= share));
-        }
-        mean
     }
 }
 
 impl Unet {
-    /// Its tensors' names begin with `prefix`.
-    fn new(weights: &Weights, prefix: &str) -> Result<Self, WeightsError> {
-        let width = |name: &str| weights.outputs(&format!("{prefix}{name}"));
-        let [full, half, quarter] = [width("first")?, width("down")?, width("deep")?];
-        let kernel = |name: &str, outputs, inputs, side| {
-            weights.kernel(&format!("{prefix}{name}"), outputs, inputs, side)
-        };
+    fn new(weights: &Weights) -> Result<Self, WeightsError> {
+        let [full, half, quarter] =
+            [weights.outputs("first")?, weights.outputs("down")?, weights.outputs("deep")?];
+        let kernel = |name, outputs, inputs, side| weights.kernel(name, outputs, inputs, side);
         Ok(Self {
             first: kernel("first", full, 1, 5)?,
             top: kernel("top", full, full, 3)?,

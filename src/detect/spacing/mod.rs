@@ -2,10 +2,10 @@
 //! it varies.
 
 mod fourier;
-mod kernels;
 mod map;
 mod refine;
 mod ring;
+mod ring_network;
 mod rings;
 
 pub use fourier::{
@@ -16,6 +16,7 @@ pub use refine::{BORDER, refined};
 pub(super) use refine::{Start, refined_map};
 pub(in crate::detect) use ring::{AROUND, CLEAR};
 pub use ring::{RingEstimate, RingProfile};
+pub(super) use ring_network::weights as ring_weights;
 pub(super) use rings::Rings;
 
 /// Smallest and largest spacing looked for, in px: closer cones are not resolved, wider ones are too few in a field.

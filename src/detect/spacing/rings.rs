@@ -1,6 +1,6 @@
 use super::ring::{Power, RingProfile, SIZE, power_of};
-use super::{RingEstimate, SpacingMap};
-use crate::detect::{Modality, flatten};
+use super::SpacingMap;
+use crate::detect::flatten;
 use crate::image::{EmptyPixels, Plane, crop};
 use rayon::prelude::*;
 
@@ -75,14 +75,9 @@ impl Rings {
         &self.sample
     }
 
-    /// Spacing of the whole image.
-    pub(in crate::detect) fn spacing(&self, modality: Modality) -> RingEstimate {
-        self.whole.spacing(modality)
-    }
-
     /// Spacing from place to place, each tile's response averaged with its neighbours'.
-    pub(in crate::detect) fn map(&self, modality: Modality) -> SpacingMap {
-        let whole = self.spacing(modality).spacing;
+    pub(in crate::detect) fn map(&self) -> SpacingMap {
+        let whole = self.whole.spacing().spacing;
         if self.tiles.len() == 1 {
             return SpacingMap::constant(whole);
         }
@@ -93,7 +88,7 @@ impl Rings {
         let spacing: Vec<Option<f64>> = self
             .tiles
             .iter()
-            .map(|tile| tile.as_ref().map(|t| t.spacing_near(modality, whole, LOCAL).spacing))
+            .map(|tile| tile.as_ref().map(|t| t.spacing_near(whole, LOCAL).spacing))
             .collect();
         SpacingMap::on_grid(x, y, &spacing, whole).smoothed()
     }

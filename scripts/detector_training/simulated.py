@@ -1,0 +1,59 @@
+"""Simulated images whose looks are drawn anew for every image: of blur, noise and rods that marked images do not show, and of
+histology, of which there is no public set with marks."""
+import csv
+import os
+import subprocess
+import tempfile
+
+PROGRAM = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'target', 'release', 'conemosaic')
+
+# how many of which kind; A..B is drawn for every image
+KINDS = {
+    'confocal': (
+        (60, '--modality confocal --spacing 5..12 --width 220 --height 200 --noise 0.01..0.1 --blur 0..0.28 --scatter 0.3..1 --drift 0..0.4 '
+             '--contrast 0.1..0.4 --grain 0..1'),
+        (50, '--preset fovea --noise 0.01..0.08 --blur 0..0.25 --scatter 0.3..1 --dim 0..0.1 --width 300 --height 260 --grain 0..1'),
+        (50, '--preset fovea --contrast 0.06..0.3 --noise 0.005..0.05 --width 280 --height 300 --blur 0..0.2 --psf airy'),
+        (50, '--preset parafovea --spacing 7..16 --noise 0.01..0.08 --blur 0..0.28 --vessels 0..2 --grain 0..1 --width 300 '
+             '--height 300'),
+        (60, '--preset parafovea --spacing 6..16 --contrast 0.03..0.2 --noise 0.005..0.05 --width 300 --height 300 --drift 0..0.4 '
+             '--grain 0..1'),
+        (50, '--preset periphery --spacing 14..26 --noise 0.01..0.06 --blur 0..0.15 --width 400 --height 380'),
+        (50, '--preset periphery --spacing 16..28 --contrast 0.08..0.3 --noise 0.01..0.06 --width 420 --height 400 '
+             '--rod-contrast 0.2..0.8'),
+        (30, '--modality confocal --spacing 4.5..7 --width 160 --height 160 --noise 0.01..0.06 --blur 0..0.2 --gradient 1..3 --psf airy'),
+        (40, '--modality confocal --spacing 6..14 --scatter 0.8..1.8 --noise 0.01..0.05 --width 240 --height 240 --blur 0..0.2 --missing 0..0.15'),
+    ),
+    'split': (
+        (70, '--preset split --spacing 8..20 --noise 0.01..0.1 --blur 0..0.2 --contrast 0.05..0.3 --grain 0..1 --width 250 '
+             '--height 220 --lean 0..0.5 --texture 0.1..0.5'),
+        (50, '--preset split --contrast 0.03..0.15 --spacing 7..18 --noise 0.01..0.06 --width 240 --height 240 --drift 0..0.4'),
+        (60, '--preset split-periphery --noise 0.01..0.08 --blur 0..0.15 --width 350 --height 330 --grain 0..1 --drift 0..0.4'),
+        (30, '--modality split --polarity negative --spacing 6..14 --noise 0.01..0.08 --blur 0..0.2 --width 200 --height 200 --gradient 1..2'),
+    ),
+    'histology': (
+        (80, '--preset histology --spacing 6..24 --noise 0.005..0.08 --blur 0..0.2 --texture 0.03..0.4 --width 320 --height 300 '
+             '--diameter 0.5..0.95 --grain 0..1 --contrast 0.1..0.6'),
+        (40, '--preset histology --contrast 0.05..0.3 --spacing 6..20 --noise 0.01..0.08 --width 280 --height 280 --drift 0..0.3'),
+        (40, '--preset nomarski --noise 0.005..0.06 --blur 0..0.15 --width 300 --height 300'),
+        (40, '--preset electron --noise 0.005..0.06 --blur 0..0.15 --width 300 --height 300'),
+        (40, '--modality histology --polarity negative --spacing 6..20 --gradient 1..2 --noise 0.005..0.06 --width 250 --height 250 --drift 0..0.2'),
+    ),
+}
+GROUPS = 6  # stand for subjects
+
+
+def simulate(folder, modality):
+    """As GROUP_KIND_NUMBER.png and GROUP_KIND_NUMBER_coords.csv: x, y of the cones that can be seen, from 0."""
+    for kind, (count, options) in enumerate(KINDS[modality]):
+        with tempfile.TemporaryDirectory() as made:
+            subprocess.run([PROGRAM, 'render', '--quiet', *options.split(), '--count', str(count),
+                            '--seed', str(1000 * (kind + 1)), '--out', f'{made}/s.png', '--truth', f'{made}/s.csv',
+                            '--truth-of', 'seen'], check=True)
+            for number in range(1, count + 1):
+                source = f'{made}/s_{number:03}'
+                name = f'{folder}/{number % GROUPS}_{kind}_{number}'
+                with open(source + '.csv', encoding='utf8') as file, open(name + '_coords.csv', 'w', encoding='utf8') as out:
+                    out.writelines(f"{row['x_px']},{row['y_px']}\n" for row in csv.DictReader(file))
+                with open(source + '.png', 'rb') as file, open(name + '.png', 'wb') as out:
+                    out.write(file.read())

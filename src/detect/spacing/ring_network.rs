@@ -1,0 +1,63 @@
+//! A small network that reads the spacing off a spectrum: three convolutions along log-frequency, so that a ring looks the same at
+//! any spacing. Trained by scripts/train-ring on hand-marked and simulated images of all modalities, clear, noisy and blurred.
+
+use super::ring::{BINS, CANDIDATES, FIRST};
+use std::sync::OnceLock;
+
+/// Bins that a convolution looks at.
+const TAPS: usize = 25;
+/// Channels into and out of the convolutions: power in all directions, along x and across; the score of a spacing.
+const WIDTHS: [usize; 4] = [3, 8, 8, 1];
+
+/// Weights (out × in × taps) and biases of one convolution after the other: 32-bit floats, little endian.
+static FILE: &[u8; 4 * COUNT] = include_bytes!("ring.f32");
+const COUNT: usize = count(0) + count(1) + count(2);
+
+const fn count(layer: usize) -> usize {
+    WIDTHS[layer + 1] * (WIDTHS[layer] * TAPS + 1)
+}
+
+/// The file of the weights: results depend on it.
+pub(in crate::detect) const fn weights() -> &'static [u8] {
+    FILE
+}
+
+/// A spectrum, or what a layer makes of one, channel by channel.
+type Channels = Vec<[f32; BINS]>;
+
+/// Logarithm of the odds of each candidate, from the widest to the closest, to be the spacing, up to a constant.
+pub(super) fn scores(log_power: [&[f32; BINS]; 3]) -> [f32; CANDIDATES] {
+    static WEIGHTS: OnceLock<Vec<f32>> = OnceLock::new();
+    let mut weights =
+        &WEIGHTS.get_or_init(|| FILE.as_chunks().0.iter().map(|b| f32::from_le_bytes(*b)).collect())[..];
+    let mut maps: Channels = log_power.map(above_mean).to_vec();
+    for layer in 0..WIDTHS.len() - 1 {
+        let own;
+        (own, weights) = weights.split_at(count(layer));
+        let (taps, biases) = own.split_at(own.len() - WIDTHS[layer + 1]);
+        maps = taps.chunks_exact(WIDTHS[layer] * TAPS).zip(biases).map(|(t, b)| convolve(&maps, t, *b)).collect();
+        if layer + 2 < WIDTHS.len() {
+            maps.as_flattened_mut().iter_mut().for_each(|v| *v = v.max(0.));
+        }
+    }
+    std::array::from_fn(|k| maps[0][FIRST + k])
+}
+
+fn above_mean(profile: &[f32; BINS]) -> [f32; BINS] {
+    let mean = profile.iter().sum::<f32>() / BINS as f32;
+    profile.map(|p| p - mean)
+}
+
+/// The sum over the channels; beyond its ends a channel goes on as it ends.
+fn convolve(channels: &Channels, taps: &[f32], bias: f32) -> [f32; BINS] {
+    const HALF: usize = TAPS / 2;
+    let mut sum = [bias; BINS];
+    for (channel, taps) in channels.iter().zip(taps.chunks_exact(TAPS)) {
+        let longer: [f32; BINS + 2 * HALF] =
+            std::array::from_fn(|k| channel[k.saturating_sub(HALF).min(BINS - 1)]);
+        for (k, tap) in taps.iter().enumerate() {
+            sum.iter_mut().zip(&longer[k..]).for_each(|(s, v)| *s += tap * v);
+        }
+    }
+    sum
+}
