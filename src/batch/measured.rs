@@ -11,7 +11,7 @@ use crate::stats::{Functions, Measures};
 /// Fewer cones than this leave every statistic uncertain: the RI of 30 points scatters by about 15 %.
 const FEW: usize = 30;
 /// Below this confidence in the spacing, a person should look.
-const CONFIDENT: f64 = 0.9;
+const CONFIDENT: f64 = 0.8;
 
 pub(super) fn record_of(
     mosaic: &Mosaic,
