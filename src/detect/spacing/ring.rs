@@ -45,7 +45,7 @@ pub struct RingEstimate {
     pub spacing: f64,
     /// Probability, 0–1, that it is within 15 % of the true one, by the spectrum alone.
     pub confidence: f64,
-    /// The spacing, px, that the true one is closer than with a probability of 15 %.
+    /// The spacing, px, that the true one is closer than with a probability of 15 %, or `spacing` if that is closer.
     pub least: f64,
 }
 
@@ -169,15 +169,16 @@ impl RingProfile {
     /// The spacing: the most probable candidate, refined by a parabola. The probabilities are a small network's (see
     /// [`ring_network`](super::ring_network)).
     pub fn spacing(&self) -> RingEstimate {
-        self.peak_among(|_| true)
+        let spacing = self.peak_among(|_| true);
+        RingEstimate { spacing, confidence: self.probability_near(spacing), least: self.least().min(spacing) }
     }
 
-    /// The same no further from `spacing` than `factor`.
-    pub(super) fn spacing_near(&self, spacing: f64, factor: f64) -> RingEstimate {
+    /// The most probable spacing, px, no further from `spacing` than `factor`.
+    pub(super) fn spacing_near(&self, spacing: f64, factor: f64) -> f64 {
         self.peak_among(|s| (s / spacing).ln().abs() <= factor.ln())
     }
 
-    fn peak_among(&self, allowed: impl Fn(f64) -> bool) -> RingEstimate {
+    fn peak_among(&self, allowed: impl Fn(f64) -> bool) -> f64 {
         let peak = (0..CANDIDATES)
             .filter(|k| allowed(candidate(*k as f64)))
             .max_by(|&a, &b| self.scores[a].total_cmp(&self.scores[b]))
@@ -188,8 +189,7 @@ impl RingProfile {
             }
             _ => 0.,
         };
-        let spacing = candidate(peak as f64 + offset);
-        RingEstimate { spacing, confidence: self.probability_near(spacing), least: self.least() }
+        candidate(peak as f64 + offset)
     }
 
     /// The spacing, px, that the true one is closer than with the probability [`CLOSER`]: part of a bin counts as it is shared.

@@ -35,7 +35,11 @@ pub(super) fn scores(log_power: [&[f32; BINS]; 3]) -> [f32; CANDIDATES] {
         let own;
         (own, weights) = weights.split_at(count(layer));
         let (taps, biases) = own.split_at(own.len() - WIDTHS[layer + 1]);
-        maps = taps.chunks_exact(WIDTHS[layer] * TAPS).zip(biases).map(|(t, b)| convolve(&maps, t, *b)).collect();
+        maps = taps
+            .chunks_exact(WIDTHS[layer] * TAPS)
+            .zip(biases)
+            .map(|(t, b)| convolve(&maps, t, *b))
+            .collect();
         if layer + 2 < WIDTHS.len() {
             maps.as_flattened_mut().iter_mut().for_each(|v| *v = v.max(0.));
         }

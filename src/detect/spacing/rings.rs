@@ -1,5 +1,5 @@
-use super::ring::{Power, RingProfile, SIZE, power_of};
 use super::SpacingMap;
+use super::ring::{Power, RingProfile, SIZE, power_of};
 use crate::detect::flatten;
 use crate::image::{EmptyPixels, Plane, crop};
 use rayon::prelude::*;
@@ -85,11 +85,8 @@ impl Rings {
             starts.iter().map(|s| *s as f64 + 0.5 * length.min(SIZE) as f64 - 0.5).collect()
         };
         let (x, y) = (middles(&self.columns, self.width), middles(&self.rows, self.height));
-        let spacing: Vec<Option<f64>> = self
-            .tiles
-            .iter()
-            .map(|tile| tile.as_ref().map(|t| t.spacing_near(whole, LOCAL).spacing))
-            .collect();
+        let spacing: Vec<Option<f64>> =
+            self.tiles.iter().map(|tile| tile.as_ref().map(|t| t.spacing_near(whole, LOCAL))).collect();
         SpacingMap::on_grid(x, y, &spacing, whole).smoothed()
     }
 }
