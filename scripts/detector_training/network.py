@@ -1,5 +1,4 @@
 """The network, its training, and the file of weights that the program reads."""
-import dataclasses
 import json
 import math
 import struct
@@ -45,12 +44,9 @@ class UNet(torch.nn.Module):
         return self.last(merged)[:, 0]
 
 
-def train(samples, recipe, seed, epochs, teacher=None, simulated=()):
+def train(samples, recipe, seed, epochs, teacher=None):
     """AdamW, one-cycle learning rate, cross-entropy; the weights' exponential mean. bf16 in the convolutions. A teacher's
-    probabilities stand for most of the target, and for all of it where nobody marked. Simulated images come on top of every
-    batch, their truth as target, and hardly disturbed: they already are noisy and uneven."""
-    as_made = dataclasses.replace(recipe, noise=0.3, soft=0.1, gradient=0.2)
-    more = recipe.simulated if simulated else 0
+    probabilities stand for most of the target, and for all of it where nobody marked."""
     rng = np.random.default_rng(seed)
     torch.manual_seed(seed)
     network, averaged = (UNet(*recipe.widths).to(memory_format=torch.channels_last) for _ in range(2))
@@ -59,27 +55,20 @@ def train(samples, recipe, seed, epochs, teacher=None, simulated=()):
     optimiser = torch.optim.AdamW(network.parameters(), lr=recipe.rate, weight_decay=0.01)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, recipe.rate, total_steps=steps, pct_start=0.2,
                                                    final_div_factor=1000)
-    order, others = [], []
+    order = []
     for step in range(steps):
         while len(order) < recipe.batch:
             order.extend(rng.permutation(len(samples)))
-        while len(others) < more:
-            others.extend(rng.permutation(len(simulated)))
-        drawn = [draw(samples[order.pop()], recipe, rng) for _ in range(recipe.batch)]
-        drawn += [draw(simulated[others.pop()], as_made, rng) for _ in range(more)]
-        batch = torch.from_numpy(np.stack(drawn))
+        batch = torch.from_numpy(np.stack([draw(samples[order.pop()], recipe, rng) for _ in range(recipe.batch)]))
         seen, mask = (batch[:, k:k + 1].contiguous(memory_format=torch.channels_last) for k in (0, 3))
         target, known = batch[:, 1], batch[:, 2]
         with torch.autocast('cpu', torch.bfloat16):
             logits = network(seen, mask.bfloat16())
             if teacher:
-                marked = slice(recipe.batch)
                 with torch.no_grad():
-                    taught = torch.sigmoid(teacher(seen[marked], mask[marked].bfloat16()).float())
-                known_to = known[marked] > 0
-                target, known = target.clone(), known.clone()
-                target[marked] = torch.where(known_to, TAUGHT * taught + (1 - TAUGHT) * target[marked], taught)
-                known[marked] = torch.where(known_to, known[marked], mask[marked, 0])
+                    taught = torch.sigmoid(teacher(seen, mask.bfloat16()).float())
+                target = torch.where(known > 0, TAUGHT * taught + (1 - TAUGHT) * target, taught)
+                known = torch.where(known > 0, known, mask[:, 0])
         loss = F.binary_cross_entropy_with_logits(logits.float(), target, reduction='none')
         loss = (loss * known).sum() / known.sum()
         optimiser.zero_grad()
