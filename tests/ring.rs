@@ -41,17 +41,6 @@ fn rods_are_not_taken_for_the_mosaic_of_cones() {
     simulated_rings_are_read("periphery", 0.05, 0.04);
 }
 
-#[test]
-fn the_ring_of_noise_is_not_trusted() {
-    let mut rng = ChaCha8Rng::seed_from_u64(1);
-    let mut confident = 0;
-    for _ in 0..20 {
-        let noise = Plane::from_shape_simple_fn((150, 150), || rand::RngExt::random::<f32>(&mut rng));
-        confident += usize::from(ring(&noise).confidence > 0.8);
-    }
-    assert!(confident <= 2, "{confident} of 20");
-}
-
 /// Its training has seen them: subjects left out are judged by scripts/train-ring.
 #[test]
 fn rings_of_hand_marked_images_are_read_and_their_confidence_is_deserved() {

@@ -91,8 +91,9 @@ impl Features {
     }
 
     fn modality(&self) -> Modality {
-        let split =
-            11.32 * self.directed - 5.87 * self.greys.skewness + 10.8 * self.coarse_slopes.abs() - 2.35;
+        let split = 16.38 * self.directed - 1.45 * self.greys.skewness + 11.66 * self.coarse_slopes.abs()
+            - 3.19 * self.blobs_skewness.abs()
+            - 1.93;
         if split > 0. {
             Modality::Split
         } else if self.waveguides() > 0. {
