@@ -1,10 +1,9 @@
 //! Noise has maxima of its own: more cones, a smaller spacing, and so still more. The ring of the spectrum holds against that.
 
+mod common;
+
 use conemosaic::detect::{DetectOptions, Detector, detect};
 use conemosaic::mosaic::hexagonal_spacing;
-use conemosaic::render::{PRESETS, simulate};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
 
 /// Images of each kind.
 const EACH: u64 = 4;
@@ -13,20 +12,16 @@ const OFF: std::ops::Range<f64> = 0.8..1.12;
 
 /// Of a preset with this noise, correlated over `grain` px, in grey values.
 fn spacings_hold(preset: &str, noise: f64, grain: f64) {
-    let preset = PRESETS.iter().find(|p| p.name == preset).unwrap();
     for seed in 0..EACH {
-        let (mosaic, mut options) = preset.options();
-        (options.width, options.height) = (options.width.max(200), options.height.max(200));
-        (options.noise, options.grain) = (noise, grain);
-        let simulated = simulate(&mosaic, &options, &mut ChaCha8Rng::seed_from_u64(seed)).unwrap();
-        let area = (options.width * options.height) as f64;
-        let true_spacing = hexagonal_spacing(simulated.cones.len(), area).unwrap();
+        let (image, true_spacing) = common::of_preset(preset, seed, |options| {
+            (options.width, options.height) = (options.width.max(200), options.height.max(200));
+            (options.noise, options.grain) = (noise, grain);
+        });
         for detector in [Detector::Classical, Detector::Auto] {
-            let found =
-                detect(&simulated.image, &DetectOptions { detector, ..DetectOptions::default() }).unwrap();
-            let off = hexagonal_spacing(found.cones.len(), area).unwrap() / true_spacing;
-            println!("{}, seed {seed}, {detector:?}: spacing × {off:.3}", preset.name);
-            assert!(OFF.contains(&off), "{}, seed {seed}, {detector:?}: {off:.3}", preset.name);
+            let found = detect(&image, &DetectOptions { detector, ..DetectOptions::default() }).unwrap();
+            let off = hexagonal_spacing(found.cones.len(), image.len() as f64).unwrap() / true_spacing;
+            println!("{preset}, seed {seed}, {detector:?}: spacing × {off:.3}");
+            assert!(OFF.contains(&off), "{preset}, seed {seed}, {detector:?}: {off:.3}");
         }
     }
 }

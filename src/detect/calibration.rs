@@ -1,6 +1,6 @@
-//! What a filter's response says about the probability that a person would mark a cone there.
+//! What a filter's response says about the probability that a person would mark a cone there, and what the spectrum and the count say
+//! about that of the spacing.
 
-use super::spacing::RingProfile;
 use super::{Detection, Modality};
 
 /// 1 / (1 + exp(−(offset + slope · x))).
@@ -16,14 +16,13 @@ impl Logistic {
     }
 }
 
-/// The probability that a spacing is within 15 % of the true one: by the probability that the spectrum gives to spacings near it, and by how
-/// far the density of the detections has moved it from the ring's. Logistic regression by scripts/fit-calibration on hand-marked
-/// and on simulated images, blurred and noisy ones among them.
-pub(super) fn spacing(ring: &RingProfile, spacing: f64) -> f64 {
+/// The probability that a spacing is within 15 % of the true one: by the probability that the spectrum gives to spacings `near` it, and
+/// by how far, as a logarithm, the density of the detections has `moved` it from the ring's. Logistic regression by
+/// scripts/fit-calibration on hand-marked and on simulated images, blurred and noisy ones among them.
+pub(super) fn spacing(near: f64, moved: f64) -> f64 {
     // an image is never beyond doubt
-    let p = ring.probability_near(spacing).clamp(0.001, 0.999);
-    let near = (p / (1. - p)).ln();
-    let moved = (spacing / ring.spacing().spacing).ln().abs();
+    let near = near.clamp(0.001, 0.999);
+    let near = (near / (1. - near)).ln();
     Logistic { offset: 2.26, slope: 1. }.at(0.35 * near - 11.3 * moved)
 }
 

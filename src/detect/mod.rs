@@ -21,7 +21,7 @@ pub use maxima::local_maxima;
 pub use options::{DetectOptions, Detector};
 pub use spacing::{
     BORDER, FourierEstimate, FourierMap, FourierMapOptions, FourierSpacing, RingEstimate, RingProfile,
-    SPACING_RANGE, Sector, SpacingMap, fourier_map, fourier_spacing, refined,
+    SPACING_RANGE, Sector, SpacingMap, fourier_map, fourier_spacing,
 };
 pub use suppress::suppress;
 pub use types::{Detection, Detections, Modality, Polarity};
@@ -178,7 +178,10 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
         detector: if model.is_some() { Detector::Learned } else { Detector::Classical },
         ring_spacing: ring.spacing,
         ring_confidence: ring.confidence,
-        spacing_confidence: calibration::spacing(rings.whole(), map.typical()),
+        spacing_confidence: calibration::spacing(
+            rings.whole().probability_near(map.typical()),
+            (map.typical() / ring.spacing).ln().abs(),
+        ),
         spacing: map.typical(),
         spacing_map: map,
     })

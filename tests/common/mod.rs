@@ -1,7 +1,12 @@
-//! What tests of the command line share. Each test file uses a part of it.
+//! What tests share. Each test file uses a part of it.
 #![allow(dead_code)]
 
 use assert_cmd::Command;
+use conemosaic::image::Plane;
+use conemosaic::mosaic::hexagonal_spacing;
+use conemosaic::render::{PRESETS, RenderOptions, simulate};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -154,4 +159,13 @@ pub fn shared(folder: &str, what: &str) -> Option<PathBuf> {
 
 pub fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
     row[column].parse().unwrap_or_else(|_| panic!("{column}: {:?}", row.get(column)))
+}
+
+/// A simulated image of a preset that `change` has been applied to, and the spacing of all its cones, px.
+pub fn of_preset(preset: &str, seed: u64, change: impl FnOnce(&mut RenderOptions)) -> (Plane, f64) {
+    let (mosaic, mut options) = PRESETS.iter().find(|p| p.name == preset).unwrap().options();
+    change(&mut options);
+    let simulated = simulate(&mosaic, &options, &mut ChaCha8Rng::seed_from_u64(seed)).unwrap();
+    let true_spacing = hexagonal_spacing(simulated.cones.len(), simulated.image.len() as f64).unwrap();
+    (simulated.image, true_spacing)
 }

@@ -12,7 +12,7 @@ pub use fourier::{
     FourierEstimate, FourierMap, FourierMapOptions, FourierSpacing, Sector, fourier_map, fourier_spacing,
 };
 pub use map::SpacingMap;
-pub use refine::{BORDER, refined};
+pub use refine::BORDER;
 pub(super) use refine::{Start, refined_map};
 pub(in crate::detect) use ring::{AROUND, CLEAR};
 pub use ring::{RingEstimate, RingProfile};

@@ -44,13 +44,8 @@ impl Start {
     }
 }
 
-/// Spacing by the density of `centres` in an image of `width` × `height` px: s = √(2A/(√3 n)), n and A inside the
-/// 7 px border, held within e^±0.35 of the ring's spacing.
-pub fn refined(centres: &[Point], width: usize, height: usize, ring_spacing: f64) -> f64 {
-    trusted(density_spacing(centres, width, height, None), ring_spacing)
-}
-
-/// √(2A/(√3 n)), n and A inside the border; `None` if nothing lies there.
+/// Spacing by the density of `centres` in an image of `width` × `height` px: s = √(2A/(√3 n)), n and A inside the 7 px border; `None`
+/// if nothing lies there.
 fn density_spacing(
     centres: &[Point],
     width: usize,
@@ -66,6 +61,7 @@ fn density_spacing(
     hexagonal_spacing(inside.max(1), area * imaged)
 }
 
+/// Held within e^±0.35 of the ring's spacing, which also stands in where there is no density.
 fn trusted(by_density: Option<f64>, ring_spacing: f64) -> f64 {
     let by_density = by_density.unwrap_or(ring_spacing);
     ring_spacing * (by_density / ring_spacing).ln().clamp(-TRUST, TRUST).exp()
@@ -183,6 +179,10 @@ impl Cells {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn refined(centres: &[Point], width: usize, height: usize, ring_spacing: f64) -> f64 {
+        trusted(density_spacing(centres, width, height, None), ring_spacing)
+    }
 
     fn lattice(step: f64, side: usize) -> Vec<Point> {
         let cells = (side as f64 / step) as usize;

@@ -75,7 +75,7 @@ impl Rings {
         &self.sample
     }
 
-    /// Spacing from place to place, each tile's response averaged with its neighbours'.
+    /// Spacing from place to place: that of every tile near the whole image's, smoothed.
     pub(in crate::detect) fn map(&self) -> SpacingMap {
         let whole = self.whole.spacing().spacing;
         if self.tiles.len() == 1 {
