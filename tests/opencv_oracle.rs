@@ -1,5 +1,8 @@
 //! Detection, stage by stage, against the same stages written with OpenCV (`scripts/opencv_oracle.py`).
 
+mod common;
+
+use common::python;
 use conemosaic::detect::{
     Criterion, DetectOptions, Detection, Detections, Detector, detect, flatten, local_maxima, response,
     suppress,
@@ -26,15 +29,6 @@ const NEAR: f64 = 0.25;
 const AGREEMENT: f64 = 0.995;
 /// The same maximum of the same plane, px: what rounding does to a parabola.
 const SAME: f64 = 1e-3;
-
-/// The Python to run the oracle with. One that is asked for by CONEMOSAIC_PYTHON must be there.
-fn python() -> Option<PathBuf> {
-    if let Some(python) = std::env::var_os("CONEMOSAIC_PYTHON").filter(|p| !p.is_empty()) {
-        return Some(python.into());
-    }
-    let usual = Path::new(env!("CARGO_MANIFEST_DIR")).join(".venv/bin/python");
-    usual.exists().then_some(usual)
-}
 
 struct Case {
     name: String,

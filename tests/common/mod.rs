@@ -157,6 +157,15 @@ pub fn shared(folder: &str, what: &str) -> Option<PathBuf> {
     None
 }
 
+/// The Python with OpenCV to run scripts with. One that is asked for by CONEMOSAIC_PYTHON must be there.
+pub fn python() -> Option<PathBuf> {
+    if let Some(python) = std::env::var_os("CONEMOSAIC_PYTHON").filter(|p| !p.is_empty()) {
+        return Some(python.into());
+    }
+    let usual = Path::new(env!("CARGO_MANIFEST_DIR")).join(".venv/bin/python");
+    usual.exists().then_some(usual)
+}
+
 pub fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
     row[column].parse().unwrap_or_else(|_| panic!("{column}: {:?}", row.get(column)))
 }
