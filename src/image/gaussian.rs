@@ -1,4 +1,6 @@
+use super::pad::framed;
 use super::{Plane, fill_rows, mirror};
+use fearless_simd::{Level, Simd, dispatch, prelude::*};
 
 /// Where the kernel ends, in standard deviations.
 const CUT: f64 = 4.;
@@ -15,11 +17,7 @@ pub fn gaussian(plane: &Plane, sigma: f64) -> Plane {
         return plane.clone();
     }
     let step = ((sigma / COARSE_SIGMA) as usize).max(1);
-    if step == 1 {
-        fine_columns(&fine_rows(plane, sigma), sigma)
-    } else {
-        coarse_columns(&coarse_rows(plane, sigma, step), sigma, step)
-    }
+    if step == 1 { fine_columns(&fine_rows(plane, sigma), sigma) } else { coarse(plane, sigma, step) }
 }
 
 /// The kernel from its middle outwards; both halves sum to 1.
@@ -30,19 +28,66 @@ fn half_kernel(sigma: f64) -> Vec<f32> {
     weights.iter().map(|w| (w / sum) as f32).collect()
 }
 
-fn add_scaled(out: &mut [f32], a: &[f32], b: &[f32], weight: f32) {
-    for ((o, a), b) in out.iter_mut().zip(a).zip(b) {
-        *o += weight * (a + b);
+/// Σₖ kernel[|k|] · row(y + k), for one y. By the widest registers that the processor has; every sum is added up in the same order
+/// on all of them.
+fn weigh_rows<'a>(out: &mut [f32], kernel: &[f32], row: impl Fn(isize) -> &'a [f32]) {
+    let width = out.len();
+    let pairs: Vec<Pair<'_>> = kernel
+        .iter()
+        .enumerate()
+        .map(|(k, &weight)| {
+            let k = k as isize;
+            // the middle row stands for both of its pair
+            Pair {
+                before: &row(-k)[..width],
+                after: &row(k)[..width],
+                weight: if k == 0 { 0.5 * weight } else { weight },
+            }
+        })
+        .collect();
+    dispatch!(Level::new(), simd => weigh(simd, out, &pairs));
+}
+
+/// Two rows as far above as below the one that is computed.
+struct Pair<'a> {
+    before: &'a [f32],
+    after: &'a [f32],
+    weight: f32,
+}
+
+/// Several registers of sums at a time, so that their additions overlap; what is left of the row one by one.
+#[inline(always)]
+fn weigh<S: Simd>(simd: S, out: &mut [f32], pairs: &[Pair<'_>]) {
+    const REGISTERS: usize = 4;
+    let mut x = 0;
+    while x + REGISTERS * S::f32s::LEN <= out.len() {
+        sums::<S, REGISTERS>(simd, out, pairs, x);
+        x += REGISTERS * S::f32s::LEN;
+    }
+    while x + S::f32s::LEN <= out.len() {
+        sums::<S, 1>(simd, out, pairs, x);
+        x += S::f32s::LEN;
+    }
+    for (x, o) in out.iter_mut().enumerate().skip(x) {
+        *o = pairs.iter().fold(0., |sum, pair| sum + pair.weight * (pair.before[x] + pair.after[x]));
     }
 }
 
-/// Σₖ kernel[|k|] · row(y + k), for one y.
-fn weigh_rows<'a>(out: &mut [f32], kernel: &[f32], row: impl Fn(isize) -> &'a [f32]) {
-    for (o, a) in out.iter_mut().zip(row(0)) {
-        *o = kernel[0] * a;
+#[inline(always)]
+fn sums<S: Simd, const REGISTERS: usize>(simd: S, out: &mut [f32], pairs: &[Pair<'_>], x: usize) {
+    let length = REGISTERS * S::f32s::LEN;
+    let mut sums = [S::f32s::splat(simd, 0.); REGISTERS];
+    for pair in pairs {
+        let (before, after) = (&pair.before[x..x + length], &pair.after[x..x + length]);
+        for (r, sum) in sums.iter_mut().enumerate() {
+            let part = r * S::f32s::LEN..(r + 1) * S::f32s::LEN;
+            let both =
+                S::f32s::from_slice(simd, &before[part.clone()]) + S::f32s::from_slice(simd, &after[part]);
+            *sum = *sum + both * pair.weight;
+        }
     }
-    for (k, &weight) in kernel.iter().enumerate().skip(1) {
-        add_scaled(out, row(-(k as isize)), row(k as isize), weight);
+    for (sum, out) in sums.iter().zip(out[x..x + length].chunks_exact_mut(S::f32s::LEN)) {
+        sum.store_slice(out);
     }
 }
 
@@ -54,7 +99,7 @@ fn fine_rows(plane: &Plane, sigma: f64) -> Plane {
     let data = plane.as_slice().unwrap_or_default();
     fill_rows(h, w, |y, out| {
         let row = &data[y * w..(y + 1) * w];
-        let framed = framed(row, reach);
+        let framed = framed(row, reach, reach);
         weigh_rows(out, &kernel, |k| &framed[(reach as isize + k) as usize..]);
     })
 }
@@ -70,16 +115,6 @@ fn fine_columns(plane: &Plane, sigma: f64) -> Plane {
             &data[i * w..(i + 1) * w]
         });
     })
-}
-
-/// A row with `reach` px of its mirror image before and behind it.
-fn framed(row: &[f32], reach: usize) -> Vec<f32> {
-    let mirrored = |from: isize| (from..from + reach as isize).map(|x| row[mirror(x, row.len())]);
-    let mut framed = Vec::with_capacity(row.len() + 2 * reach);
-    framed.extend(mirrored(-(reach as isize)));
-    framed.extend_from_slice(row);
-    framed.extend(mirrored(row.len() as isize));
-    framed
 }
 
 /// How a side is filtered on a grid of `step` pixels.
@@ -135,7 +170,8 @@ fn coarse_rows(plane: &Plane, sigma: f64, step: usize) -> Plane {
     let plane = plane.as_standard_layout();
     let data = plane.as_slice().unwrap_or_default();
     fill_rows(h, w, |y, out| {
-        let framed = framed(&data[y * w..(y + 1) * w], (grid.reach + 1) * step);
+        let frame = (grid.reach + 1) * step;
+        let framed = framed(&data[y * w..(y + 1) * w], frame, frame);
         let boxes: Vec<f32> = framed[step..]
             .chunks_exact(step)
             .take(grid.boxes())
@@ -149,17 +185,19 @@ fn coarse_rows(plane: &Plane, sigma: f64, step: usize) -> Plane {
     })
 }
 
-fn coarse_columns(plane: &Plane, sigma: f64, step: usize) -> Plane {
+/// Columns to a coarser grid, its rows filtered, and back: so the fewest rows are filtered along x.
+fn coarse(plane: &Plane, sigma: f64, step: usize) -> Plane {
     let (h, w) = plane.dim();
     let plane = plane.as_standard_layout();
     let data = plane.as_slice().unwrap_or_default();
     let grid = Coarse::new(h, sigma, step);
+    let part = 1. / step as f32;
     let boxes = fill_rows(grid.boxes(), w, |i, out| {
         let first = (i as isize - grid.reach as isize) * step as isize;
         for k in 0..step as isize {
             let y = mirror(first + k, h);
             for (o, a) in out.iter_mut().zip(&data[y * w..(y + 1) * w]) {
-                *o += a / step as f32;
+                *o += part * a;
             }
         }
     });
@@ -170,6 +208,7 @@ fn coarse_columns(plane: &Plane, sigma: f64, step: usize) -> Plane {
             &boxes[j * w..(j + 1) * w]
         });
     });
+    let coarse = coarse_rows(&coarse, sigma, step);
     let coarse = coarse.as_slice().unwrap_or_default();
     let cubics = Coarse::cubics(h, step);
     fill_rows(h, w, |y, out| {

@@ -1,4 +1,4 @@
-use super::Plane;
+use super::{Plane, fill_rows};
 use ndarray::Axis;
 
 /// The index inside `0..length` that a mirror at the edges shows at `index`, the edge pixel repeated
@@ -9,12 +9,36 @@ pub fn mirror(index: isize, length: usize) -> usize {
     if i < length { i } else { period - 1 - i }
 }
 
+/// `row` between `before` and `after` elements of its own mirror image (see [`mirror`]). `row` must not be empty.
+pub(super) fn framed(row: &[f32], before: usize, after: usize) -> Vec<f32> {
+    let length = row.len() as isize;
+    let end = length + after as isize;
+    let mut framed = Vec::with_capacity(before + row.len() + after);
+    let mut i = -(before as isize);
+    while i < end {
+        // copies of the row, every other one backwards
+        let within = i.rem_euclid(length);
+        let run = (length - within).min(end - i);
+        if i.div_euclid(length) % 2 == 0 {
+            framed.extend_from_slice(&row[within as usize..(within + run) as usize]);
+        } else {
+            framed.extend(row[(length - within - run) as usize..(length - within) as usize].iter().rev());
+        }
+        i += run;
+    }
+    framed
+}
+
 /// `plane` inside a frame of its own mirror image: `top` and `left` pixels before it, and as many behind it as make
 /// `height` × `width`.
 pub fn reflect_pad(plane: &Plane, top: usize, left: usize, height: usize, width: usize) -> Plane {
     let (h, w) = plane.dim();
-    let columns: Vec<usize> = (0..width).map(|x| mirror(x as isize - left as isize, w)).collect();
-    Plane::from_shape_fn((height, width), |(y, x)| plane[[mirror(y as isize - top as isize, h), columns[x]]])
+    let plane = plane.as_standard_layout();
+    let data = plane.as_slice().unwrap_or_default();
+    fill_rows(height, width, |y, out| {
+        let y = mirror(y as isize - top as isize, h);
+        out.copy_from_slice(&framed(&data[y * w..(y + 1) * w], left, width - left - w));
+    })
 }
 
 /// The part of `plane` of `height` × `width` px whose first pixel is at (`left`, `top`).
@@ -31,6 +55,15 @@ mod tests {
     fn mirror_repeats_the_edge_pixel() {
         let seen: Vec<usize> = (-4..7).map(|i| mirror(i, 3)).collect();
         assert_eq!(seen, [2, 2, 1, 0, 0, 1, 2, 2, 1, 0, 0]);
+    }
+
+    #[test]
+    fn frames_are_mirror_images_however_wide() {
+        for (before, after) in [(0, 0), (2, 1), (3, 4), (8, 11)] {
+            let expected: Vec<f32> =
+                (-(before as isize)..3 + after as isize).map(|i| mirror(i, 3) as f32).collect();
+            assert_eq!(framed(&[0., 1., 2.], before, after), expected);
+        }
     }
 
     #[test]
