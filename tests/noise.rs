@@ -3,7 +3,10 @@
 mod common;
 
 use conemosaic::detect::{DetectOptions, Detector, detect};
+use conemosaic::image::Plane;
 use conemosaic::mosaic::hexagonal_spacing;
+use rand::SeedableRng;
+use rand_distr::{Distribution, Normal};
 
 /// Images of each kind.
 const EACH: u64 = 4;
@@ -39,4 +42,25 @@ fn grainy_noise_at_the_fovea() {
 #[test]
 fn noise_of_a_split_detector() {
     spacings_hold("split", 0.1, 0.8);
+}
+
+/// Its maxima are about as far apart everywhere, its spectrum has a ring by chance.
+#[test]
+fn no_spacing_of_white_noise_is_believed() {
+    for seed in 0..12 {
+        let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(seed);
+        let grey = Normal::new(128f32, 40.).unwrap();
+        let side = 100 + 15 * seed as usize;
+        let image = Plane::from_shape_simple_fn((side, side), || {
+            grey.sample(&mut rng).round().clamp(0., 255.) / 255.
+        });
+        for detector in [Detector::Classical, Detector::Auto] {
+            let Ok(found) = detect(&image, &DetectOptions { detector, ..DetectOptions::default() }) else {
+                continue;
+            };
+            let confidence = found.spacing_confidence;
+            println!("seed {seed}, {detector:?}: ring {:.2}, spacing {confidence:.3}", found.ring_confidence);
+            assert!(confidence < 0.5, "seed {seed}, {detector:?}: {confidence:.2}");
+        }
+    }
 }

@@ -7,9 +7,9 @@ import torch
 import torch.nn.functional as F
 from PIL import Image
 
+from .marks import density_spacing, read_marks, subject
 from .plane import SPACING, gaussian, normalise, resample
 
-BORDER = 7   # px: the scoring rule of Cunefare et al. 2017 leaves this frame out
 KNOWN = 3    # so far around the marks, in px of the network, it is known what is a cone and what is not
 GRID = 24    # steps an octave that spacings are rounded to, so that few matrices have to be made
 
@@ -17,19 +17,12 @@ GRID = 24    # steps an octave that spacings are rounded to, so that few matrice
 class Sample:
     def __init__(self, path, origin):
         self.name = os.path.basename(path)[:-4]
-        self.subject = '_'.join(self.name.split('_')[:2])
+        self.subject = subject(path)
         self.image = np.asarray(Image.open(path).convert('L'), np.float32) / 255
-        marks = np.genfromtxt(path[:-4] + '_coords.csv', delimiter=',')[:, :2]
-        self.marks = marks[~np.isnan(marks).any(1)] - origin
+        self.marks = read_marks(path, origin)
         self.true = density_spacing(self.marks, self.image.shape)
         self.start = self.true  # until the program has said where it would start
         self.classical = self.marks[:0]
-
-
-def density_spacing(points, shape):
-    h, w = shape
-    inside = ((points > BORDER - 0.5) & (points < [w - BORDER - 0.5, h - BORDER - 0.5])).all(1)
-    return math.sqrt(2 * (w - 2 * BORDER) * (h - 2 * BORDER) / (math.sqrt(3) * max(1, inside.sum())))
 
 
 def rounded(step):

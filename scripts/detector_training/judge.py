@@ -4,12 +4,11 @@ import math
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .draw import BORDER, density_spacing
+from .marks import density_spacing, inside, logistic, partners, reach
 from .network import see
 from .plane import SPACING
 from .ring import CLEAR, clarity, profiles
 
-FRACTION = 0.75        # of the median distance of neighbours: how far a cone may be from its mark (Cunefare et al. 2017)
 CANDIDATE = -4.5       # logits below are never cones
 RELATIVE_FLOOR, RELATIVE_RADIUS = -2.5, 0.45  # candidates that the image-relative threshold is counted from
 RADII = (0.45, 0.5, 0.55)
@@ -82,24 +81,14 @@ def look(image, start, network, rule, sign, passes=3):
 
 
 def matched(found, marks, shape):
-    """Which marks and which cones have a partner by the rule of Cunefare et al. 2017, and which are counted at all."""
-    h, w = shape
-    near = lambda p: ((p < BORDER - 0.5) | (p >= np.array([w, h]) - BORDER - 0.5)).any(1)
-    if len(found) == 0:
-        return np.zeros(len(marks), bool), np.zeros(0, bool), ~near(marks), np.zeros(0, bool)
-    limit = FRACTION * np.median(cKDTree(marks).query(marks, k=2)[0][:, 1])
-    distance, at = cKDTree(found).query(marks)
-    at[distance > limit] = -1
-    order = np.lexsort((distance, at))
-    order = order[at[order] >= 0]
-    first = order[np.unique(at[order], return_index=True)[1]]
-    got, hit = np.zeros(len(marks), bool), np.zeros(len(found), bool)
-    got[first] = True
-    hit[at[first]] = True
-    marks_counted, found_counted = ~near(marks), ~near(found)
-    both = marks_counted[first] & found_counted[at[first]]
-    marks_counted[first] = both
-    found_counted[at[first]] = both
+    """Which marks and which cones have a partner, and which are counted at all: a pair only if neither is in the frame."""
+    at = partners(marks, found, reach(marks))
+    got, hit = at >= 0, np.zeros(len(found), bool)
+    hit[at[got]] = True
+    marks_counted, found_counted = inside(marks, shape), inside(found, shape)
+    both = marks_counted[got] & found_counted[at[got]]
+    marks_counted[got] = both
+    found_counted[at[got]] = both
     return got, hit, marks_counted, found_counted
 
 
@@ -147,19 +136,6 @@ def calibration(seen, samples, rule, constant, radius):
     return {'calibration_offset': offset, 'calibration_slope': slope, 'calibration_of': 'logit minus threshold'}, {
         'expected_calibration_error': error, 'reliability': table,
         'accepted_said': float(p[accepted].mean()), 'accepted_was': float(hit[accepted].mean())}
-
-
-def logistic(x, hit):
-    """Offset and slope of largest likelihood, by Newton's method."""
-    design = np.stack([np.ones_like(x), x], 1)
-    beta = np.zeros(2)
-    for _ in range(50):
-        p = 1 / (1 + np.exp(-(design @ beta)))
-        step = np.linalg.solve((design * (p * (1 - p))[:, None]).T @ design, design.T @ (hit - p))
-        beta += step
-        if abs(step).max() < 1e-9:
-            break
-    return float(beta[0]), float(beta[1])
 
 
 def summary(seen, disturbed, samples, folds, rule):

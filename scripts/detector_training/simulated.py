@@ -5,6 +5,9 @@ import os
 import subprocess
 import tempfile
 
+import numpy as np
+from PIL import Image
+
 PROGRAM = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'target', 'release', 'conemosaic')
 
 # how many of which kind; A..B is drawn for every image
@@ -57,3 +60,11 @@ def simulate(folder, modality):
                     out.writelines(f"{row['x_px']},{row['y_px']}\n" for row in csv.DictReader(file))
                 with open(source + '.png', 'rb') as file, open(name + '.png', 'wb') as out:
                     out.write(file.read())
+
+
+def noise(folder, count):
+    """White noise, as NUMBER.png: no cones at all."""
+    for number in range(count):
+        rng = np.random.default_rng(number)
+        grey = 128 + 40 * rng.standard_normal(rng.integers(100, 400, 2))
+        Image.fromarray(np.clip(grey, 0, 255).astype(np.uint8)).save(f'{folder}/{number}.png')

@@ -99,7 +99,7 @@ pub(super) fn warnings_of(
         let confidence = found.spacing_confidence;
         if confidence < CONFIDENT {
             warnings.push(format!(
-                "the cone spacing is uncertain (confidence {confidence:.2}), and with it the detections: {:.1} px by Yellott's                  ring, {:.1} px by the density of the cones found; --spacing overrules both",
+                "the cone spacing is uncertain (confidence {confidence:.2}), and with it the detections: {:.1} px by Yellott's ring, {:.1} px by the density of the cones found; --spacing overrules both",
                 found.ring_spacing, found.spacing
             ));
         }

@@ -16,14 +16,17 @@ impl Logistic {
     }
 }
 
-/// The probability that a spacing is within 15 % of the true one: by the probability that the spectrum gives to spacings `near` it, and
-/// by how far, as a logarithm, the density of the detections has `moved` it from the ring's. Logistic regression by
-/// scripts/fit-calibration on hand-marked and on simulated images, blurred and noisy ones among them.
-pub(super) fn spacing(near: f64, moved: f64) -> f64 {
+/// The probability that a spacing is within 15 % of the true one: by how `sure` the ring is of its own (0–1), by how far, as a
+/// logarithm, the density of the detections has `moved` it from there, and, if the ring stands out less than e times from detail
+/// finer than any cone, by the `clarity` of the image (see [`RingProfile::clarity`](super::RingProfile::clarity)): white noise has rings too.
+/// Logistic regression by scripts/fit-calibration on hand-marked and on simulated images, blurred and noisy ones and white noise
+/// among them.
+pub(super) fn spacing(sure: f64, moved: f64, clarity: f64) -> f64 {
     // an image is never beyond doubt
-    let near = near.clamp(0.001, 0.999);
-    let near = (near / (1. - near)).ln();
-    Logistic { offset: 2.26, slope: 1. }.at(0.35 * near - 11.3 * moved)
+    let sure = sure.clamp(0.001, 0.999);
+    let sure = (sure / (1. - sure)).ln();
+    let unclear = (1. - clarity).max(0.);
+    Logistic { offset: 1.01, slope: 1. }.at(0.87 * sure - 8.73 * moved - 10.5 * unclear)
 }
 
 /// The probability by the height of the classical filter's response, given the `cones` of the image, highest first, and how high

@@ -179,8 +179,9 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
         ring_spacing: ring.spacing,
         ring_confidence: ring.confidence,
         spacing_confidence: calibration::spacing(
-            rings.whole().probability_near(map.typical()),
+            ring.confidence,
             (map.typical() / ring.spacing).ln().abs(),
+            clarity(map.typical()),
         ),
         spacing: map.typical(),
         spacing_map: map,

@@ -206,7 +206,7 @@ impl RingProfile {
     }
 
     /// The probability, 0–1, that the true spacing is within 15 % of `spacing`, px.
-    pub fn probability_near(&self, spacing: f64) -> f64 {
+    fn probability_near(&self, spacing: f64) -> f64 {
         let near = |s: f64| (s / spacing).ln().abs() <= RIGHT.ln();
         self.probabilities().enumerate().filter(|(k, _)| near(candidate(*k as f64))).map(|(_, p)| p).sum()
     }

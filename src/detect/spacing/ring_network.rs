@@ -65,3 +65,26 @@ fn convolve(channels: &Channels, taps: &[f32], bias: f32) -> [f32; BINS] {
     }
     sum
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The file is what scripts/train-ring wrote beside the weights.
+    #[test]
+    fn scores_are_those_of_the_network_that_was_trained() {
+        let rows: Vec<Vec<Option<f32>>> = include_str!("../../../fixtures/ring_network.csv")
+            .lines()
+            .skip(1)
+            .map(|line| line.split(',').map(|v| v.parse().ok()).collect())
+            .collect();
+        assert_eq!(rows.len(), BINS);
+        let [all, along_x, across_x] = [0, 1, 2].map(|c| std::array::from_fn(|b| rows[b][c].unwrap()));
+        let expected: Vec<f32> = rows.iter().filter_map(|row| row[3]).collect();
+        let found = scores([&all, &along_x, &across_x]);
+        assert_eq!(expected.len(), found.len());
+        for (expected, found) in expected.iter().zip(found) {
+            assert!((expected - found).abs() < 1e-3, "{found}, trained: {expected}");
+        }
+    }
+}
