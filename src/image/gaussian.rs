@@ -83,7 +83,7 @@ fn sums<S: Simd, const REGISTERS: usize>(simd: S, out: &mut [f32], pairs: &[Pair
             let part = r * S::f32s::LEN..(r + 1) * S::f32s::LEN;
             let both =
                 S::f32s::from_slice(simd, &before[part.clone()]) + S::f32s::from_slice(simd, &after[part]);
-            *sum = *sum + both * pair.weight;
+            *sum += both * pair.weight;
         }
     }
     for (sum, out) in sums.iter().zip(out[x..x + length].chunks_exact_mut(S::f32s::LEN)) {
