@@ -8,14 +8,25 @@ const FLOOR: f32 = 1e-3;
 pub fn flatten(image: &Plane) -> Plane {
     let (h, w) = image.dim();
     let sigma = h.max(w) as f64 / 8.;
-    normalise(&(image - &gaussian(image, sigma)), sigma)
+    let mut level = gaussian(image, sigma);
+    level.zip_mut_with(image, |drift, v| *drift = v - *drift);
+    normalise(&level, sigma)
 }
 
 /// `plane` divided by its local root mean square √(G(σ)∗plane²).
 pub(super) fn normalise(plane: &Plane, sigma: f64) -> Plane {
     let mut deviation = gaussian(&plane.mapv(|v| v * v), sigma);
     deviation.mapv_inplace(|v| v.max(0.).sqrt());
-    let floor = (FLOOR * deviation.iter().copied().fold(0., f32::max)).max(f32::MIN_POSITIVE);
+    let floor = (FLOOR * highest(&deviation)).max(f32::MIN_POSITIVE);
     deviation.zip_mut_with(plane, |d, v| *d = v / d.max(floor));
     deviation
+}
+
+/// The highest value of a plane that has none below zero. Sixteen at a time, as one maximum would wait for the other.
+fn highest(plane: &Plane) -> f32 {
+    let (blocks, rest) = plane.as_slice().unwrap_or_default().as_chunks::<16>();
+    let higher = |a: f32, b: f32| if b > a { b } else { a };
+    let lanes =
+        blocks.iter().fold([0f32; 16], |top, block| std::array::from_fn(|k| higher(top[k], block[k])));
+    lanes.iter().chain(rest).copied().fold(0., higher)
 }

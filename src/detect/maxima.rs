@@ -13,33 +13,60 @@ pub fn local_maxima(response: &Plane, threshold: f32) -> Vec<Detection> {
     let in_row = |y: usize| {
         let row = |y: usize| &data[y * w..(y + 1) * w];
         let (above, here, below) = ((y > 0).then(|| row(y - 1)), row(y), (y + 1 < h).then(|| row(y + 1)));
-        let mut found = Vec::new();
-        for (x, &value) in here.iter().enumerate() {
+        let maximum = |x: usize| {
+            let value = here[x];
             // above all earlier neighbours, not below any later one; along the row first, where most pixels fail
             if !(value > threshold && (x == 0 || here[x - 1] < value) && (x + 1 == w || here[x + 1] <= value))
             {
-                continue;
+                return None;
             }
             let columns = x.saturating_sub(1)..(x + 2).min(w);
             let is_maximum = above.is_none_or(|r| r[columns.clone()].iter().all(|v| *v < value))
                 && below.is_none_or(|r| r[columns].iter().all(|v| *v <= value));
-            if is_maximum {
+            is_maximum.then(|| {
                 let along_x = (x > 0 && x + 1 < w).then(|| parabola_top(here[x - 1], value, here[x + 1]));
                 let along_y = above.zip(below).map(|(a, b)| parabola_top(a[x], value, b[x]));
                 let top = |offset: Option<f64>| offset.unwrap_or(0.);
-                found.push(Detection {
+                Detection {
                     centre: Point::new(x as f64 + top(along_x), y as f64 + top(along_y)),
                     score: f64::from(value),
-                });
-            }
-        }
-        found
+                }
+            })
+        };
+        let rows = above.zip(below);
+        let worth_a_look = |x: &usize| rows.is_none_or(|(above, below)| any_on_top(*x, above, here, below));
+        let blocks = (0..w).step_by(BLOCK).filter(worth_a_look);
+        blocks.flat_map(|x| x..(x + BLOCK).min(w)).filter_map(maximum).collect::<Vec<_>>()
     };
     if data.len() >= PARALLEL_PIXELS {
         (0..h).into_par_iter().flat_map_iter(in_row).collect()
     } else {
         (0..h).flat_map(in_row).collect()
     }
+}
+
+/// Pixels that are compared with their neighbours together.
+const BLOCK: usize = 16;
+
+/// Whether any of a block's pixels from `x` on is above the earlier of its four nearest neighbours, and not below the later: without
+/// branches, as most blocks have none. Blocks at either end of a row may always have one.
+fn any_on_top(x: usize, above: &[f32], here: &[f32], below: &[f32]) -> bool {
+    fn block(row: &[f32], from: usize) -> Option<&[f32; BLOCK]> {
+        row.get(from..from + BLOCK)?.try_into().ok()
+    }
+    let (Some(left), Some(middle), Some(right), Some(up), Some(down)) = (
+        x.checked_sub(1).and_then(|x| block(here, x)),
+        block(here, x),
+        block(here, x + 1),
+        block(above, x),
+        block(below, x),
+    ) else {
+        return true;
+    };
+    (0..BLOCK).fold(false, |any, k| {
+        let v = middle[k];
+        any | ((v > left[k]) & (v >= right[k]) & (v > up[k]) & (v >= down[k]))
+    })
 }
 
 /// Where the parabola through (−1, a), (0, b), (1, c) has its top, within half a sample.

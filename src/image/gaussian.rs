@@ -28,24 +28,14 @@ fn half_kernel(sigma: f64) -> Vec<f32> {
     weights.iter().map(|w| (w / sum) as f32).collect()
 }
 
-/// Σₖ kernel[|k|] · row(y + k), for one y. By the widest registers that the processor has; every sum is added up in the same order
-/// on all of them.
+/// Σₖ kernel[|k|] · row(y + k), for one y.
 fn weigh_rows<'a>(out: &mut [f32], kernel: &[f32], row: impl Fn(isize) -> &'a [f32]) {
-    let width = out.len();
-    let pairs: Vec<Pair<'_>> = kernel
-        .iter()
-        .enumerate()
-        .map(|(k, &weight)| {
-            let k = k as isize;
-            // the middle row stands for both of its pair
-            Pair {
-                before: &row(-k)[..width],
-                after: &row(k)[..width],
-                weight: if k == 0 { 0.5 * weight } else { weight },
-            }
-        })
-        .collect();
-    dispatch!(Level::new(), simd => weigh(simd, out, &pairs));
+    let pairs = kernel.iter().enumerate().map(|(k, &weight)| {
+        let k = k as isize;
+        // the middle row stands for both of its pair
+        Pair { before: row(-k), after: row(k), weight: if k == 0 { 0.5 * weight } else { weight } }
+    });
+    weigh(out, &pairs.collect::<Vec<_>>());
 }
 
 /// Two rows as far above as below the one that is computed.
@@ -55,9 +45,15 @@ struct Pair<'a> {
     weight: f32,
 }
 
+/// The weighted sum of pairs of rows. By the widest registers that the processor has; every sum is added up in the same order on all
+/// of them.
+fn weigh(out: &mut [f32], pairs: &[Pair<'_>]) {
+    dispatch!(Level::new(), simd => weigh_by(simd, out, pairs));
+}
+
 /// Several registers of sums at a time, so that their additions overlap; what is left of the row one by one.
 #[inline(always)]
-fn weigh<S: Simd>(simd: S, out: &mut [f32], pairs: &[Pair<'_>]) {
+fn weigh_by<S: Simd>(simd: S, out: &mut [f32], pairs: &[Pair<'_>]) {
     const REGISTERS: usize = 4;
     let mut x = 0;
     while x + REGISTERS * S::f32s::LEN <= out.len() {
@@ -205,12 +201,18 @@ fn coarse(plane: &Plane, sigma: f64, step: usize) -> Plane {
     let data = plane.as_slice().unwrap_or_default();
     let grid = Coarse::new(h, sigma, step);
     let points = fill_rows(grid.points(), w, |i, out| {
-        for (k, weight) in grid.hat.iter().enumerate() {
+        let last = grid.hat.len() - 1;
+        let row = |k: usize| {
             let y = mirror((grid.first(i) + k) as isize - grid.frame() as isize, h);
-            for (o, a) in out.iter_mut().zip(&data[y * w..(y + 1) * w]) {
-                *o += weight * a;
-            }
-        }
+            &data[y * w..(y + 1) * w]
+        };
+        // both halves of a hat are alike; a row in its middle stands for both of its pair
+        let pairs = (0..=last / 2).map(|k| Pair {
+            before: row(k),
+            after: row(last - k),
+            weight: if 2 * k == last { 0.5 * grid.hat[k] } else { grid.hat[k] },
+        });
+        weigh(out, &pairs.collect::<Vec<_>>());
     });
     let points = points.as_slice().unwrap_or_default();
     let coarse = fill_rows(grid.samples(), w, |i, out| {
@@ -223,11 +225,10 @@ fn coarse(plane: &Plane, sigma: f64, step: usize) -> Plane {
     let coarse = coarse.as_slice().unwrap_or_default();
     let cubics = Coarse::cubics(h, step);
     fill_rows(h, w, |y, out| {
-        let (at, weights) = cubics[y];
-        for (j, weight) in (at..).zip(weights) {
-            for (o, a) in out.iter_mut().zip(&coarse[j * w..(j + 1) * w]) {
-                *o += weight * a;
-            }
+        let (at, [a, b, c, d]) = cubics[y];
+        let row = |j: usize| &coarse[(at + j) * w..(at + j + 1) * w];
+        for ((((o, p), q), r), s) in out.iter_mut().zip(row(0)).zip(row(1)).zip(row(2)).zip(row(3)) {
+            *o = a * p + b * q + c * r + d * s;
         }
     })
 }

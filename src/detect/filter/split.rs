@@ -23,7 +23,8 @@ const CONTRAST: f64 = 0.8;
 /// (σ = .8 s). Made for dark on the left.
 pub(super) fn response(image: &Plane, spacing: f64) -> (Plane, Criterion) {
     let (h, w) = image.dim();
-    let level = image - &gaussian(image, DRIFT * spacing);
+    let mut level = gaussian(image, DRIFT * spacing);
+    level.zip_mut_with(image, |drift, v| *drift = v - *drift);
     // mirror images keep the transform's wrapping away; a longer frame than s makes the transform fast
     let pad = spacing.round() as usize;
     let (height, width) = (fast_length(h + 2 * pad), fast_length(w + 2 * pad));
