@@ -48,6 +48,22 @@ fn a_validation_without_scores_or_groups_has_the_files_that_apply() {
 }
 
 #[test]
+fn files_may_be_given_instead_of_folders() {
+    let place = made_up();
+    place.copy("cones/s1_b.csv", "other.csv");
+    let scored = |reference: &str, detections: &str, out: &str| {
+        let given = ["validate", "--reference", reference, "--detections", detections];
+        place.ok(&[&given[..], &["--size", "60x60", "--reach", "0.5", "--out", out]].concat());
+        place.table(&format!("{out}/validation.csv")).remove(0)
+    };
+    let row = scored("marks/s1_b.csv", "other.csv", "one");
+    assert_eq!(row["name"], "s1_b");
+    assert_eq!(row["dice"], scored("marks/s1_b.csv", "cones", "same")["dice"]);
+    // among several marks, a file of detections belongs to those of its name
+    assert_eq!(row["dice"], scored("marks", "cones/s1_b.csv", "named")["dice"]);
+}
+
+#[test]
 fn groups_are_subjects_and_every_table_speaks_of_them() {
     let place = made_up();
     let grouped = [&VALIDATE[..], &["--group-by", "prefix:1", "--um-per-px", "0.5", "--out", "out"]].concat();

@@ -36,15 +36,15 @@ Writes to scores/:
   NAME.overlay.png    with --overlay: hits, misses and false alarms
   failures.csv        marks that could not be scored, if any; then the exit code is 2")]
 pub struct Validate {
-    /// Folder of hand marks
-    #[arg(long, value_name = "DIR")]
+    /// Folder of hand marks, or one file of them
+    #[arg(long, value_name = "PATH")]
     reference: PathBuf,
-    /// Folder of detections NAME.csv or NAME_coords.csv, of this program or another
-    #[arg(long, value_name = "DIR", required_unless_present = "images")]
+    /// Folder of detections NAME.csv or NAME_coords.csv, of this program or another, or one file of them
+    #[arg(long, value_name = "PATH", required_unless_present = "images")]
     detections: Option<PathBuf>,
-    /// Folder of images NAME.png or NAME.tif: to detect cones in unless --detections are given, for sizes and overlays
-    /// [default: beside the marks]
-    #[arg(long, value_name = "DIR")]
+    /// Folder of images NAME.png or NAME.tif, or one image: to detect cones in unless --detections are given, for sizes and
+    /// overlays [default: beside the marks]
+    #[arg(long, value_name = "PATH")]
     images: Option<PathBuf>,
     /// Folder for the results
     #[arg(long, value_name = "DIR")]
@@ -78,7 +78,7 @@ pub struct Validate {
     #[arg(long, value_name = "N", default_value_t = RESAMPLES as u32, value_parser = clap::value_parser!(u32).range(2000..=1_000_000), help_heading = "Groups and intervals")]
     resamples: u32,
     /// Compare with these detections, or marks of another grader: NAME.csv or NAME_coords.csv
-    #[arg(long, value_name = "DIR", group = "second", help_heading = "Comparison of two")]
+    #[arg(long, value_name = "PATH", group = "second", help_heading = "Comparison of two")]
     versus: Option<PathBuf>,
     /// What they call the centre of the top-left pixel: 0, 0.5 or 1
     #[arg(long, value_name = "O", default_value = "0", requires = "versus", value_parser = origin, help_heading = "Comparison of two")]

@@ -114,7 +114,7 @@ pub struct ValidationOutcome {
     pub ignored: Vec<PathBuf>,
 }
 
-/// Scores every file of marks in `reference` (`NAME_coords.csv` or `NAME.csv`) and writes `validation.csv` (a row an
+/// Scores every file of marks in `reference` (`NAME_coords.csv` or `NAME.csv`, or one such file) and writes `validation.csv` (a row an
 /// image), `validation.json` (everything), `index.html`, `bland_altman.svg`; `groups.csv` with groups; `froc.csv` and
 /// `froc.svg` where detections have scores, `reliability.csv` and `reliability.svg` where these lie between 0 and 1;
 /// `comparison.csv` and `comparison.svg` where two are compared; `NAME.overlay.png` if asked for.
@@ -132,8 +132,9 @@ pub fn validate_files(
         Detected::Detector(_) => None,
     };
     let detections = [Some(&options.detected), options.versus.as_ref()].into_iter().flatten();
-    for folder in detections.filter_map(folder_of).chain(options.images.clone()) {
-        folder.read_dir().map_err(|source| BatchError::Unreadable { path: folder.clone(), source })?;
+    for path in detections.filter_map(folder_of).chain(options.images.clone()) {
+        let readable = if path.is_file() { path.metadata().map(|_| ()) } else { path.read_dir().map(|_| ()) };
+        readable.map_err(|source| BatchError::Unreadable { path: path.clone(), source })?;
     }
     let pairs = pairs::Pairs { reference, options };
     let (marks, ignored) = pairs.marks(out)?;

@@ -51,6 +51,7 @@ impl Pairs<'_> {
     /// The image that belongs to a file of marks.
     pub fn image(&self, marks: &Path) -> Option<PathBuf> {
         match &self.options.images {
+            Some(file) if file.is_file() => self.belongs(file, marks).then(|| file.clone()),
             Some(folder) => {
                 self.places(marks, folder).into_iter().find_map(|f| image_in(&f, &image_name(marks)))
             }
@@ -63,10 +64,19 @@ impl Pairs<'_> {
         let Detected::Folder { folder, .. } = detected else { return None };
         let name = image_name(marks);
         let own = marks.canonicalize().ok();
+        if folder.is_file() {
+            return (self.belongs(folder, marks) && folder.canonicalize().ok() != own)
+                .then(|| folder.clone());
+        }
         self.places(marks, folder)
             .into_iter()
             .flat_map(|f| [f.join(format!("{name}.csv")), f.join(format!("{name}_coords.csv"))])
             .find(|path| path.is_file() && path.canonicalize().ok() != own)
+    }
+
+    /// Whether a file that was given instead of a folder belongs to a file of marks: to the only one, whatever their names.
+    fn belongs(&self, file: &Path, marks: &Path) -> bool {
+        self.reference.is_file() || image_name(file) == image_name(marks)
     }
 
     /// The folder that lies below the one given as the marks lie below the reference, and the one given.
