@@ -161,9 +161,9 @@ fn options_out_of_range_are_refused_before_anything_is_written() {
     let place = Place::new();
     place.image("a.png", 1);
     for (options, word) in [
-        (&["--spacing", "100"][..], "4–40 px"),
-        (&["--spacing", "nan"], "4–40 px"),
-        (&["--spacing", "-3"], "4–40 px"),
+        (&["--spacing", "200"][..], "4–160 px"),
+        (&["--spacing", "nan"], "4–160 px"),
+        (&["--spacing", "-3"], "4–160 px"),
         (&["--spacing", "wide"], "expected a number"),
         (&["--threads", "0"], "1..=1024"),
         (&["--threads", "many"], "whole number"),

@@ -22,7 +22,7 @@ pub struct DetectArgs {
     /// Filters that find the cones
     #[arg(long, value_name = "D", default_value = "auto", value_parser = PossibleValuesParser::new(Detector::ALL.map(Detector::name)))]
     detector: String,
-    /// Cone spacing in px (4–40) to start from [default: from Yellott's ring]
+    /// Cone spacing in px (4–160) to start from [default: from Yellott's ring]
     #[arg(long, value_name = "PX")]
     spacing: Option<f64>,
     /// A network of your own: .safetensors or .onnx (see `conemosaic detect --help`)

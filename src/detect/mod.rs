@@ -13,6 +13,7 @@ mod spacing;
 mod suppress;
 mod tiles;
 mod types;
+mod view;
 
 pub use filter::{Criterion, RelativeThreshold, response};
 pub use flatten::flatten;
@@ -25,11 +26,13 @@ pub use spacing::{
 };
 pub use suppress::suppress;
 pub use types::{Detection, Detections, Modality, Polarity};
+pub use view::WIDEST_SPACING;
 
-use crate::image::{EmptyPixels, Plane, crop, imaged_part};
-use search::Field;
-use spacing::{Rings, Start};
+use crate::image::{Plane, crop, imaged_part};
+use search::regularity;
+use spacing::Start;
 use thiserror::Error;
+use view::View;
 
 /// Shortest side of an image in px: below, there is no room for even a handful of cones at the closest spacing.
 pub const MIN_SIDE: usize = 24;
@@ -44,6 +47,11 @@ pub const fn weights() -> [&'static [u8]; 3] {
 const SETTLED: f64 = 0.005;
 /// The same for a network, which is trained at spacings off by up to 15 %.
 const LEARNED_SETTLED: f64 = 0.03;
+
+/// A spacing of more confidence than this is not doubted.
+const SURE: f64 = 0.9;
+/// A spacing of less confidence than this is none: its ring and the count of its cones contradict each other.
+const HOPELESS: f64 = 0.1;
 
 /// Why an image has no cones to find.
 #[derive(Debug, Error, PartialEq)]
@@ -73,13 +81,13 @@ pub enum DetectError {
         value: f32,
     },
     /// A spacing outside the range.
-    #[error("a spacing of {0} px is outside {low}–{high} px", low = SPACING_RANGE.0, high = SPACING_RANGE.1)]
+    #[error("a spacing of {0} px is outside {low}–{high} px", low = SPACING_RANGE.0, high = WIDEST_SPACING)]
     Spacing(f64),
     /// A side of tiles outside its range.
     #[error("tiles of {0} spacings cannot be mapped: give a side of 6 to 60 spacings")]
     TileSide(f64),
     /// The spectrum shows no ring.
-    #[error("the spectrum of the image has no ring between {low} and {high} px: it shows no regular mosaic", low = SPACING_RANGE.0, high = SPACING_RANGE.1)]
+    #[error("the spectrum of the image has no ring between {low} and {high} px: it shows no regular mosaic", low = SPACING_RANGE.0, high = WIDEST_SPACING)]
     NoRing,
     /// No network has been trained for this modality.
     #[error("there is no learned detector for {0} images: use classical or auto")]
@@ -136,14 +144,30 @@ pub fn detect(image: &Plane, options: &DetectOptions) -> Result<Detections, Dete
 
 /// The cones of an image without a straight margin.
 fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, DetectError> {
-    let empty = EmptyPixels::of(image);
-    let filled = empty.as_ref().map(|e| e.filled(image));
-    let field = Field { image: filled.as_ref().unwrap_or(image), empty: empty.as_ref() };
-    let rings = Rings::of(field.image, field.empty);
+    let view = View::suitable(image, options.spacing);
+    let mut found = detect_in(&view, options)?;
+    if options.spacing.is_none()
+        && found.spacing_confidence < SURE
+        && let Some(wider) = view.wider(found.spacing_confidence)
+    {
+        let other = detect_in(&wider, options)?;
+        // two spacings are in doubt: the more regular mosaic is right, unless nothing speaks for the closer one
+        let regularity = |found: &Detections| regularity(&found.centres(), image.dim());
+        if found.spacing_confidence < HOPELESS || regularity(&other) > regularity(&found) {
+            found = other;
+        }
+    }
+    Ok(found)
+}
+
+/// The cones of a view, in px of the image.
+fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, DetectError> {
+    let (field, rings) = (view.field(), &view.rings);
     let (modality, polarity) =
         modality::decide(rings.sample(), rings.whole(), options.modality, options.polarity);
     let ring = rings.whole().spacing();
-    let mut start = match options.spacing {
+    let given = options.spacing.map(|s| s / view.block as f64);
+    let mut start = match given {
         None => Start { map: rings.map(), least: ring.least },
         Some(spacing) => Start { map: SpacingMap::constant(spacing), least: 0. },
     };
@@ -151,12 +175,13 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
     let filtered =
         |part: &Plane, spacing: f64| Ok(filter::cones(part, modality, polarity, spacing, clarity(spacing)));
     let (mut found, mut map) = field.until_settled(&start, SETTLED, filtered)?;
-    if options.spacing.is_none()
-        && let Some(other) = start.contradicted_by(&found.centres(), image.dim(), field.empty)
+    if given.is_none()
+        && let Some(other) = start.contradicted_by(&found.centres(), field.image.dim(), field.empty)
     {
         // ring and density cannot both be right: the more regular mosaic is
         let searched = field.until_settled(&other, SETTLED, filtered)?;
-        if searched.0.regularity(image.dim()) > found.regularity(image.dim()) {
+        let dim = field.image.dim();
+        if regularity(&searched.0.centres(), dim) > regularity(&found.centres(), dim) {
             (found, map) = searched;
             start = other;
         }
@@ -170,7 +195,7 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
             })
         })?;
     }
-    Ok(Detections {
+    let mut detections = Detections {
         cones: found.cones,
         rejected: found.rejected,
         modality,
@@ -185,7 +210,9 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
         ),
         spacing: map.typical(),
         spacing_map: map,
-    })
+    };
+    detections.enlarge(view.block as f64);
+    Ok(detections)
 }
 
 /// The network to use, or none for the classical filters.

@@ -1,4 +1,4 @@
-use super::{DetectError, Modality, Polarity, UserModel};
+use super::{DetectError, Modality, Polarity, SPACING_RANGE, UserModel, WIDEST_SPACING};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -56,7 +56,7 @@ pub struct DetectOptions {
     pub polarity: Option<Polarity>,
     /// Which filters find the cones.
     pub detector: Detector,
-    /// Cone spacing in px (4–40) to start from instead of Yellott's ring; `None`: the ring.
+    /// Cone spacing in px (4–160) to start from instead of Yellott's ring; `None`: the ring.
     pub spacing: Option<f64>,
     /// A network of the user's own, in place of the program's for the modality it was made for.
     pub model: Option<UserModel>,
@@ -75,9 +75,8 @@ impl DetectOptions {
         {
             return Err(DetectError::OtherModality { name: model.name().to_owned(), own, given });
         }
-        let (low, high) = super::SPACING_RANGE;
         match self.spacing {
-            Some(s) if !(low..=high).contains(&s) => Err(DetectError::Spacing(s)),
+            Some(s) if !(SPACING_RANGE.0..=WIDEST_SPACING).contains(&s) => Err(DetectError::Spacing(s)),
             _ => Ok(()),
         }
     }

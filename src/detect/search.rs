@@ -30,17 +30,6 @@ impl Found {
         self.cones.iter().map(|d| d.centre).collect()
     }
 
-    /// Regularity index of the cones: mean over standard deviation of the distances to the nearest neighbour; 0 where it is not
-    /// defined.
-    pub(super) fn regularity(&self, (height, width): (usize, usize)) -> f64 {
-        let Ok(window) = Window::of_image(width, height) else { return 0. };
-        let distances = nearest_neighbours(&self.centres(), &window).distances;
-        let n = distances.len() as f64;
-        let mean = distances.iter().sum::<f64>() / n;
-        let deviation = (distances.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.)).sqrt();
-        if deviation > 0. { mean / deviation } else { 0. }
-    }
-
     fn each(&mut self, change: impl Fn(&mut Detection)) {
         self.cones.iter_mut().chain(&mut self.rejected).for_each(change);
     }
@@ -55,6 +44,17 @@ impl Found {
         self.each(|d| d.centre = Point::new(d.centre.x + left as f64, d.centre.y + top as f64));
         self
     }
+}
+
+/// Regularity index of cones, mean over standard deviation of the distances to the nearest neighbour, less its standard error: of few
+/// points it is high by chance. 0 where it is not defined.
+pub(super) fn regularity(centres: &[Point], (height, width): (usize, usize)) -> f64 {
+    let Ok(window) = Window::of_image(width, height) else { return 0. };
+    let distances = nearest_neighbours(centres, &window).distances;
+    let n = distances.len() as f64;
+    let mean = distances.iter().sum::<f64>() / n;
+    let deviation = (distances.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.)).sqrt();
+    if deviation > 0. { mean / deviation * (1. - 1. / (2. * n).sqrt()) } else { 0. }
 }
 
 /// Finds cones in a part of an image at a spacing, px.

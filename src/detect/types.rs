@@ -135,6 +135,17 @@ impl Detections {
         self.spacing_map.move_by(left as f64, top as f64);
     }
 
+    /// Makes a px `times` as many px.
+    pub(super) fn enlarge(&mut self, times: f64) {
+        let place = |x: f64| (x + 0.5) * times - 0.5;
+        for d in self.cones.iter_mut().chain(&mut self.rejected) {
+            d.centre = Point::new(place(d.centre.x), place(d.centre.y));
+        }
+        self.ring_spacing *= times;
+        self.spacing *= times;
+        self.spacing_map.enlarge(times);
+    }
+
     /// The centres in px, in the order of `cones`.
     pub fn centres(&self) -> Vec<Point> {
         self.cones.iter().map(|d| d.centre).collect()

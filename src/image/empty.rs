@@ -15,7 +15,22 @@ impl EmptyPixels {
     /// `None` if all of the image was imaged.
     pub fn of(plane: &Plane) -> Option<Self> {
         let (height, width) = plane.dim();
-        let imaged = imaged_mask(plane)?;
+        imaged_mask(plane).map(|imaged| Self::not(imaged, height, width))
+    }
+
+    /// Those blocks of `block` × `block` px in which there are any, as pixels; `None` if there are none. What does not fill a block at
+    /// the right and below is left out.
+    pub fn in_blocks(&self, block: usize) -> Option<Self> {
+        let (height, width) = (self.height / block, self.width / block);
+        let whole = |k: usize| {
+            let (left, top) = (k % width * block, k / width * block);
+            self.part(left, top, left + block, top + block) == 0.
+        };
+        let imaged: Vec<bool> = (0..height * width).map(whole).collect();
+        imaged.contains(&false).then(|| Self::not(imaged, height, width))
+    }
+
+    fn not(imaged: Vec<bool>, height: usize, width: usize) -> Self {
         let mut sums = vec![0u32; (height + 1) * (width + 1)];
         for y in 0..height {
             let mut in_row = 0;
@@ -24,7 +39,7 @@ impl EmptyPixels {
                 sums[(y + 1) * (width + 1) + x + 1] = sums[y * (width + 1) + x + 1] + in_row;
             }
         }
-        Some(Self { width, height, imaged, sums })
+        Self { width, height, imaged, sums }
     }
 
     /// Which part of the columns `left..right` and rows `top..bottom` was not imaged; what lies beyond the image does not count.

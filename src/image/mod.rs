@@ -18,7 +18,7 @@ pub use fourier::{Spectrum, fast_length};
 pub use gaussian::gaussian;
 pub use imaged::{ImagedPart, imaged_mask, imaged_part};
 pub use outline::imaged_area;
-pub use pad::{crop, mirror, reflect_pad};
+pub use pad::{block_means, crop, mirror, reflect_pad};
 pub use read::{MAX_PIXELS, decode, is_image_path, read, read_bytes};
 pub(crate) use rows::{PARALLEL_PIXELS, fill_rows};
 pub use write::{BitDepth, write_grey, write_png, write_tiff};

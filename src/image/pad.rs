@@ -47,6 +47,19 @@ pub fn crop(plane: &Plane, top: usize, left: usize, height: usize, width: usize)
     rows.slice_axis(Axis(1), (left..left + width).into()).to_owned()
 }
 
+/// Means over blocks of `block` × `block` px. What does not fill a block at the right and below is left out.
+pub fn block_means(plane: &Plane, block: usize) -> Plane {
+    let (height, width) = (plane.nrows() / block, plane.ncols() / block);
+    let share = 1. / (block * block) as f32;
+    fill_rows(height, width, |y, out| {
+        for row in plane.slice_axis(Axis(0), (y * block..(y + 1) * block).into()).rows() {
+            for (o, x) in out.iter_mut().zip((0..).step_by(block)) {
+                *o += share * row.slice_axis(Axis(0), (x..x + block).into()).sum();
+            }
+        }
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -55,6 +68,14 @@ mod tests {
     fn mirror_repeats_the_edge_pixel() {
         let seen: Vec<usize> = (-4..7).map(|i| mirror(i, 3)).collect();
         assert_eq!(seen, [2, 2, 1, 0, 0, 1, 2, 2, 1, 0, 0]);
+    }
+
+    #[test]
+    fn blocks_hold_their_means_and_the_rest_is_left_out() {
+        let plane = Plane::from_shape_fn((5, 7), |(y, x)| (10 * y + x) as f32);
+        let means = block_means(&plane, 2);
+        assert_eq!(means.dim(), (2, 3));
+        assert_eq!(means[[1, 2]], 29.5);
     }
 
     #[test]

@@ -107,6 +107,12 @@ impl SpacingMap {
         self.y.iter_mut().for_each(|y| *y += down);
     }
 
+    /// Makes a px `times` as many px.
+    pub(in crate::detect) fn enlarge(&mut self, times: f64) {
+        self.x.iter_mut().chain(&mut self.y).for_each(|x| *x = (*x + 0.5) * times - 0.5);
+        self.log.iter_mut().for_each(|log| *log += times.ln());
+    }
+
     /// Largest change of the logarithm from `earlier`, over the nodes of this map.
     pub(in crate::detect) fn change_from(&self, earlier: &Self) -> f64 {
         let mut largest = 0f64;

@@ -19,5 +19,6 @@ pub use ring::{RingEstimate, RingProfile};
 pub(super) use ring_network::weights as ring_weights;
 pub(super) use rings::Rings;
 
-/// Smallest and largest spacing looked for, in px: closer cones are not resolved, wider ones are too few in a field.
+/// Smallest and largest spacing looked for, in px: closer cones are not resolved; wider ones are looked for in means of pixels (see
+/// [`WIDEST_SPACING`](super::WIDEST_SPACING)).
 pub const SPACING_RANGE: (f64, f64) = (4., 40.);

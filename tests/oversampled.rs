@@ -1,0 +1,59 @@
+//! Images of so many pixels that cones are farther apart than filters and networks are made for.
+
+mod common;
+
+use conemosaic::detect::{DetectOptions, Detections, Detector, detect};
+use conemosaic::geometry::Point;
+use conemosaic::image::Plane;
+
+/// The image with `times` as many pixels along each side, bilinear.
+fn enlarged(image: &Plane, times: usize) -> Plane {
+    let (h, w) = image.dim();
+    let source = |k: usize, length: usize| {
+        let place = ((k as f32 + 0.5) / times as f32 - 0.5).clamp(0., (length - 1) as f32);
+        let first = (place as usize).min(length - 2);
+        (first, place - first as f32)
+    };
+    Plane::from_shape_fn((h * times, w * times), |(y, x)| {
+        let ((y, t), (x, s)) = (source(y, h), source(x, w));
+        let along = |y: usize| image[[y, x]] + s * (image[[y, x + 1]] - image[[y, x]]);
+        along(y) + t * (along(y + 1) - along(y))
+    })
+}
+
+/// The part of the cones of an image that are found in its enlargement too, and nothing else besides.
+fn shared(small: &Detections, large: &Detections, times: f64) -> f64 {
+    let reach = 0.3 * large.spacing;
+    let there = |p: &Point| {
+        let p = Point::new((p.x + 0.5) * times - 0.5, (p.y + 0.5) * times - 0.5);
+        large.cones.iter().any(|d| d.centre.distance(p) < reach)
+    };
+    let both = small.centres().iter().filter(|p| there(p)).count();
+    2. * both as f64 / (small.cones.len() + large.cones.len()) as f64
+}
+
+#[test]
+fn cones_far_apart_are_found_as_those_of_fewer_pixels_are() {
+    for (preset, times) in [("parafovea", 5), ("split", 6), ("histology", 4)] {
+        let (image, true_spacing) = common::of_preset(preset, 3, |options| {
+            (options.width, options.height) = (200, 180);
+        });
+        let large = enlarged(&image, times);
+        let times = times as f64;
+        for detector in [Detector::Classical, Detector::Auto] {
+            let options = DetectOptions { detector, ..DetectOptions::default() };
+            let (small, found) = (detect(&image, &options).unwrap(), detect(&large, &options).unwrap());
+            let (same, off) = (shared(&small, &found, times), found.spacing / (times * true_spacing));
+            println!(
+                "{preset} × {times}, {detector:?}: {:.1} px, × {off:.3}, {same:.3} the same",
+                found.spacing
+            );
+            assert_eq!((small.modality, small.polarity), (found.modality, found.polarity));
+            assert!((0.9..1.1).contains(&off), "{preset} × {times}: {off}");
+            assert!(same > 0.95, "{preset} × {times}, {detector:?}: {same}");
+            let given = DetectOptions { spacing: Some(times * true_spacing), ..options };
+            let same = shared(&small, &detect(&large, &given).unwrap(), times);
+            assert!(same > 0.95, "{preset} × {times}, {detector:?}, spacing given: {same}");
+        }
+    }
+}
