@@ -6,7 +6,7 @@
 Writes N images of each set NAME (default: 12 of every set) as NAME_KK.png, 8 bit, and their cones as NAME_KK.csv: x,y in px, 0 at
 the centre of the top-left pixel, cones inside the image only. Needs numpy and OpenCV. The same name is always the same image.
 
-Nothing is ever trained or tuned on these images, so that they judge. Nothing is shared with `render`, which adds up spots of
+No weights, thresholds or constants are fitted to these images, so that they judge. Nothing is shared with `render`, which adds up spots of
 light. Here light has a phase, as in a scanning ophthalmoscope whose source is coherent:
 
 - The mosaic: random points, then Lloyd steps weighted so that spacing grows linearly from a place in the image outwards.
@@ -18,7 +18,7 @@ light. Here light has a phase, as in a scanning ophthalmoscope whose source is c
 - Light leaves a cone as a Gaussian mode. The eye's pupil passes amplitudes up to a cut-off (its spot has rings, as Airy's), and
   defocus turns their phases. The intensity is blurred by the pinhole and by what registration of the frames leaves over.
 - Lines of a frame are shifted by residual movements of the eye.
-- A constant background, uneven illumination, photon and camera noise, sometimes a square root as compression, 8 bit.
+- A constant background, uneven illumination, sometimes a square root as compression, noise as of photons and of the camera, 8 bit.
 
 The sets: the centre of the fovea, where density falls 3:1 within the image, the parafovea, and cones well apart as in the
 periphery (without rods between them); clear, unless the name says how hard they are.

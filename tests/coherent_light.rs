@@ -1,5 +1,6 @@
 //! Detection on images of an independent simulator (`scripts/simulate_coherent.py`: fields of coherent light add up, where
-//! `render` adds up spots). Nothing is ever trained or tuned on these images: they judge.
+//! `render` adds up spots). No weights, thresholds or constants were fitted to these images; two
+//! ways to train were given up partly because of them.
 
 mod common;
 

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
 
-/// Planes agree within this part of their range: above σ = 16 px, Gaussians are not summed pixel by pixel.
+/// Planes agree within this part of their range: from σ = 8 px on, Gaussians are not summed pixel by pixel.
 const PLANE: f32 = 1e-3;
 /// A maximum that only one side sees is a tie if it stands out from its neighbours, or from the threshold, by no more
 /// than this part of the range: five times what rounding to `f32` was measured to do.

@@ -269,6 +269,7 @@ fn one_image(
             n: all,
             ring_spacing_px: found.ring_spacing,
             ring_confidence: found.ring_confidence,
+            clarity: found.clarity,
             density_spacing_px: found.spacing,
             spacing_confidence: found.spacing_confidence,
             spacing_range_px: found.spacing_map.range().into(),

@@ -26,7 +26,7 @@ pub(super) fn spacing(sure: f64, moved: f64, clarity: f64) -> f64 {
     let sure = sure.clamp(0.001, 0.999);
     let sure = (sure / (1. - sure)).ln();
     let unclear = (1. - clarity).max(0.);
-    Logistic { offset: 1.01, slope: 1. }.at(0.87 * sure - 8.73 * moved - 10.5 * unclear)
+    Logistic { offset: 0.9, slope: 1. }.at(0.887 * sure - 7.93 * moved - 10.69 * unclear)
 }
 
 /// The probability by the height of the classical filter's response, given the `cones` of the image, highest first, and how high

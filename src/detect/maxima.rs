@@ -100,6 +100,32 @@ mod tests {
     }
 
     #[test]
+    fn maxima_are_those_of_a_plain_search() {
+        // few levels: plateaus
+        let plane =
+            Plane::from_shape_fn((37, 53), |(y, x)| ((x * 7919 + y * 104_729 + x * y * 31) % 7) as f32);
+        let at = |y: isize, x: isize| plane.get((y as usize, x as usize)).copied();
+        let mut expected = Vec::new();
+        for (y, x) in (0..37).flat_map(|y| (0..53).map(move |x| (y, x))) {
+            let value = at(y, x).unwrap();
+            let around = (-1..=1).flat_map(|j| (-1..=1).map(move |i| (j, i))).filter(|o| *o != (0, 0));
+            let top = around.clone().all(|o| {
+                at(y + o.0, x + o.1)
+                    .is_none_or(|other| if o < (0, 0) { other < value } else { other <= value })
+            });
+            if value > 2. && top {
+                expected.push((x as f64, y as f64));
+            }
+        }
+        let found = local_maxima(&plane, 2.);
+        assert!(expected.len() > 50);
+        assert_eq!(found.len(), expected.len());
+        for (found, (x, y)) in found.iter().zip(expected) {
+            assert!((found.centre.x - x).abs() <= 0.5 && (found.centre.y - y).abs() <= 0.5);
+        }
+    }
+
+    #[test]
     fn the_threshold_is_exclusive() {
         let mut plane = Plane::zeros((3, 3));
         plane[[1, 1]] = 0.5;

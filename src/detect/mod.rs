@@ -50,7 +50,7 @@ const LEARNED_SETTLED: f64 = 0.03;
 
 /// A spacing of more confidence than this is not doubted.
 const SURE: f64 = 0.9;
-/// A spacing of less confidence than this is none: its ring and the count of its cones contradict each other.
+/// Nothing speaks for a spacing of less confidence than this.
 const HOPELESS: f64 = 0.1;
 
 /// Why an image has no cones to find.
@@ -87,7 +87,7 @@ pub enum DetectError {
     #[error("tiles of {0} spacings cannot be mapped: give a side of 6 to 60 spacings")]
     TileSide(f64),
     /// The spectrum shows no ring.
-    #[error("the spectrum of the image has no ring between {low} and {high} px: it shows no regular mosaic", low = SPACING_RANGE.0, high = WIDEST_SPACING)]
+    #[error("the spectrum of the image has no ring between {low} and {high} px: it shows no regular mosaic", low = SPACING_RANGE.0, high = SPACING_RANGE.1)]
     NoRing,
     /// No network has been trained for this modality.
     #[error("there is no learned detector for {0} images: use classical or auto")]
@@ -153,7 +153,8 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
         let other = detect_in(&wider, options)?;
         // two spacings are in doubt: the more regular mosaic is right, unless nothing speaks for the closer one
         let regularity = |found: &Detections| regularity(&found.centres(), image.dim());
-        if found.spacing_confidence < HOPELESS || regularity(&other) > regularity(&found) {
+        let surer = other.spacing_confidence > found.spacing_confidence;
+        if found.spacing_confidence < HOPELESS && surer || regularity(&other) > regularity(&found) {
             found = other;
         }
     }
@@ -203,6 +204,7 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
         detector: if model.is_some() { Detector::Learned } else { Detector::Classical },
         ring_spacing: ring.spacing,
         ring_confidence: ring.confidence,
+        clarity: clarity(map.typical()),
         spacing_confidence: calibration::spacing(
             ring.confidence,
             (map.typical() / ring.spacing).ln().abs(),
@@ -211,7 +213,9 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
         spacing: map.typical(),
         spacing_map: map,
     };
-    detections.enlarge(view.block as f64);
+    if view.block > 1 {
+        detections.enlarge(view.block as f64);
+    }
     Ok(detections)
 }
 

@@ -108,6 +108,9 @@ pub struct Detections {
     pub ring_spacing: f64,
     /// Probability (0–1) by the ring alone that this is within 15 % of the true one.
     pub ring_confidence: f64,
+    /// By how much the ring of `spacing` stands out of detail finer than any cone: a natural logarithm, see
+    /// [`RingProfile::clarity`](super::RingProfile::clarity).
+    pub clarity: f64,
     /// Cone spacing after refinement by the density of the detections, in px: the geometric mean of `spacing_map`.
     pub spacing: f64,
     /// Probability (0–1) that this is within 15 % of the true one.

@@ -125,6 +125,19 @@ mod tests {
     }
 
     #[test]
+    fn blocks_with_empty_pixels_are_empty() {
+        let empty = EmptyPixels::of(&half_empty()).unwrap();
+        let blocks = empty.in_blocks(7).unwrap();
+        for (x, y) in (0..80 / 7).flat_map(|x| (0..60 / 7).map(move |y| (x, y))) {
+            assert_eq!(blocks.contains(x, y), 7 * x + 7 * y < 50);
+        }
+        assert!(
+            blocks.contains(11, 0) && blocks.contains(0, 8),
+            "what does not fill a block is beyond the image"
+        );
+    }
+
+    #[test]
     fn filling_continues_the_image_and_changes_nothing_that_was_imaged() {
         let plane = half_empty();
         let filled = EmptyPixels::of(&plane).unwrap().filled(&plane);

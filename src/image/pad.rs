@@ -30,7 +30,7 @@ pub(super) fn framed(row: &[f32], before: usize, after: usize) -> Vec<f32> {
 }
 
 /// `plane` inside a frame of its own mirror image: `top` and `left` pixels before it, and as many behind it as make
-/// `height` × `width`.
+/// `height` × `width`, which must hold it all.
 pub fn reflect_pad(plane: &Plane, top: usize, left: usize, height: usize, width: usize) -> Plane {
     let (h, w) = plane.dim();
     let plane = plane.as_standard_layout();
@@ -47,7 +47,7 @@ pub fn crop(plane: &Plane, top: usize, left: usize, height: usize, width: usize)
     rows.slice_axis(Axis(1), (left..left + width).into()).to_owned()
 }
 
-/// Means over blocks of `block` × `block` px. What does not fill a block at the right and below is left out.
+/// Means over blocks of `block` × `block` px. What does not fill a block at the right and below is left out. `block` must not be 0.
 pub fn block_means(plane: &Plane, block: usize) -> Plane {
     let (height, width) = (plane.nrows() / block, plane.ncols() / block);
     let share = 1. / (block * block) as f32;

@@ -175,6 +175,9 @@ pub struct DetectionRecord {
     pub ring_spacing_px: f64,
     /// Probability, by the ring alone, that its spacing is within 15 % of the true one.
     pub ring_confidence: f64,
+    /// By how much the ring stands out of detail finer than any cone, as a natural logarithm: above 6 on a clear image, 2 where noise is
+    /// as strong as the cones.
+    pub clarity: f64,
     /// Cone spacing after refinement by density, px.
     pub density_spacing_px: f64,
     /// Probability that the spacing is within 15 % of the true one.

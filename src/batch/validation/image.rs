@@ -115,6 +115,7 @@ fn expected(scores: &[f64], matching: &Matching) -> Option<f64> {
 fn picture(input: &Input, pairs: &Pairs, pixels_matter: bool) -> Result<Plane, BatchError> {
     let name = image_name(&input.path);
     let missing = || match (&pairs.options.images, pixels_matter) {
+        (Some(file), _) if file.is_file() => format!("{} is not called like it", file.display()),
         (Some(folder), _) => format!("no image {name}.png or {name}.tif in {}", folder.display()),
         (None, true) => format!("no image {name}.png or {name}.tif beside it: give --images"),
         (None, false) => {
@@ -137,7 +138,11 @@ fn find(
     match (detected, image) {
         (Detected::Folder { folder, read: options }, _) => {
             let path = pairs.detections(&input.path, detected).ok_or_else(|| {
-                missing(format!("no detections {}.csv in {}", image_name(&input.path), folder.display()))
+                missing(if folder.is_file() {
+                    format!("{} is not called like it", folder.display())
+                } else {
+                    format!("no detections {}.csv in {}", image_name(&input.path), folder.display())
+                })
             })?;
             read(&path, options)
         }

@@ -1,4 +1,4 @@
-//! Detections against hand marks, for folders: pairs the files, scores every image, writes what follows of all.
+//! Detections against hand marks, for folders or single files: pairs the files, scores every image, writes what follows of all.
 
 mod analysis;
 mod figures;
@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 pub enum Detected {
     /// Coordinate files NAME.csv of any program, with or without a column `score`.
     Folder {
-        /// The folder.
+        /// The folder, or the only file.
         folder: PathBuf,
         /// How its files are to be understood.
         read: ReadOptions,
@@ -133,7 +133,8 @@ pub fn validate_files(
     };
     let detections = [Some(&options.detected), options.versus.as_ref()].into_iter().flatten();
     for path in detections.filter_map(folder_of).chain(options.images.clone()) {
-        let readable = if path.is_file() { path.metadata().map(|_| ()) } else { path.read_dir().map(|_| ()) };
+        let readable =
+            if path.is_file() { std::fs::File::open(&path).map(drop) } else { path.read_dir().map(drop) };
         readable.map_err(|source| BatchError::Unreadable { path: path.clone(), source })?;
     }
     let pairs = pairs::Pairs { reference, options };

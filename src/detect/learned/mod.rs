@@ -232,7 +232,8 @@ mod tests {
             let logits = network::Network::new(&weights).unwrap().logits(&seen);
             let expected = plane("example.logits", 35, 32);
             let difference = logits.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0., f32::max);
-            assert!(difference < 1e-4, "{difference}");
+            // wide Gaussians are approximated here, and exact there
+            assert!(difference < 1e-3, "{difference}");
         }
     }
 
