@@ -211,6 +211,12 @@ fn images_are_scored_drawn_and_listed_worst_first() {
     let arguments = ["validate", "--reference", "in", "--images", "in", "--versus-detector", "classical"];
     let arguments = [&arguments[..], &["--overlay", "--out", "out", "-q"]].concat();
     place.ok(&arguments);
+    place.copy("in/s2_noisy.png", "elsewhere.png");
+    let one =
+        ["validate", "--reference", "in/s2_noisy_coords.csv", "--images", "elsewhere.png", "--out", "one"];
+    place.ok(&one);
+    let dice = |folder: &str| place.table(&format!("{folder}/validation.csv")).pop().unwrap()["dice"].clone();
+    assert_eq!(dice("one"), dice("out"), "a single image, called otherwise");
     let page = place.read("out/index.html");
     let list = &page[page.rfind("<tbody>").unwrap()..];
     assert!(list.find("s2_noisy").unwrap() < list.find("s1_clear").unwrap(), "{list}");
