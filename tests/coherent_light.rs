@@ -4,14 +4,13 @@
 
 mod common;
 
-use conemosaic::compare::{MatchOptions, validate};
 use conemosaic::detect::{DetectOptions, detect};
 use conemosaic::image::read;
 use conemosaic::mosaic::hexagonal_spacing;
 use conemosaic::mosaic::io::{Origin, ReadOptions, read_coordinates};
 use rayon::prelude::*;
+use std::ffi::OsStr;
 use std::path::Path;
-use std::process::Command;
 
 /// Images of each set.
 const COUNT: usize = 4;
@@ -34,9 +33,10 @@ fn judged(folder: &Path, name: &str) -> (f64, f64) {
     let options = ReadOptions { origin: Some(Origin::Zero), ..ReadOptions::default() };
     let cones = read_coordinates(&folder.join(format!("{name}.csv")), &options).unwrap().points;
     let found = detect(&image, &DetectOptions::default()).unwrap();
-    let (score, _) =
-        validate(&cones, &found.centres(), image.ncols(), image.nrows(), &MatchOptions::default()).unwrap();
-    (score.rates.dice, found.spacing / hexagonal_spacing(cones.len(), image.len() as f64).unwrap())
+    (
+        common::dice(&found, &cones, &image),
+        found.spacing / hexagonal_spacing(cones.len(), image.len() as f64).unwrap(),
+    )
 }
 
 #[test]
@@ -46,15 +46,10 @@ fn cones_in_coherent_light_are_found() {
         return;
     };
     let folder = tempfile::tempdir().unwrap();
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts/simulate_coherent.py");
-    let done = Command::new(python)
-        .arg(script)
-        .arg(folder.path())
-        .args(["--count", &COUNT.to_string(), "--set"])
-        .args(SETS.map(|s| s.0))
-        .output()
-        .unwrap();
-    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let count = COUNT.to_string();
+    let mut arguments = vec![folder.path().as_os_str(), "--count".as_ref(), count.as_ref(), "--set".as_ref()];
+    arguments.extend(SETS.map(|s| OsStr::new(s.0)));
+    common::run_script(&python, "simulate_coherent.py", &arguments);
 
     for (set, clear, bar) in SETS {
         let images: Vec<(f64, f64)> =

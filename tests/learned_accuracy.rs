@@ -1,7 +1,8 @@
 //! The shipped networks on hand-marked images. They were trained on these: what generalises is in MODEL_CARD.md; what is
 //! tested here is that the program does what the training script judged, and that gamma, noise and scale do it little harm.
 
-use conemosaic::compare::{MatchOptions, validate};
+mod common;
+
 use conemosaic::detect::{DetectOptions, Detector, Modality, detect};
 use conemosaic::geometry::Point;
 use conemosaic::image::{Plane, gaussian, read};
@@ -44,11 +45,7 @@ fn dice(images: &[Marked], modality: Modality, change: impl Fn(&Marked) -> Marke
         let Marked { image, marks } = change(marked);
         let found = detect(&image, &options).unwrap();
         assert!(found.cones.iter().all(|c| c.score > 0. && c.score < 1.));
-        validate(&marks, &found.centres(), image.ncols(), image.nrows(), &MatchOptions::default())
-            .unwrap()
-            .0
-            .rates
-            .dice
+        common::dice(&found, &marks, &image)
     };
     images.par_iter().map(one).collect::<Vec<_>>().iter().sum::<f64>() / images.len() as f64
 }

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::python;
+use common::{python, run_script};
 use conemosaic::detect::{
     Criterion, DetectOptions, Detection, Detections, Detector, detect, flatten, local_maxima, response,
     suppress,
@@ -13,7 +13,6 @@ use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::sync::LazyLock;
 
 /// Planes agree within this part of their range: from σ = 8 px on, Gaussians are not summed pixel by pixel.
@@ -58,9 +57,7 @@ fn ask_oracle(python: &Path, cases: &[Case], out: &Path) {
         writeln!(jobs, "{name},\"{}\",{modality},{},{spacing}", path.display(), polarity.name()).unwrap();
     }
     fs::write(out.join("jobs.csv"), jobs).unwrap();
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts/opencv_oracle.py");
-    let done = Command::new(python).arg(script).arg(out.join("jobs.csv")).arg(out).output().unwrap();
-    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    run_script(python, "opencv_oracle.py", &[out.join("jobs.csv").as_os_str(), out.as_os_str()]);
 }
 
 fn plane(path: PathBuf, like: &Plane) -> Plane {

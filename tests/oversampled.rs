@@ -5,6 +5,8 @@ mod common;
 use conemosaic::detect::{DetectOptions, Detections, Detector, detect};
 use conemosaic::geometry::Point;
 use conemosaic::image::{Plane, crop};
+use image::imageops::{FilterType, resize};
+use image::{ImageBuffer, Luma};
 
 /// The upper left corner, so many px along either side, is black.
 const CORNER: usize = 200;
@@ -12,16 +14,11 @@ const CORNER: usize = 200;
 /// The image with `times` as many pixels along each side, bilinear.
 fn enlarged(image: &Plane, times: usize) -> Plane {
     let (h, w) = image.dim();
-    let source = |k: usize, length: usize| {
-        let place = ((k as f32 + 0.5) / times as f32 - 0.5).clamp(0., (length - 1) as f32);
-        let first = (place as usize).min(length - 2);
-        (first, place - first as f32)
-    };
-    Plane::from_shape_fn((h * times, w * times), |(y, x)| {
-        let ((y, t), (x, s)) = (source(y, h), source(x, w));
-        let along = |y: usize| image[[y, x]] + s * (image[[y, x + 1]] - image[[y, x]]);
-        along(y) + t * (along(y + 1) - along(y))
-    })
+    let buffer = ImageBuffer::<Luma<f32>, _>::from_fn(w as u32, h as u32, |x, y| {
+        Luma([image[[y as usize, x as usize]]])
+    });
+    let large = resize(&buffer, (w * times) as u32, (h * times) as u32, FilterType::Triangle);
+    Plane::from_shape_vec((h * times, w * times), large.into_raw()).unwrap()
 }
 
 /// The part of the cones of an image that are found in its enlargement too, and nothing else besides.

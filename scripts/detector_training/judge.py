@@ -4,7 +4,7 @@ import math
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .marks import density_spacing, inside, logistic, partners, reach
+from .marks import density_spacing, inside, logistic, partners, probability, reach
 from .network import see
 from .plane import SPACING
 from .ring import CLEAR, clarity, profiles
@@ -125,8 +125,8 @@ def calibration(seen, samples, rule, constant, radius):
         x.append((kept[:, 2] - threshold)[counted])
         hit.append(right[counted])
     x, hit = np.concatenate(x), np.concatenate(hit).astype(float)
-    offset, slope = logistic(x, hit)
-    p = 1 / (1 + np.exp(-(offset + slope * x)))
+    offset, slope = fitted = logistic(x, hit)
+    p = probability(fitted, x)
     edges = np.quantile(p, np.linspace(0, 1, 11))
     bins = np.clip(np.searchsorted(edges, p, side='right') - 1, 0, 9)
     table = [(int((bins == b).sum()), float(p[bins == b].mean()), float(hit[bins == b].mean())) for b in range(10)

@@ -124,20 +124,20 @@ impl Validate {
             assignment: self.assignment.parse::<Assignment>().map_err(anyhow::Error::msg)?,
         };
         matching.validate()?;
-        let folder = |folder: &PathBuf, origin: Origin| Detected::Folder {
-            folder: folder.clone(),
+        let files = |path: &PathBuf, origin: Origin| Detected::Files {
+            path: path.clone(),
             read: ReadOptions { origin: Some(origin), ..ReadOptions::default() },
         };
         let detect = self.detect.options()?;
         let detected = match &self.detections {
-            Some(given) => folder(given, self.detections_origin),
+            Some(given) => files(given, self.detections_origin),
             None if self.detections_origin != Origin::Zero => {
                 bail!("--detections-origin {}: there are no --detections", self.detections_origin)
             }
             None => Detected::Detector(detect.clone()),
         };
         let versus = match (&self.versus, &self.versus_detector) {
-            (Some(given), _) => Some(folder(given, self.versus_origin)),
+            (Some(given), _) => Some(files(given, self.versus_origin)),
             (None, Some(name)) => {
                 let detector = name.parse::<Detector>().map_err(anyhow::Error::msg)?;
                 Some(Detected::Detector(DetectOptions { detector, ..detect }))

@@ -196,6 +196,9 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
             })
         })?;
     }
+    let spacing = map.typical();
+    let moved = (spacing / ring.spacing).ln().abs();
+    let clarity = clarity(spacing);
     let mut detections = Detections {
         cones: found.cones,
         rejected: found.rejected,
@@ -204,13 +207,9 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
         detector: if model.is_some() { Detector::Learned } else { Detector::Classical },
         ring_spacing: ring.spacing,
         ring_confidence: ring.confidence,
-        clarity: clarity(map.typical()),
-        spacing_confidence: calibration::spacing(
-            ring.confidence,
-            (map.typical() / ring.spacing).ln().abs(),
-            clarity(map.typical()),
-        ),
-        spacing: map.typical(),
+        clarity,
+        spacing_confidence: calibration::spacing(ring.confidence, moved, clarity),
+        spacing,
         spacing_map: map,
     };
     if view.block > 1 {

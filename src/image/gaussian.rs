@@ -32,8 +32,7 @@ fn half_kernel(sigma: f64) -> Vec<f32> {
 fn weigh_rows<'a>(out: &mut [f32], kernel: &[f32], row: impl Fn(isize) -> &'a [f32]) {
     let pairs = kernel.iter().enumerate().map(|(k, &weight)| {
         let k = k as isize;
-        // the middle row stands for both of its pair
-        Pair { before: row(-k), after: row(k), weight: if k == 0 { 0.5 * weight } else { weight } }
+        if k == 0 { Pair::alone(row(0), weight) } else { Pair { before: row(-k), after: row(k), weight } }
     });
     weigh(out, &pairs.collect::<Vec<_>>());
 }
@@ -43,6 +42,13 @@ struct Pair<'a> {
     before: &'a [f32],
     after: &'a [f32],
     weight: f32,
+}
+
+impl<'a> Pair<'a> {
+    /// The row that is computed stands for both.
+    const fn alone(row: &'a [f32], weight: f32) -> Self {
+        Self { before: row, after: row, weight: 0.5 * weight }
+    }
 }
 
 /// The weighted sum of pairs of rows. By the widest registers that the processor has; every sum is added up in the same order on all
@@ -164,11 +170,11 @@ impl Coarse {
         i + self.reach - 2
     }
 
-    /// First of the four samples around every pixel, and their weights.
-    fn cubics(length: usize, step: usize) -> Vec<(usize, [f32; 4])> {
+    /// First of the four samples around every pixel of the side, and their weights.
+    fn cubics(&self, length: usize) -> Vec<(usize, [f32; 4])> {
         (0..length)
             .map(|x| {
-                let position = (x as f64 + 0.5) / step as f64 - 0.5 + 2.;
+                let position = (x as f64 + 0.5) / self.step as f64 - 0.5 + 2.;
                 let cell = position.floor();
                 (cell as usize - 1, catmull_rom((position - cell) as f32))
             })
@@ -179,7 +185,7 @@ impl Coarse {
 fn coarse_rows(plane: &Plane, sigma: f64, step: usize) -> Plane {
     let (h, w) = plane.dim();
     let grid = Coarse::new(w, sigma, step);
-    let cubics = Coarse::cubics(w, step);
+    let cubics = grid.cubics(w);
     let plane = plane.as_standard_layout();
     let data = plane.as_slice().unwrap_or_default();
     fill_rows(h, w, |y, out| {
@@ -206,11 +212,10 @@ fn coarse(plane: &Plane, sigma: f64, step: usize) -> Plane {
             let y = mirror((grid.first(i) + k) as isize - grid.frame() as isize, h);
             &data[y * w..(y + 1) * w]
         };
-        // both halves of a hat are alike; a row in its middle stands for both of its pair
-        let pairs = (0..=last / 2).map(|k| Pair {
-            before: row(k),
-            after: row(last - k),
-            weight: if 2 * k == last { 0.5 * grid.hat[k] } else { grid.hat[k] },
+        // both halves of a hat are alike
+        let pairs = grid.hat[..=last / 2].iter().enumerate().map(|(k, &weight)| match last - k {
+            opposite if opposite == k => Pair::alone(row(k), weight),
+            opposite => Pair { before: row(k), after: row(opposite), weight },
         });
         weigh(out, &pairs.collect::<Vec<_>>());
     });
@@ -223,7 +228,7 @@ fn coarse(plane: &Plane, sigma: f64, step: usize) -> Plane {
     });
     let coarse = coarse_rows(&coarse, sigma, step);
     let coarse = coarse.as_slice().unwrap_or_default();
-    let cubics = Coarse::cubics(h, step);
+    let cubics = grid.cubics(h);
     fill_rows(h, w, |y, out| {
         let (at, [a, b, c, d]) = cubics[y];
         let row = |j: usize| &coarse[(at + j) * w..(at + j + 1) * w];

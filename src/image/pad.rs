@@ -1,5 +1,5 @@
 use super::{Plane, fill_rows};
-use ndarray::Axis;
+use ndarray::{Axis, Zip};
 
 /// The index inside `0..length` that a mirror at the edges shows at `index`, the edge pixel repeated
 /// (… 1 0 | 0 1 2 … n−1 | n−1 …): OpenCV's BORDER_REFLECT. `length` must not be 0.
@@ -49,15 +49,8 @@ pub fn crop(plane: &Plane, top: usize, left: usize, height: usize, width: usize)
 
 /// Means over blocks of `block` × `block` px. What does not fill a block at the right and below is left out. `block` must not be 0.
 pub fn block_means(plane: &Plane, block: usize) -> Plane {
-    let (height, width) = (plane.nrows() / block, plane.ncols() / block);
     let share = 1. / (block * block) as f32;
-    fill_rows(height, width, |y, out| {
-        for row in plane.slice_axis(Axis(0), (y * block..(y + 1) * block).into()).rows() {
-            for (o, x) in out.iter_mut().zip((0..).step_by(block)) {
-                *o += share * row.slice_axis(Axis(0), (x..x + block).into()).sum();
-            }
-        }
-    })
+    Zip::from(plane.exact_chunks((block, block))).map_collect(|pixels| share * pixels.sum())
 }
 
 #[cfg(test)]

@@ -2,6 +2,9 @@
 #![allow(dead_code)]
 
 use assert_cmd::Command;
+use conemosaic::compare::{MatchOptions, validate};
+use conemosaic::detect::Detections;
+use conemosaic::geometry::Point;
 use conemosaic::image::Plane;
 use conemosaic::mosaic::hexagonal_spacing;
 use conemosaic::render::{PRESETS, RenderOptions, simulate};
@@ -164,6 +167,22 @@ pub fn python() -> Option<PathBuf> {
     }
     let usual = Path::new(env!("CARGO_MANIFEST_DIR")).join(".venv/bin/python");
     usual.exists().then_some(usual)
+}
+
+/// A script of the project's, run to its end.
+pub fn run_script(python: &Path, script: &str, arguments: &[&std::ffi::OsStr]) {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts").join(script);
+    let done = Command::new(python).arg(script).args(arguments).output().unwrap();
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+}
+
+/// Dice coefficient of detections in an image against marks.
+pub fn dice(found: &Detections, marks: &[Point], image: &Plane) -> f64 {
+    validate(marks, &found.centres(), image.ncols(), image.nrows(), &MatchOptions::default())
+        .unwrap()
+        .0
+        .rates
+        .dice
 }
 
 pub fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {

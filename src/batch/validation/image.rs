@@ -115,8 +115,7 @@ fn expected(scores: &[f64], matching: &Matching) -> Option<f64> {
 fn picture(input: &Input, pairs: &Pairs, pixels_matter: bool) -> Result<Plane, BatchError> {
     let name = image_name(&input.path);
     let missing = || match (&pairs.options.images, pixels_matter) {
-        (Some(file), _) if file.is_file() => format!("{} is not called like it", file.display()),
-        (Some(folder), _) => format!("no image {name}.png or {name}.tif in {}", folder.display()),
+        (Some(given), _) => nothing_in(given, &format!("image {name}.png or {name}.tif")),
         (None, true) => format!("no image {name}.png or {name}.tif beside it: give --images"),
         (None, false) => {
             "no image of that name beside it to take the size from: give --size WxH or --images".into()
@@ -128,6 +127,16 @@ fn picture(input: &Input, pairs: &Pairs, pixels_matter: bool) -> Result<Plane, B
     Ok(read_image(&Input { path, name })?.1)
 }
 
+/// Why what was sought is not there: in a folder, or as a file.
+fn nothing_in(given: &Path, sought: &str) -> String {
+    let given_as = given.display();
+    if given.is_file() {
+        format!("{given_as} is not called like it")
+    } else {
+        format!("no {sought} in {given_as}")
+    }
+}
+
 fn find(
     input: &Input,
     detected: &Detected,
@@ -136,13 +145,9 @@ fn find(
 ) -> Result<Found, BatchError> {
     let missing = |problem: String| BatchError::Pairing { file: input.path.clone(), problem };
     match (detected, image) {
-        (Detected::Folder { folder, read: options }, _) => {
+        (Detected::Files { path: given, read: options }, _) => {
             let path = pairs.detections(&input.path, detected).ok_or_else(|| {
-                missing(if folder.is_file() {
-                    format!("{} is not called like it", folder.display())
-                } else {
-                    format!("no detections {}.csv in {}", image_name(&input.path), folder.display())
-                })
+                missing(nothing_in(given, &format!("detections {}.csv", image_name(&input.path))))
             })?;
             read(&path, options)
         }

@@ -24,9 +24,9 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Debug)]
 pub enum Detected {
     /// Coordinate files NAME.csv of any program, with or without a column `score`.
-    Folder {
-        /// The folder, or the only file.
-        folder: PathBuf,
+    Files {
+        /// Their folder, or the only one.
+        path: PathBuf,
         /// How its files are to be understood.
         read: ReadOptions,
     },
@@ -38,7 +38,7 @@ impl Detected {
     /// In a word or two.
     fn label(&self) -> String {
         match self {
-            Self::Folder { folder, .. } => folder.display().to_string(),
+            Self::Files { path, .. } => path.display().to_string(),
             Self::Detector(options) => format!("detector {}", options.detector),
         }
     }
@@ -127,12 +127,12 @@ pub fn validate_files(
     out: &Path,
     progress: &dyn Progress,
 ) -> Result<ValidationOutcome, BatchError> {
-    let folder_of = |detected: &Detected| match detected {
-        Detected::Folder { folder, .. } => Some(folder.clone()),
+    let path_of = |detected: &Detected| match detected {
+        Detected::Files { path, .. } => Some(path.clone()),
         Detected::Detector(_) => None,
     };
     let detections = [Some(&options.detected), options.versus.as_ref()].into_iter().flatten();
-    for path in detections.filter_map(folder_of).chain(options.images.clone()) {
+    for path in detections.filter_map(path_of).chain(options.images.clone()) {
         let readable =
             if path.is_file() { std::fs::File::open(&path).map(drop) } else { path.read_dir().map(drop) };
         readable.map_err(|source| BatchError::Unreadable { path: path.clone(), source })?;

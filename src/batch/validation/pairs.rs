@@ -51,27 +51,35 @@ impl Pairs<'_> {
     /// The image that belongs to a file of marks.
     pub fn image(&self, marks: &Path) -> Option<PathBuf> {
         match &self.options.images {
-            Some(file) if file.is_file() => self.belongs(file, marks).then(|| file.clone()),
-            Some(folder) => {
-                self.places(marks, folder).into_iter().find_map(|f| image_in(&f, &image_name(marks)))
-            }
+            Some(given) => self.sought(given, marks, |folder| image_in(folder, &image_name(marks))),
             None => image_beside(marks),
         }
     }
 
     /// The file of detections that belongs to a file of marks, never that file itself.
     pub fn detections(&self, marks: &Path, detected: &Detected) -> Option<PathBuf> {
-        let Detected::Folder { folder, .. } = detected else { return None };
+        let Detected::Files { path: given, .. } = detected else { return None };
         let name = image_name(marks);
         let own = marks.canonicalize().ok();
-        if folder.is_file() {
-            return (self.belongs(folder, marks) && folder.canonicalize().ok() != own)
-                .then(|| folder.clone());
+        let is_other = |path: &PathBuf| path.canonicalize().ok() != own;
+        let in_folder = |folder: &Path| {
+            let files = [folder.join(format!("{name}.csv")), folder.join(format!("{name}_coords.csv"))];
+            files.into_iter().find(|path| path.is_file() && is_other(path))
+        };
+        self.sought(given, marks, in_folder).filter(is_other)
+    }
+
+    /// The given file, if it belongs to a file of marks, or what `in_folder` finds in a given folder.
+    fn sought(
+        &self,
+        given: &Path,
+        marks: &Path,
+        in_folder: impl Fn(&Path) -> Option<PathBuf>,
+    ) -> Option<PathBuf> {
+        if given.is_file() {
+            return self.belongs(given, marks).then(|| given.to_owned());
         }
-        self.places(marks, folder)
-            .into_iter()
-            .flat_map(|f| [f.join(format!("{name}.csv")), f.join(format!("{name}_coords.csv"))])
-            .find(|path| path.is_file() && path.canonicalize().ok() != own)
+        self.places(marks, given).iter().find_map(|folder| in_folder(folder))
     }
 
     /// Whether a file that was given instead of a folder belongs to a file of marks: to the only one, whatever their names.

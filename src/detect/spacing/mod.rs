@@ -14,7 +14,7 @@ pub use fourier::{
 pub use map::SpacingMap;
 pub use refine::BORDER;
 pub(super) use refine::{Start, refined_map};
-pub(in crate::detect) use ring::{AROUND, CLEAR};
+pub(in crate::detect) use ring::{AROUND, CLEAR, PERIODS};
 pub use ring::{RingEstimate, RingProfile};
 pub(super) use ring_network::weights as ring_weights;
 pub(super) use rings::Rings;

@@ -12,7 +12,7 @@ const LONGEST_PERIOD: f64 = 64.;
 /// Up to half a cycle per pixel.
 pub(super) const BINS: usize = 121;
 /// A ring of fewer periods than this across the image cannot be told from uneven illumination.
-const PERIODS: f64 = 5.;
+pub(in crate::detect) const PERIODS: f64 = 5.;
 /// Probability that the true spacing is closer than the least that a count may show: below it, more cones are more likely noise.
 /// Smaller on marked images is better by .0002 (split detector), on noisy simulated ones worse by up to .03.
 const CLOSER: f64 = 0.15;
