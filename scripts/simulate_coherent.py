@@ -145,20 +145,25 @@ def simulate(conditions, rng):
 
 
 def write(job):
-    out, name, number = job
+    out, simulate, conditions, name, number = job
     cv2.setNumThreads(1)  # images are made side by side instead
-    image, cones = simulate(SETS[name], np.random.default_rng([number, *name.encode()]))
+    image, cones = simulate(conditions, np.random.default_rng([number, *name.encode()]))
     stem = f'{out}/{name}_{number:02}'
     cv2.imwrite(f'{stem}.png', image)
     np.savetxt(f'{stem}.csv', cones, '%.3f', ',', header='x,y', comments='')
 
 
-if __name__ == '__main__':
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def main(description, sets, simulate):
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('out', metavar='OUT', type=Path)
-    parser.add_argument('--set', nargs='+', choices=SETS, default=list(SETS), metavar='NAME', help=', '.join(SETS))
+    parser.add_argument('--set', nargs='+', choices=sets, default=list(sets), metavar='NAME', help=', '.join(sets))
     parser.add_argument('--count', type=int, default=12, metavar='N')
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
+    jobs = [(options.out, simulate, sets[name], name, k) for name in options.set for k in range(options.count)]
     with multiprocessing.Pool() as pool:
-        pool.map(write, [(options.out, name, k) for name in options.set for k in range(options.count)], chunksize=1)
+        pool.map(write, jobs, chunksize=1)
+
+
+if __name__ == '__main__':
+    main(__doc__, SETS, simulate)

@@ -19,13 +19,10 @@ struct Marked {
 
 /// Images spread over all subjects; none where there are no data.
 fn marked(modality: Modality, count: usize) -> Vec<Marked> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/aoslo").join(modality.name());
-    let Ok(entries) = std::fs::read_dir(&folder) else {
-        println!("SKIPPED accuracy of the learned detector: ../shared is not here");
-        return Vec::new();
-    };
-    let mut paths: Vec<PathBuf> =
-        entries.map(|e| e.unwrap().path()).filter(|p| p.extension().is_some_and(|e| e == "png")).collect();
+    let folder = format!("data/aoslo/{modality}");
+    let Some(folder) = common::shared(&folder, "accuracy of the learned detector") else { return Vec::new() };
+    let entries = std::fs::read_dir(&folder).unwrap().map(|e| e.unwrap().path());
+    let mut paths: Vec<PathBuf> = entries.filter(|p| p.extension().is_some_and(|e| e == "png")).collect();
     paths.sort();
     let load = |k: usize| {
         let path = &paths[(2 * k + 1) * paths.len() / (2 * count)];

@@ -146,6 +146,8 @@ def draw(sample, recipe, rng):
             out[0] *= -1
     if rng.random() < 0.5:
         out = out[:, ::-1]
-    if recipe.modality == 'confocal' and rng.random() < 0.5:
+    if recipe.modality != 'split' and rng.random() < 0.5:
         out = out.transpose(0, 2, 1)
+    if recipe.modality == 'histology' and rng.random() < 0.5:  # stains make cells darker than the ground, or brighter
+        out[0] *= -1
     return np.ascontiguousarray(out)

@@ -1,5 +1,6 @@
 """Detection as src/detect/learned does it, and how well it agrees with marks."""
 import math
+from typing import NamedTuple
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -12,9 +13,16 @@ from .ring import CLEAR, clarity, profiles
 CANDIDATE = -4.5       # logits below are never cones
 RELATIVE_FLOOR, RELATIVE_RADIUS = -2.5, 0.45  # candidates that the image-relative threshold is counted from
 RADII = (0.45, 0.5, 0.55)
-GRIDS = {'absolute': np.arange(-2.4, -0.39, 0.1), 'relative': np.arange(0.8, 2.41, 0.1)}
-RULES = {'confocal': 'absolute', 'split': 'relative'}
-IN_NOISE = {'absolute': 0.2, 'relative': 0}  # by how much the threshold rises per unit of clarity that is missing
+GRIDS = {'absolute': np.arange(-2.4, 1.01, 0.1), 'relative': np.arange(0.8, 2.41, 0.1)}
+
+
+class Rule(NamedTuple):
+    """From which logit on a maximum is a cone."""
+    kind: str          # absolute; relative: so far below the upper quartile of the image's stronger maxima
+    in_noise: float    # by how much the threshold rises per unit of clarity that is missing
+
+
+RULES = {'confocal': Rule('absolute', 0.2), 'split': Rule('relative', 0), 'histology': Rule('absolute', 0)}
 START = {'absolute': -1.2, 'relative': 1.6}  # while the constants are not yet chosen
 
 
@@ -50,7 +58,7 @@ def suppress(found, radius):
 
 
 def threshold_of(found, rule, constant):
-    if rule == 'absolute':
+    if rule.kind == 'absolute':
         return constant
     strong = suppress(found[found[:, 2] > RELATIVE_FLOOR], RELATIVE_RADIUS * SPACING)
     return np.percentile(strong[:, 2], 75) - constant if len(strong) else np.inf
@@ -65,13 +73,13 @@ def look(image, start, network, rule, sign, passes=3):
     """All maxima, at the spacing that the network arrives at from `start`. In noise the threshold rises: here the logits
     fall instead, so that one threshold serves all images."""
     following = start
-    profile = profiles(image)[0] if IN_NOISE[rule] else None
+    profile = profiles(image)[0] if rule.in_noise else None
     for _ in range(passes):
         spacing = following
         found = candidates(see(image, spacing, network, sign), CANDIDATE)
-        if IN_NOISE[rule]:
-            found[:, 2] -= IN_NOISE[rule] * max(0, CLEAR - clarity(profile, spacing))
-        cones = suppress(found[found[:, 2] > threshold_of(found, rule, START[rule])], 0.5 * SPACING)
+        if rule.in_noise:
+            found[:, 2] -= rule.in_noise * max(0, CLEAR - clarity(profile, spacing))
+        cones = suppress(found[found[:, 2] > threshold_of(found, rule, START[rule.kind])], 0.5 * SPACING)
         following = density_spacing(places(cones, spacing), image.shape)
         low, high = (start * math.exp(side) for side in (-0.35, 0.35))
         following = min(max(following, low, 4), high, 40)
@@ -107,7 +115,7 @@ def judge(seen, samples, rule, constants, radius):
         where = places(kept, spacing)
         zero = threshold_of(found, rule, 0)
         for row, constant in enumerate(constants):
-            threshold = constant if rule == 'absolute' else zero - constant
+            threshold = constant if rule.kind == 'absolute' else zero - constant
             out[row, column] = dice(where[kept[:, 2] > threshold], sample.marks, sample.image.shape)
     return out
 
@@ -141,8 +149,8 @@ def calibration(seen, samples, rule, constant, radius):
 def summary(seen, disturbed, samples, folds, rule):
     """Scores of all seeds, and the words of the weights' header: the constants best over all seeds, the best seed.
     `disturbed`: of the first seed, by the name of an image and of a disturbance."""
-    choices = [(round(float(c), 3), r) for r in RADII for c in GRIDS[rule]]
-    scores = np.array([np.concatenate([judge(part, samples, rule, GRIDS[rule], r) for r in RADII]) for part in seen])
+    choices = [(round(float(c), 3), r) for r in RADII for c in GRIDS[rule.kind]]
+    scores = np.array([np.concatenate([judge(part, samples, rule, GRIDS[rule.kind], r) for r in RADII]) for part in seen])
     member = np.array([[s.subject in fold for s in samples] for fold in folds])
     by_fold = lambda values: np.stack([values[..., m].mean(-1) for m in member], -1)
     folded = by_fold(scores)  # seeds × choices × folds
@@ -184,4 +192,4 @@ def summary(seen, disturbed, samples, folds, rule):
     } | reliable
     return result, {
         'threshold': constant, 'suppression': radius, 'relative_floor': RELATIVE_FLOOR, 'relative_radius': RELATIVE_RADIUS,
-        'threshold_in_noise': IN_NOISE[rule], 'seed': seed + 1, 'dice': f'{nested.mean():.4f}', 'classical_dice': f'{by_fold(baseline).mean():.4f}'} | words
+        'threshold_in_noise': rule.in_noise, 'seed': seed + 1, 'classical_dice': f'{by_fold(baseline).mean():.4f}'} | words

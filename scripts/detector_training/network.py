@@ -111,11 +111,14 @@ class Mean(torch.nn.Module):
 
 
 def write(path, network, metadata, sign):
-    """Safetensors: weights as out, in, height, width; besides a small image with 10 px between cones and the logits it
-    gives, for the program's tests to make again."""
+    """Safetensors: weights as out, in, height, width; and beside them, as .example.safetensors, a small image with 10 px between
+    cones and the logits it gives, for the program's tests to make again."""
     image = gaussian(np.random.default_rng(1).random((44, 40), np.float32), 1.5)
-    tensors = {name: value.numpy() for name, value in network.state_dict().items()}
-    tensors |= {'example.image': image, 'example.logits': see(image, 10.0, network, sign)}
+    safetensors(path, {name: value.numpy() for name, value in network.state_dict().items()}, metadata)
+    safetensors(Path(path).with_suffix('.example.safetensors'), {'image': image, 'logits': see(image, 10.0, network, sign)}, {})
+
+
+def safetensors(path, tensors, metadata):
     header, blob = {'__metadata__': {k: str(v) for k, v in metadata.items()}}, b''
     for name, value in tensors.items():
         value = np.ascontiguousarray(value, '<f4')

@@ -38,9 +38,9 @@ use view::View;
 pub const MIN_SIDE: usize = 24;
 
 /// The weights compiled into the program: results depend on them.
-pub const fn weights() -> [&'static [u8]; 3] {
-    let [confocal, split] = learned::weights();
-    [confocal, split, spacing::ring_weights()]
+pub const fn weights() -> [&'static [u8]; 4] {
+    let [confocal, split, histology] = learned::weights();
+    [confocal, split, histology, spacing::ring_weights()]
 }
 
 /// Spacings that differ by less than this part are the same.
@@ -89,9 +89,6 @@ pub enum DetectError {
     /// The spectrum shows no ring.
     #[error("the spectrum of the image has no ring between {low} and {high} px: it shows no regular mosaic", low = SPACING_RANGE.0, high = SPACING_RANGE.1)]
     NoRing,
-    /// No network has been trained for this modality.
-    #[error("there is no learned detector for {0} images: use classical or auto")]
-    NotLearned(Modality),
     /// A model that would not be used.
     #[error("the classical detector uses no model: leave out the one or the other")]
     Unused,
@@ -164,7 +161,7 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
 /// The cones of a view, in px of the image.
 fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, DetectError> {
     let (field, rings) = (view.field(), &view.rings);
-    let (modality, polarity) =
+    let (modality, mut polarity) =
         modality::decide(rings.sample(), rings.whole(), options.modality, options.polarity);
     let ring = rings.whole().spacing();
     let given = options.spacing.map(|s| s / view.block as f64);
@@ -173,30 +170,40 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
         Some(spacing) => Start { map: SpacingMap::constant(spacing), least: 0. },
     };
     let clarity = |spacing: f64| rings.whole().clarity(spacing);
-    let filtered =
-        |part: &Plane, spacing: f64| Ok(filter::cones(part, modality, polarity, spacing, clarity(spacing)));
-    let (mut found, mut map) = field.until_settled(&start, SETTLED, filtered)?;
+    let model = model_for(options, modality)?;
+    let search = |start: &Start, model: Option<&learned::Model>| match model {
+        None => field.until_settled(start, SETTLED, |part, spacing| {
+            Ok(filter::cones(part, modality, polarity, spacing, clarity(spacing)))
+        }),
+        Some(model) => field.until_settled(start, LEARNED_SETTLED, |part, spacing| {
+            model.cones(part, polarity, spacing, clarity(spacing)).map_err(|source| match &options.model {
+                Some(own) => DetectError::Model { name: own.name().to_owned(), source },
+                None => DetectError::Weights { modality, source },
+            })
+        }),
+    };
+    // waveguides and inner segments are counted well enough by the quick filter; that of discs counts rods and gaps too
+    let first = model.filter(|_| modality == Modality::Histology);
+    let (mut found, mut map) = search(&start, first)?;
     if given.is_none()
         && let Some(other) = start.contradicted_by(&found.centres(), field.image.dim(), field.empty)
     {
         // ring and density cannot both be right: the more regular mosaic is
-        let searched = field.until_settled(&other, SETTLED, filtered)?;
+        let searched = search(&other, first)?;
         let dim = field.image.dim();
         if regularity(&searched.0.centres(), dim) > regularity(&found.centres(), dim) {
             (found, map) = searched;
             start = other;
         }
     }
-    let model = model_for(options, modality)?;
-    if let Some(model) = model {
-        (found, map) = field.until_settled(&Start { map, ..start }, LEARNED_SETTLED, |part, spacing| {
-            model.cones(part, polarity, spacing, clarity(spacing)).map_err(|source| match &options.model {
-                Some(own) => DetectError::Model { name: own.name().to_owned(), source },
-                None => DetectError::Weights { modality, source },
-            })
-        })?;
+    if first.is_none() && model.is_some() {
+        (found, map) = search(&Start { map, ..start }, model)?;
     }
     let spacing = map.typical();
+    // the network finds dark cells as well as bright ones, and cells tell better than gaps what they are
+    if first.is_some() && options.polarity.is_none() {
+        polarity = modality::of_cells(field.image, &found.centres(), spacing);
+    }
     let moved = (spacing / ring.spacing).ln().abs();
     let clarity = clarity(spacing);
     let mut detections = Detections {
@@ -223,13 +230,11 @@ fn model_for(options: &DetectOptions, modality: Modality) -> Result<Option<&lear
     if let Some(model) = options.model.as_ref().and_then(|m| m.for_modality(modality)) {
         return Ok(Some(model));
     }
-    let model = || learned::model(modality).map_err(|source| DetectError::Weights { modality, source });
-    match options.detector {
-        Detector::Classical => Ok(None),
-        Detector::Auto if !learned::is_better(modality) => Ok(None),
-        Detector::Auto => model(),
-        Detector::Learned => model()?.map(Some).ok_or(DetectError::NotLearned(modality)),
+    if options.detector == Detector::Classical {
+        return Ok(None);
     }
+    let model = learned::model(modality).map_err(|source| DetectError::Weights { modality, source })?;
+    Ok((options.detector == Detector::Learned || model.better).then_some(model))
 }
 
 fn check(image: &Plane) -> Result<(), DetectError> {

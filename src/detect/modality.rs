@@ -6,6 +6,7 @@
 
 use super::spacing::{AROUND as AROUND_RING, RingProfile};
 use super::{Modality, Polarity, filter, flatten::normalise, local_maxima, suppress};
+use crate::geometry::Point;
 use crate::image::{Plane, gaussian};
 
 /// Widths of Gaussians, in spacings: of slopes, fine and coarse, and of grey values that noise must not blur.
@@ -14,6 +15,9 @@ const COARSE: f64 = 0.2;
 const GREY: f64 = 0.08;
 /// Neighbourhood, in spacings, in which grey values are compared.
 const AROUND: f64 = 1.5;
+/// Widths of Gaussians, in spacings: within a cut cell, and beyond its walls.
+const MIDDLE: f64 = 0.1;
+const CELL: f64 = 0.5;
 /// Maxima lower than this part of their median are not cones.
 const CONE: f64 = 0.3;
 
@@ -49,6 +53,18 @@ pub(super) fn decide(
     let polarity =
         polarity.unwrap_or_else(|| if evidence() >= 0. { Polarity::Positive } else { Polarity::Negative });
     (modality, polarity)
+}
+
+/// The polarity of cut cells whose centres are known: whether they are brighter there than all around.
+pub(super) fn of_cells(image: &Plane, centres: &[Point], spacing: f64) -> Polarity {
+    let [middle, around] = [MIDDLE, CELL].map(|width| gaussian(image, width * spacing));
+    let (height, width) = image.dim();
+    let pixel = |place: f64, length: usize| (place.round().max(0.) as usize).min(length - 1);
+    let height_at = |p: &Point| {
+        let at = [pixel(p.y, height), pixel(p.x, width)];
+        f64::from(middle[at] - around[at])
+    };
+    if centres.iter().map(height_at).sum::<f64>() >= 0. { Polarity::Positive } else { Polarity::Negative }
 }
 
 /// What tells images apart.

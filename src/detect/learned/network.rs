@@ -181,7 +181,6 @@ fn pieces(length: usize, longest: usize, reach: usize) -> Vec<Piece> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{CONFOCAL, SPLIT};
     use super::*;
 
     #[test]
@@ -189,7 +188,7 @@ mod tests {
         let seen = Plane::from_shape_fn((93, 121), |(y, x)| {
             (0.7 * x as f32).sin() * (0.6 * y as f32).cos() + ((x * 31 + y * 17) % 13) as f32 / 13.
         });
-        for file in [CONFOCAL, SPLIT] {
+        for file in super::super::weights() {
             let network = Network::new(&Weights::read(file).unwrap()).unwrap();
             let whole = network.logits_by_pieces(&seen, 200);
             let cut = network.logits_by_pieces(&seen, 40);

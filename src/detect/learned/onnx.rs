@@ -64,6 +64,7 @@ impl Model {
             modality,
             // nothing is known of its errors: the score is the network's own probability
             calibration: Logistic { offset: logit, slope: 1. },
+            better: false,
         })
     }
 }

@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 /// Bins that a convolution looks at.
 const TAPS: usize = 25;
 /// Channels into and out of the convolutions: power in all directions, along x and across; the score of a spacing.
-const WIDTHS: [usize; 4] = [3, 8, 8, 1];
+const WIDTHS: [usize; 4] = [3, 16, 16, 1];
 
 /// Weights (out × in × taps) and biases of one convolution after the other: 32-bit floats, little endian.
 static FILE: &[u8; 4 * COUNT] = include_bytes!("ring.f32");

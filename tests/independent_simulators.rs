@@ -1,0 +1,110 @@
+//! Detection on images of two simulators that share nothing with `render`: fields of coherent light that add up
+//! (`scripts/simulate_coherent.py`), and a plane divided among cut cells (`scripts/simulate_cut_cells.py`). No weights, thresholds or
+//! constants were fitted to these images; two ways to train the confocal network were given up partly because of the former, and
+//! the latter showed that histology needed a network.
+
+mod common;
+
+use conemosaic::detect::{DetectOptions, Modality, detect};
+use conemosaic::image::read;
+use conemosaic::mosaic::hexagonal_spacing;
+use conemosaic::mosaic::io::{Origin, ReadOptions, read_coordinates};
+use rayon::prelude::*;
+use std::ffi::OsStr;
+use std::path::Path;
+
+/// Images of each set.
+const COUNT: usize = 4;
+/// How far off the spacing of a clear image may be.
+const TOLERANCE: f64 = 1.15;
+
+struct Set {
+    name: &'static str,
+    /// The spacing of every image must be right, and the modality, if one is named.
+    clear: bool,
+    modality: Option<Modality>,
+    /// Lowest mean Dice coefficient.
+    dice: f64,
+}
+
+const fn set(name: &'static str, clear: bool, modality: Option<Modality>, dice: f64) -> Set {
+    Set { name, clear, modality, dice }
+}
+
+/// What was found in an image, everything left to the program.
+#[derive(Debug)]
+struct Judged {
+    dice: f64,
+    /// Spacing found over true spacing.
+    spacing: f64,
+    modality: Modality,
+}
+
+fn judged(folder: &Path, name: &str) -> Judged {
+    let image = read(&folder.join(format!("{name}.png"))).unwrap();
+    let options = ReadOptions { origin: Some(Origin::Zero), ..ReadOptions::default() };
+    let cones = read_coordinates(&folder.join(format!("{name}.csv")), &options).unwrap().points;
+    let found = detect(&image, &DetectOptions::default()).unwrap();
+    Judged {
+        dice: common::dice(&found, &cones, &image),
+        spacing: found.spacing / hexagonal_spacing(cones.len(), image.len() as f64).unwrap(),
+        modality: found.modality,
+    }
+}
+
+fn check(script: &str, sets: &[Set]) {
+    let Some(python) = common::python() else {
+        println!("SKIPPED images of {script}: no Python with OpenCV here, run scripts/test");
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let count = COUNT.to_string();
+    let mut arguments = vec![folder.path().as_os_str(), "--count".as_ref(), count.as_ref(), "--set".as_ref()];
+    arguments.extend(sets.iter().map(|s| OsStr::new(s.name)));
+    common::run_script(&python, script, &arguments);
+
+    for Set { name, clear, modality, dice } in sets {
+        let images: Vec<Judged> =
+            (0..COUNT).into_par_iter().map(|k| judged(folder.path(), &format!("{name}_{k:02}"))).collect();
+        let mean = images.iter().map(|i| i.dice).sum::<f64>() / COUNT as f64;
+        println!("{name}: mean Dice {mean:.4}, {images:.3?}");
+        assert!(mean >= *dice, "{name}: mean Dice {mean:.4}, expected {dice}");
+        if *clear {
+            assert!(images.iter().all(|i| i.spacing.ln().abs() < TOLERANCE.ln()), "{name}: {images:.3?}");
+        }
+        if let Some(modality) = modality {
+            assert!(images.iter().all(|i| i.modality == *modality), "{name}: {images:.3?}");
+        }
+    }
+}
+
+#[test]
+fn cones_in_coherent_light_are_found() {
+    // the hardest set is left out
+    check(
+        "simulate_coherent.py",
+        &[
+            set("fovea", true, Some(Modality::Confocal), 0.99),
+            set("fovea-noisy", false, None, 0.95),
+            set("fovea-medium", false, None, 0.97),
+            set("parafovea", true, Some(Modality::Confocal), 0.995),
+            set("parafovea-medium", false, None, 0.965),
+            set("periphery", true, Some(Modality::Confocal), 0.993),
+        ],
+    );
+}
+
+#[test]
+fn cut_cells_are_found() {
+    // interference contrast may look like a split detector's
+    check(
+        "simulate_cut_cells.py",
+        &[
+            set("packed", true, Some(Modality::Histology), 0.95),
+            set("dark", true, Some(Modality::Histology), 0.99),
+            set("dark-wall", true, Some(Modality::Histology), 0.95),
+            set("bright-wall", true, Some(Modality::Histology), 0.95),
+            set("interference", true, None, 0.99),
+        ],
+    );
+}
