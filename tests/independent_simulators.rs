@@ -100,11 +100,11 @@ fn cut_cells_are_found() {
     check(
         "simulate_cut_cells.py",
         &[
-            set("packed", true, Some(Modality::Histology), 0.95),
-            set("dark", true, Some(Modality::Histology), 0.99),
-            set("dark-wall", true, Some(Modality::Histology), 0.95),
-            set("bright-wall", true, Some(Modality::Histology), 0.95),
-            set("interference", true, None, 0.99),
+            set("packed", true, Some(Modality::Histology), 0.98),
+            set("dark", true, Some(Modality::Histology), 0.995),
+            set("dark-wall", true, Some(Modality::Histology), 0.92),
+            set("bright-wall", true, Some(Modality::Histology), 0.93),
+            set("interference", true, None, 0.995),
         ],
     );
 }

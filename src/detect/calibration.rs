@@ -26,17 +26,17 @@ pub(super) fn spacing(sure: f64, moved: f64, clarity: f64) -> f64 {
     let sure = sure.clamp(0.001, 0.999);
     let sure = (sure / (1. - sure)).ln();
     let unclear = (1. - clarity).max(0.);
-    Logistic { offset: 0.9, slope: 1. }.at(0.887 * sure - 7.93 * moved - 10.69 * unclear)
+    Logistic { offset: 1.353, slope: 1. }.at(0.817 * sure - 9.326 * moved - 10.755 * unclear)
 }
 
 /// The probability by the height of the classical filter's response, given the `cones` of the image, highest first, and how high
 /// a cone had to be. Constants by scripts/fit-calibration from hand-marked images (histology: simulated ones); on subjects left
-/// out, the expected calibration error is .0014 (confocal), .008 (split), .0012 (histology).
+/// out, the expected calibration error is .0014 (confocal), .009 (split), .008 (histology).
 pub(super) fn classical(modality: Modality, cones: &[Detection], least: f64) -> impl Fn(f64) -> f64 + use<> {
     let median = cones.get(cones.len() / 2).map_or(1., |d| d.score).max(f64::MIN_POSITIVE);
     move |score| match modality {
         Modality::Confocal => Logistic { offset: 1.172, slope: 7.610 }.at(score / median),
         Modality::Split => Logistic { offset: 0.270, slope: 4.226 }.at(score - least),
-        Modality::Histology => Logistic { offset: -2.224, slope: 9.142 }.at(score / median),
+        Modality::Histology => Logistic { offset: -2.302, slope: 6.805 }.at(score / median),
     }
 }

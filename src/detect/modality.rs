@@ -249,6 +249,18 @@ mod tests {
     }
 
     #[test]
+    fn cells_are_bright_or_dark_against_what_lies_around_them_whatever_the_rest() {
+        let centres = [Point::new(20., 20.), Point::new(40., 22.)];
+        let off = |p: &Point, y: usize, x: usize| (x as f64 - p.x).hypot(y as f64 - p.y);
+        // dark cells in bright walls, on a ground as dark as they are
+        let dark = Plane::from_shape_fn((60, 60), |(y, x)| {
+            if centres.iter().any(|p| (5. ..8.).contains(&off(p, y, x))) { 1. } else { 0. }
+        });
+        assert_eq!(of_cells(&dark, &centres, 20.), Polarity::Negative);
+        assert_eq!(of_cells(&-dark, &centres, 20.), Polarity::Positive);
+    }
+
+    #[test]
     fn slopes_along_x_outweigh_those_along_y_in_stripes() {
         let stripes =
             Plane::from_shape_fn((40, 50), |(y, x)| (0.7 * x as f32).sin() + (0.1 * y as f32).sin());
