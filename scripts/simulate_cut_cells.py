@@ -6,7 +6,7 @@
 Writes N images of each set NAME (default: 12 of every set) as NAME_KK.png, 8 bit, and their cones as NAME_KK.csv: x,y in px, 0 at
 the centre of the top-left pixel, cones inside the image only. Needs numpy and OpenCV. The same name is always the same image.
 
-No weights, thresholds or constants are fitted to these images, so that they judge. Nothing is shared with `render`, which draws
+No weights, thresholds or constants are fitted to these images, so that they judge; but they showed which kinds of image training lacked. Nothing is shared with `render`, which draws
 discs one by one. Here the plane is divided among cells:
 
 - The mosaic: random points, then Lloyd steps weighted so that spacing grows slowly across the image, then jitter.
@@ -29,7 +29,7 @@ from simulate_coherent import lloyd, main
 
 class Look(NamedTuple):
     """Ranges that an image's values are drawn from. Lengths are in spacings; greys in the scale in which cells are 0 and the
-    darkest ground −1."""
+    ground lies between −1 and 1."""
     spacing: tuple          # where it is least, px
     radius: tuple           # of cells
     size: float             # standard deviation of the logarithm of cells' radii

@@ -1,7 +1,7 @@
 //! Detection on images of two simulators that share nothing with `render`: fields of coherent light that add up
 //! (`scripts/simulate_coherent.py`), and a plane divided among cut cells (`scripts/simulate_cut_cells.py`). No weights, thresholds or
 //! constants were fitted to these images; two ways to train the confocal network were given up partly because of the former, and
-//! the latter showed that histology needed a network.
+//! the latter showed that histology needed a network, and which kinds of image its training lacked.
 
 mod common;
 
@@ -96,7 +96,7 @@ fn cones_in_coherent_light_are_found() {
 
 #[test]
 fn cut_cells_are_found() {
-    // interference contrast may look like a split detector's
+    // interference contrast may look like a split detector's; among rods, one image of four shows the ring of the rods
     check(
         "simulate_cut_cells.py",
         &[

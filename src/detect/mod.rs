@@ -182,26 +182,28 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
             })
         }),
     };
-    // waveguides and inner segments are counted well enough by the quick filter; that of discs counts rods and gaps too
-    let first = model.filter(|_| modality == Modality::Histology);
-    let (mut found, mut map) = search(&start, first)?;
+    // waveguides and inner segments are counted well enough by the quick filter, which a network follows; that of discs counts rods
+    // and gaps too, so that the program's network comes at once
+    let users = options.model.as_ref().is_some_and(|m| m.for_modality(modality).is_some());
+    let at_once = model.filter(|_| modality == Modality::Histology && !users);
+    let (mut found, mut map) = search(&start, at_once)?;
     if given.is_none()
         && let Some(other) = start.contradicted_by(&found.centres(), field.image.dim(), field.empty)
     {
         // ring and density cannot both be right: the more regular mosaic is
-        let searched = search(&other, first)?;
+        let searched = search(&other, at_once)?;
         let dim = field.image.dim();
         if regularity(&searched.0.centres(), dim) > regularity(&found.centres(), dim) {
             (found, map) = searched;
             start = other;
         }
     }
-    if first.is_none() && model.is_some() {
+    if at_once.is_none() && model.is_some() {
         (found, map) = search(&Start { map, ..start }, model)?;
     }
     let spacing = map.typical();
-    // the network finds dark cells as well as bright ones, and cells tell better than gaps what they are
-    if first.is_some() && options.polarity.is_none() {
+    // it finds dark cells as well as bright ones, and cells tell better than gaps what they are
+    if at_once.is_some() && options.polarity.is_none() && !found.cones.is_empty() {
         polarity = modality::of_cells(field.image, &found.centres(), spacing);
     }
     let moved = (spacing / ring.spacing).ln().abs();

@@ -2,7 +2,8 @@
 //!
 //! Each decision is a sum of evidence whose sign decides: weights are those of a logistic regression, fitted on hand-marked and on
 //! simulated images, as they are and with gamma ½ and 2, noise, blur, as negatives and as crops. So evidence is in logits. The
-//! constant of the waveguides was then moved until no hand-marked image but a few disturbed ones was taken for histology.
+//! constant of the waveguides was then moved until no hand-marked image but a few disturbed ones was taken for histology. Once cut cells
+//! are found, their own contrast says which way round it runs ([`of_cells`]).
 
 use super::spacing::{AROUND as AROUND_RING, RingProfile};
 use super::{Modality, Polarity, filter, flatten::normalise, local_maxima, suppress};

@@ -12,7 +12,7 @@ pub enum Detector {
     Auto,
     /// Hand-designed band-pass filters (one a modality).
     Classical,
-    /// Small convolutional networks, for confocal and split-detector images.
+    /// Small convolutional networks, one a modality.
     Learned,
 }
 
