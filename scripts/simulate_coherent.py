@@ -126,22 +126,30 @@ def recorded(light, noise, rng):
     return np.clip(10 + 230 * (image - black) / (white - black), 0, 255).astype(np.uint8)
 
 
+def distance_from_a_place(shape, rng):
+    """From 0 at some place in the middle to 1 in the corner farthest from it."""
+    centre = shape * rng.uniform(0.2, 0.8, 2)
+    distance = np.hypot(*(axis - c for axis, c in zip(np.indices(shape), centre)))
+    return distance / distance.max()
+
+
+def inside(points, height, width):
+    """Those of the points x, y, px, that lie in the image."""
+    return points[((points > -0.5) & (points < np.array([width, height]) - 0.5)).all(1)]
+
+
 def simulate(conditions, rng):
     """Image, and the cones inside it, px."""
     height, width = 8 * rng.integers(25, 41, 2)
     shape = FINE * (height + 2 * MARGIN), FINE * (width + 2 * MARGIN)
-    centre = shape * rng.uniform(0.2, 0.8, 2)
-    distance = np.hypot(*(axis - c for axis, c in zip(np.indices(shape), centre)))
-    least = FINE * rng.uniform(*conditions.spacing)
-    spacing = least * (1 + (np.sqrt(conditions.ratio) - 1) * distance / distance.max())
+    outwards = distance_from_a_place(shape, rng)
+    spacing = FINE * rng.uniform(*conditions.spacing) * (1 + (np.sqrt(conditions.ratio) - 1) * outwards)
     cones = lloyd(spacing, rng)
     median = np.median(spacing[cones[:, 1], cones[:, 0]])
     light = averaged_frames(cones, shape, median, conditions, rng)
     light = cv2.resize(light, None, fx=1 / FINE, fy=1 / FINE, interpolation=cv2.INTER_AREA)[MARGIN:-MARGIN, MARGIN:-MARGIN]
     image = recorded(light, rng.uniform(*conditions.noise), rng)
-    x, y = ((cones + 0.5) / FINE - 0.5 - MARGIN).T
-    inside = (x > -0.5) & (y > -0.5) & (x < width - 0.5) & (y < height - 0.5)
-    return image, np.stack([x, y], 1)[inside]
+    return image, inside((cones + 0.5) / FINE - 0.5 - MARGIN, height, width)
 
 
 def write(job):

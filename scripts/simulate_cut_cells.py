@@ -24,7 +24,7 @@ from typing import NamedTuple
 import cv2
 import numpy as np
 
-from simulate_coherent import lloyd, main
+from simulate_coherent import distance_from_a_place, inside, lloyd, main
 
 
 class Look(NamedTuple):
@@ -95,8 +95,8 @@ def depths(cells, radii, gap, shape):
         second[part] = np.where(closer, nearest[part], np.minimum(second[part], distance))
         nearest[part] = np.where(closer, distance, nearest[part])
         owner[part][closer] = k
-    inside = common - nearest
-    return owner, np.where(np.isfinite(nearest), np.minimum((second - nearest - gap) / 2, inside), -common)
+    depth = np.minimum((second - nearest - gap) / 2, common - nearest)
+    return owner, np.where(np.isfinite(nearest), depth, -common)
 
 
 def blurred(plane, width):
@@ -111,10 +111,9 @@ def simulate(look, rng):
     """Image, and the cones inside it, px."""
     height, width = 8 * rng.integers(25, 45, 2)
     shape = FINE * (height + 2 * MARGIN), FINE * (width + 2 * MARGIN)
-    centre = shape * rng.uniform(0.2, 0.8, 2)
-    distance = np.hypot(*(axis - c for axis, c in zip(np.indices(shape), centre)))
+    outwards = distance_from_a_place(shape, rng)
     s = FINE * rng.uniform(*look.spacing)
-    spacing = s * (1 + (np.sqrt(rng.uniform(*RATIO)) - 1) * distance / distance.max())
+    spacing = s * (1 + (np.sqrt(rng.uniform(*RATIO)) - 1) * outwards)
     cones = lloyd(spacing, rng)
     radii = rng.uniform(*look.radius) * spacing[cones[:, 1], cones[:, 0]] * np.exp(look.size * rng.standard_normal(len(cones)))
     cones = cones + rng.normal(0, JITTER * s, cones.shape)
@@ -122,8 +121,8 @@ def simulate(look, rng):
     gap = 0 if look.rods else rng.uniform(*GAP) * s  # rods are set apart as they are
     owner, depth = depths(cells, radii, gap, shape)
 
-    inside = (1 + np.tanh(depth / (rng.uniform(*EDGE) * s))) / 2
-    image = look.ground * (1 - inside) + CELL_GREY * rng.standard_normal(len(cells))[owner] * inside
+    cell = (1 + np.tanh(depth / (rng.uniform(*EDGE) * s))) / 2
+    image = look.ground * (1 - cell) + CELL_GREY * rng.standard_normal(len(cells))[owner] * cell
     image += look.wall * np.exp(-0.5 * (depth / (rng.uniform(*WALL) * s)) ** 2)
     image += rng.uniform(*TEXTURE) * unit(blurred(rng.standard_normal(shape), rng.uniform(*GRAIN) * s))
     if look.relief:
@@ -136,9 +135,8 @@ def simulate(look, rng):
     image = image[MARGIN:-MARGIN, MARGIN:-MARGIN]
     image = image + rng.uniform(*NOISE) * image.std() * rng.standard_normal(image.shape)
     black, white = np.percentile(image, [0.3, 99.7])
-    x, y = ((cones + 0.5) / FINE - 0.5 - MARGIN).T
-    seen = (x > -0.5) & (y > -0.5) & (x < width - 0.5) & (y < height - 0.5)
-    return np.clip(10 + 235 * (image - black) / (white - black), 0, 255).astype(np.uint8), np.stack([x, y], 1)[seen]
+    image = np.clip(10 + 235 * (image - black) / (white - black), 0, 255).astype(np.uint8)
+    return image, inside((cones + 0.5) / FINE - 0.5 - MARGIN, height, width)
 
 
 if __name__ == '__main__':

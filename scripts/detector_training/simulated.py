@@ -10,6 +10,11 @@ from PIL import Image
 
 PROGRAM = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'target', 'release', 'conemosaic')
 
+OUTLINED = ('--spacing 7..20 --diameter 0.55..0.95 --size-scatter 0.03..0.15 --outline 0..3 --shading 0..0.5 --contrast 0.08..0.3 '
+            '--texture 0.05..0.3 --noise 0.005..0.05 --width 280 --height 280 --gradient 1..2 --drift 0..0.3')
+AMONG_RODS = ('--spacing 14..32 --diameter 0.4..0.75 --rods 4..14 --rod-contrast 0.3..1.1 --outline 0..2 --granules 0..0.4 --contrast 0.1..0.4 '
+              '--texture 0.05..0.3 --noise 0.005..0.05 --width 360 --height 360 --section 0..0.4')
+
 # how many of which kind; A..B is drawn for every image
 KINDS = {
     'confocal': (
@@ -41,14 +46,10 @@ KINDS = {
         (40, '--preset nomarski --noise 0.005..0.06 --blur 0..0.15 --width 300 --height 300'),
         (40, '--preset electron --noise 0.005..0.06 --blur 0..0.15 --width 300 --height 300'),
         (40, '--modality histology --polarity negative --spacing 6..20 --gradient 1..2 --noise 0.005..0.06 --width 250 --height 250 --drift 0..0.2'),
-        (60, '--modality histology --spacing 7..20 --diameter 0.55..0.95 --size-scatter 0.03..0.15 --outline 0..3 --shading 0..0.5 '
-             '--contrast 0.08..0.3 --texture 0.05..0.3 --noise 0.005..0.05 --width 280 --height 280 --gradient 1..2 --drift 0..0.3'),
-        (60, '--modality histology --polarity negative --spacing 7..20 --diameter 0.55..0.95 --size-scatter 0.03..0.15 --outline 0..3 '
-             '--shading 0..0.5 --contrast 0.08..0.3 --texture 0.05..0.3 --noise 0.005..0.05 --width 280 --height 280 --gradient 1..2 --drift 0..0.3'),
-        (60, '--modality histology --spacing 14..32 --diameter 0.4..0.75 --rods 4..14 --rod-contrast 0.3..1.1 --outline 0..2 --granules 0..0.4 '
-             '--contrast 0.1..0.4 --texture 0.05..0.3 --noise 0.005..0.05 --width 360 --height 360 --section 0..0.4'),
-        (60, '--modality histology --polarity negative --spacing 14..32 --diameter 0.4..0.75 --rods 4..14 --rod-contrast 0.3..1.1 '
-             '--outline 0..2 --granules 0..0.4 --contrast 0.1..0.4 --texture 0.05..0.3 --noise 0.005..0.05 --width 360 --height 360 --section 0..0.4'),
+        (60, f'--modality histology {OUTLINED}'),
+        (60, f'--modality histology --polarity negative {OUTLINED}'),
+        (60, f'--modality histology {AMONG_RODS}'),
+        (60, f'--modality histology --polarity negative {AMONG_RODS}'),
     ),
 }
 GROUPS = 6  # stand for subjects
