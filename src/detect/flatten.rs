@@ -15,11 +15,10 @@ pub fn flatten(image: &Plane) -> Plane {
 
 /// `plane` divided by its local root mean square √(G(σ)∗plane²).
 pub(super) fn normalise(plane: &Plane, sigma: f64) -> Plane {
-    let mut deviation = gaussian(&plane.mapv(|v| v * v), sigma);
-    deviation.mapv_inplace(|v| v.max(0.).sqrt());
-    let floor = (FLOOR * highest(&deviation)).max(f32::MIN_POSITIVE);
-    deviation.zip_mut_with(plane, |d, v| *d = v / d.max(floor));
-    deviation
+    let mut variance = gaussian(&plane.mapv(|v| v * v), sigma);
+    let floor = (FLOOR * FLOOR * highest(&variance)).max(f32::MIN_POSITIVE);
+    variance.zip_mut_with(plane, |variance, v| *variance = v / variance.max(floor).sqrt());
+    variance
 }
 
 /// The highest value of a plane that has none below zero. Sixteen at a time, as one maximum would wait for the other.

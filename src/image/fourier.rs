@@ -4,6 +4,9 @@ use realfft::RealFftPlanner;
 use rustfft::{FftDirection, FftPlanner, num_complex::Complex32};
 use std::cell::RefCell;
 
+/// Rows or columns a task, so that one scratch serves them all.
+const ROWS: usize = 16;
+
 thread_local! {
     // planning a length costs more than transforming it; images of a folder share their lengths
     static PLANNERS: RefCell<(RealFftPlanner<f32>, FftPlanner<f32>)> =
@@ -39,18 +42,22 @@ impl Spectrum {
         let row_plan = PLANNERS.with_borrow_mut(|p| p.0.plan_fft_forward(width));
         // rows below the plane are zero and transform to zero
         let mut by_row = vec![Complex32::default(); rows * half];
-        let transform_row = |(y, out): (usize, &mut [Complex32])| {
-            let mut input = vec![0f32; width];
-            input.iter_mut().zip(plane.row(y)).for_each(|(i, v)| *i = *v);
-            // lengths are ours, so the plan cannot refuse them
-            let done = row_plan.process(&mut input, out);
-            debug_assert!(done.is_ok());
+        let transform_rows = |(task, out): (usize, &mut [Complex32])| {
+            let (mut input, mut scratch) = (row_plan.make_input_vec(), row_plan.make_scratch_vec());
+            for (k, out) in out.chunks_mut(half).enumerate() {
+                let (row, beyond) = input.split_at_mut(columns);
+                row.iter_mut().zip(plane.row(ROWS * task + k)).for_each(|(i, v)| *i = *v);
+                beyond.fill(0.); // the plan works in it
+                // lengths are ours, so the plan cannot refuse them
+                let done = row_plan.process_with_scratch(&mut input, out, &mut scratch);
+                debug_assert!(done.is_ok());
+            }
         };
         let parallel = height * width >= PARALLEL_PIXELS && columns > 0;
         if parallel {
-            by_row.par_chunks_mut(half).enumerate().for_each(transform_row);
+            by_row.par_chunks_mut(ROWS * half).enumerate().for_each(transform_rows);
         } else {
-            by_row.chunks_mut(half).enumerate().for_each(transform_row);
+            by_row.chunks_mut(ROWS * half).enumerate().for_each(transform_rows);
         }
         let mut values = vec![Complex32::default(); half * height];
         let gather = |(kx, out): (usize, &mut [Complex32])| {
@@ -69,8 +76,7 @@ impl Spectrum {
     fn transform_columns(&mut self, direction: FftDirection) {
         let plan = PLANNERS.with_borrow_mut(|p| p.1.plan_fft(self.height, direction));
         if self.values.len() >= PARALLEL_PIXELS / 2 {
-            // several columns a task, so that one scratch serves them all
-            self.values.par_chunks_mut(16 * self.height).for_each(|columns| plan.process(columns));
+            self.values.par_chunks_mut(ROWS * self.height).for_each(|columns| plan.process(columns));
         } else {
             plan.process(&mut self.values);
         }
@@ -84,20 +90,24 @@ impl Spectrum {
         let scale = 1. / (self.width * self.height) as f32;
         let mut data = vec![0f32; self.width * self.height];
         let (values, height, width) = (&self.values, self.height, self.width);
-        let transform_row = |(y, out): (usize, &mut [f32])| {
-            let mut input: Vec<Complex32> = (0..half).map(|kx| values[kx * height + y] * scale).collect();
-            // a real plane has a real mean along x, and a real last term if the width is even; rounding left a trace
-            input[0].im = 0.;
-            if width.is_multiple_of(2) {
-                input[half - 1].im = 0.;
+        let transform_rows = |(task, out): (usize, &mut [f32])| {
+            let (mut input, mut scratch) = (plan.make_input_vec(), plan.make_scratch_vec());
+            for (k, out) in out.chunks_mut(width).enumerate() {
+                let y = ROWS * task + k;
+                input.iter_mut().zip(values.chunks(height)).for_each(|(i, column)| *i = column[y] * scale);
+                // a real plane has a real mean along x, and a real last term if the width is even; rounding left a trace
+                input[0].im = 0.;
+                if width.is_multiple_of(2) {
+                    input[half - 1].im = 0.;
+                }
+                let done = plan.process_with_scratch(&mut input, out, &mut scratch);
+                debug_assert!(done.is_ok());
             }
-            let done = plan.process(&mut input, out);
-            debug_assert!(done.is_ok());
         };
         if data.len() >= PARALLEL_PIXELS {
-            data.par_chunks_mut(width).enumerate().for_each(transform_row);
+            data.par_chunks_mut(ROWS * width).enumerate().for_each(transform_rows);
         } else {
-            data.chunks_mut(width).enumerate().for_each(transform_row);
+            data.chunks_mut(ROWS * width).enumerate().for_each(transform_rows);
         }
         Plane::from_shape_vec((height, width), data).unwrap_or_default()
     }

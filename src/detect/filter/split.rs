@@ -1,6 +1,6 @@
 use super::{Criterion, RelativeThreshold};
 use crate::detect::flatten::normalise;
-use crate::image::{Plane, Spectrum, crop, fast_length, gaussian, reflect_pad};
+use crate::image::{Plane, Spectrum, crop, fast_length, reflect_pad};
 use rustfft::num_complex::Complex32;
 
 /// In a blurred or noisy image true cones rise less above the rest than in a sharp one, so the threshold follows the image.
@@ -11,24 +11,22 @@ const CRITERION: Criterion = Criterion {
     relative: Some(RelativeThreshold { slope: 0.75, offset: -0.7 }),
 };
 
-/// Widths, in spacings: of the drift taken off first, of the band's upper and lower end, of the contrast normalisation.
-const DRIFT: f64 = 1.5;
+/// Widths, in spacings: of the band's upper and lower end, of the contrast normalisation. Nothing slower than the band is left of a
+/// drift, so none is taken off before.
 const FINE: f32 = 0.14;
 const COARSE: f32 = 0.25;
 const CONTRAST: f64 = 0.8;
 
 /// An inner segment is a dark–bright pair along x: the image behaves like a derivative along x. Half a derivative more
-/// brings the centre of the pair to a maximum: the spectrum of I − G(1.5 s)∗I times
+/// brings the centre of the pair to a maximum: the spectrum times
 /// i · sign(fx) · |fx s|^½ · exp(−2π²(.14 s f)²) · (1 − exp(−2π²(.25 s f)²)), divided by its local root mean square
 /// (σ = .8 s). Made for dark on the left.
 pub(super) fn response(image: &Plane, spacing: f64) -> (Plane, Criterion) {
     let (h, w) = image.dim();
-    let mut level = gaussian(image, DRIFT * spacing);
-    level.zip_mut_with(image, |drift, v| *drift = v - *drift);
     // mirror images keep the transform's wrapping away; a longer frame than s makes the transform fast
     let pad = spacing.round() as usize;
     let (height, width) = (fast_length(h + 2 * pad), fast_length(w + 2 * pad));
-    let mut spectrum = Spectrum::forward(&reflect_pad(&level, pad, pad, height, width), height, width);
+    let mut spectrum = Spectrum::forward(&reflect_pad(image, pad, pad, height, width), height, width);
     let s = spacing as f32;
     let two_pi_squared = 2. * std::f32::consts::PI.powi(2);
     // Gaussians of both frequencies are products of Gaussians of each
@@ -41,6 +39,5 @@ pub(super) fn response(image: &Plane, spacing: f64) -> (Plane, Criterion) {
         },
     );
     let filtered = spectrum.inverse();
-    let inner = normalise(&filtered, CONTRAST * spacing);
-    (crop(&inner, pad, pad, h, w), CRITERION)
+    (normalise(&crop(&filtered, pad, pad, h, w), CONTRAST * spacing), CRITERION)
 }
