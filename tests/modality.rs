@@ -1,6 +1,8 @@
 //! The modality and the polarity that detection takes an image to have are the true ones: on simulated images of every kind, and
 //! on all hand-marked ones.
 
+mod common;
+
 use conemosaic::detect::{DetectOptions, Detector, Modality, Polarity, detect};
 use conemosaic::image::{Plane, crop, gaussian, read};
 use conemosaic::render::{
@@ -28,9 +30,11 @@ enum Degraded {
     BrightGamma,
     DarkGamma,
     Small,
+    OverExposed,
+    UnderExposed,
 }
 
-const DEGRADED: [Degraded; 7] = [
+const DEGRADED: [Degraded; 9] = [
     Degraded::Not,
     Degraded::Noise,
     Degraded::Blur,
@@ -38,7 +42,12 @@ const DEGRADED: [Degraded; 7] = [
     Degraded::BrightGamma,
     Degraded::DarkGamma,
     Degraded::Small,
+    Degraded::OverExposed,
+    Degraded::UnderExposed,
 ];
+/// Parts of an image that are white or black where it was badly exposed.
+const WHITE: f64 = 0.1;
+const BLACK: f64 = 0.1;
 
 struct Case {
     name: String,
@@ -59,7 +68,7 @@ fn degraded(preset: &Preset, polarity: Polarity, what: Degraded, k: u64) -> Case
     image.polarity = polarity;
     let mut gamma = 1.;
     match what {
-        Degraded::Not => {}
+        Degraded::Not | Degraded::OverExposed | Degraded::UnderExposed => {}
         Degraded::Noise => image.noise = 0.3 * image.contrast,
         Degraded::Blur => image.blur = 0.15,
         Degraded::LowContrast => image.contrast *= 0.4,
@@ -72,7 +81,11 @@ fn degraded(preset: &Preset, polarity: Polarity, what: Degraded, k: u64) -> Case
     }
     let modality = image.modality;
     let made = simulate(&mosaic, &image, &mut rng).unwrap().image;
-    let image = made.mapv(|v| v.max(1. / 255.).powf(gamma));
+    let image = match what {
+        Degraded::OverExposed => common::exposed(&made, 0., WHITE),
+        Degraded::UnderExposed => common::exposed(&made, BLACK, 0.),
+        _ => made.mapv(|v| v.max(1. / 255.).powf(gamma)),
+    };
     Case { name: format!("{} {} {what:?} {k}", preset.name, polarity.name()), image, modality, polarity }
 }
 
@@ -202,8 +215,8 @@ fn nearly_all_images_are_taken_for_what_they_are_however_much_is_wrong_with_them
     assert!(wrong.len() as f64 <= (1. - RIGHT) * count as f64, "{} of {count}: {wrong:#?}", wrong.len());
 }
 
-/// Every image as it is, and every fifth with gamma ½ and 2, noise of .3 standard deviations, blurred by 1 px, as a negative, and
-/// as a crop of 80 × 80 px (confocal) or 112 × 112 px (split detector: spacings reach 22 px, and five of them must fit for a ring).
+/// Every image as it is, and every fifth with gamma ½ and 2, noise of .3 standard deviations, blurred by 1 px, as a negative, over-
+/// and underexposed, and as a crop of 80 × 80 px (confocal) or 112 × 112 px (split detector: spacings reach 22 px, and five of them must fit for a ring).
 #[test]
 fn hand_marked_images_are_taken_for_what_they_are() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/aoslo");
@@ -235,6 +248,9 @@ fn hand_marked_images_are_taken_for_what_they_are() {
                 add("negative", lifted.mapv(|v| 1. - v), Polarity::Negative);
                 let side = if modality == Modality::Split { 112 } else { 80 };
                 let (y, x) = ((image.nrows() - side) / 2, (image.ncols() - side) / 2);
+                add("5 % white", common::exposed(&image, 0., 0.05), Polarity::Positive);
+                add("10 % white", common::exposed(&image, 0., 0.1), Polarity::Positive);
+                add("10 % black", common::exposed(&image, 0.1, 0.), Polarity::Positive);
                 add("crop", crop(&lifted, y, x, side, side), Polarity::Positive);
             }
             add("", image, Polarity::Positive);

@@ -1,4 +1,5 @@
 use super::failures::write_failures;
+use super::measured::CONFIDENT;
 use super::outputs::OutputFolder;
 use super::work::for_each;
 use super::{BatchError, Failure, Input, Progress, ScaleSource};
@@ -128,5 +129,7 @@ pub(super) fn overlay_of(image: &Plane, found: &Detections) -> Result<Vec<u8>, B
 /// One line about what was found.
 pub(super) fn describe(found: &Detections) -> String {
     let cones = counted(found.cones.len(), "cone");
-    format!("{cones}, {}, spacing {:.1} px", found.modality, found.spacing)
+    let doubt = |confidence: f64| if confidence < CONFIDENT { " (uncertain)" } else { "" };
+    let [modality, spacing] = [found.modality_confidence, found.spacing_confidence].map(doubt);
+    format!("{cones}, {}{modality}, spacing {:.1} px{spacing}", found.modality, found.spacing)
 }

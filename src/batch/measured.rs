@@ -10,8 +10,8 @@ use crate::stats::{Functions, Measures};
 
 /// Fewer cones than this leave every statistic uncertain: the RI of 30 points scatters by about 15 %.
 const FEW: usize = 30;
-/// Below this confidence in the spacing, a person should look.
-const CONFIDENT: f64 = 0.8;
+/// Below this confidence in the modality or the spacing, a person should look.
+pub(super) const CONFIDENT: f64 = 0.8;
 
 pub(super) fn record_of(
     mosaic: &Mosaic,
@@ -96,6 +96,13 @@ pub(super) fn warnings_of(
 ) -> Vec<String> {
     let mut warnings = Vec::new();
     if let Some(found) = found {
+        let confidence = found.modality_confidence;
+        if confidence < CONFIDENT {
+            warnings.push(format!(
+                "it is uncertain how the image was taken (confidence {confidence:.2} that this is {}), and with it the detections; --modality says it",
+                found.modality
+            ));
+        }
         let confidence = found.spacing_confidence;
         if confidence < CONFIDENT {
             warnings.push(format!(

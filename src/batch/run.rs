@@ -265,6 +265,7 @@ fn one_image(
         detection: DetectionRecord {
             detector: found.detector,
             modality: found.modality,
+            modality_confidence: found.modality_confidence,
             polarity: found.polarity,
             n: all,
             ring_spacing_px: found.ring_spacing,

@@ -19,6 +19,7 @@ pub use filter::{Criterion, RelativeThreshold, response};
 pub use flatten::flatten;
 pub use learned::{UserModel, WeightsError};
 pub use maxima::local_maxima;
+pub use modality::ModalityFeatures;
 pub use options::{DetectOptions, Detector};
 pub use spacing::{
     BORDER, FourierEstimate, FourierMap, FourierMapOptions, FourierSpacing, RingEstimate, RingProfile,
@@ -38,9 +39,9 @@ use view::View;
 pub const MIN_SIDE: usize = 24;
 
 /// The weights compiled into the program: results depend on them.
-pub const fn weights() -> [&'static [u8]; 4] {
+pub const fn weights() -> [&'static [u8]; 5] {
     let [confocal, split, histology] = learned::weights();
-    [confocal, split, histology, spacing::ring_weights()]
+    [confocal, split, histology, spacing::ring_weights(), modality::weights()]
 }
 
 /// Spacings that differ by less than this part are the same.
@@ -139,6 +140,16 @@ pub fn detect(image: &Plane, options: &DetectOptions) -> Result<Detections, Dete
     Ok(found)
 }
 
+/// What the modality and the polarity of an image are decided by.
+///
+/// # Errors
+/// If the image is too small, constant, or has pixels that are not numbers.
+pub fn modality_features(image: &Plane) -> Result<ModalityFeatures, DetectError> {
+    check(image)?;
+    let rings = View::suitable(image, None).rings;
+    Ok(modality::features(rings.sample(), rings.whole()))
+}
+
 /// The cones of an image without a straight margin.
 fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, DetectError> {
     let view = View::suitable(image, options.spacing);
@@ -161,7 +172,7 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
 /// The cones of a view, in px of the image.
 fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, DetectError> {
     let (field, rings) = (view.field(), &view.rings);
-    let (modality, mut polarity) =
+    let (modality, modality_confidence, mut polarity) =
         modality::decide(rings.sample(), rings.whole(), options.modality, options.polarity);
     let ring = rings.whole().spacing();
     let given = options.spacing.map(|s| s / view.block as f64);
@@ -212,6 +223,7 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
         cones: found.cones,
         rejected: found.rejected,
         modality,
+        modality_confidence,
         polarity,
         detector: if model.is_some() { Detector::Learned } else { Detector::Classical },
         ring_spacing: ring.spacing,

@@ -100,6 +100,8 @@ pub struct Detections {
     pub rejected: Vec<Detection>,
     /// How the image was taken to be made.
     pub modality: Modality,
+    /// Probability (0–1) that this is right; 1 if it was given.
+    pub modality_confidence: f64,
     /// Which way round its contrast was taken to run.
     pub polarity: Polarity,
     /// Which filters found the cones: classical or learned.

@@ -167,6 +167,8 @@ pub struct DetectionRecord {
     pub detector: Detector,
     /// How the image was taken to be made.
     pub modality: Modality,
+    /// Probability that this is right; 1 if it was given.
+    pub modality_confidence: f64,
     /// Which way round its contrast was taken to run.
     pub polarity: Polarity,
     /// Cones found in the whole image.
@@ -200,10 +202,10 @@ impl DetectionRecord {
 /// Indices of the records, those first that need the eye of a person most; equals stay in order.
 pub fn by_need(records: &[ImageRecord]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..records.len()).collect();
-    // where the spacing is wrong, so are the scores
+    // where the modality or the spacing is wrong, so are the scores
     let need = |k: &usize| {
         let found = &records[*k].detection;
-        found.expected_error_rate() + 1. - found.spacing_confidence
+        found.expected_error_rate() + 1. - found.spacing_confidence * found.modality_confidence
     };
     order.sort_by(|a, b| need(b).total_cmp(&need(a)));
     order

@@ -197,3 +197,13 @@ pub fn of_preset(preset: &str, seed: u64, change: impl FnOnce(&mut RenderOptions
     let true_spacing = hexagonal_spacing(simulated.cones.len(), simulated.image.len() as f64).unwrap();
     (simulated.image, true_spacing)
 }
+
+/// With the darkest and the brightest of its pixels, these parts of all, made black and white.
+pub fn exposed(image: &Plane, black: f64, white: f64) -> Plane {
+    let mut values: Vec<f32> = image.iter().copied().collect();
+    values.sort_by(f32::total_cmp);
+    let at = |part: f64| values[(part * (values.len() - 1) as f64) as usize];
+    let (low, high) = (if black > 0. { at(black) } else { 0. }, at(1. - white));
+    // what is exactly 0 was not imaged
+    image.mapv(|v| ((v - low) / (high - low)).clamp(1. / 255., 1.))
+}

@@ -154,6 +154,16 @@ pub(super) const DETECTION: &[Metric] = &[
         value: One(|s| s.image().map(|r| r.detection.detector.name()).into()),
     },
     Metric {
+        name: "modality_confidence",
+        group: Detection,
+        quantity: SHARE,
+        edge: NotAffected,
+        definition: "Probability that the modality is the true one; 1 if it was given.",
+        source: "",
+        only: IMAGES,
+        value: One(|s| s.image().map(|r| r.detection.modality_confidence).into()),
+    },
+    Metric {
         name: "polarity",
         group: Detection,
         quantity: TEXT,

@@ -1,0 +1,23 @@
+//! What the modality and the polarity of images are decided by, for scripts/train-modality.
+//!
+//!     cargo run --release --example modality_features < images.txt
+//!
+//! Each line of the input is the path of an image; each line of the output has its numbers, separated by commas: those of the modality,
+//! then those of the side on which a split detector shows cones dark.
+
+use conemosaic::detect::modality_features;
+use conemosaic::image::{decode, read_bytes};
+use std::error::Error;
+use std::io::stdin;
+use std::path::Path;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    for path in stdin().lines() {
+        let path = path?;
+        let features = modality_features(&decode(&read_bytes(Path::new(&path))?, &path)?)?;
+        let numbers: Vec<String> =
+            features.modality.iter().chain(&features.direction).map(f64::to_string).collect();
+        println!("{}", numbers.join(","));
+    }
+    Ok(())
+}

@@ -1,0 +1,65 @@
+//! A small network that tells modalities apart by what [`Features`](super::features::Features) shows: one hidden layer. Trained by
+//! scripts/train-modality.
+
+use super::features::MODALITY;
+use crate::detect::Modality;
+use std::sync::OnceLock;
+
+/// Units of the hidden layer: those of four networks whose scores are averaged.
+const HIDDEN: usize = 64;
+const CLASSES: usize = Modality::ALL.len();
+
+/// Weights (out × in) and biases of either layer, modalities in the order of [`Modality::ALL`]: 32-bit floats, little endian.
+static FILE: &[u8; 4 * COUNT] = include_bytes!("modality.f32");
+const COUNT: usize = HIDDEN * (MODALITY + 1) + CLASSES * (HIDDEN + 1);
+
+/// The file of the weights: results depend on it.
+pub(in crate::detect) const fn weights() -> &'static [u8] {
+    FILE
+}
+
+/// The most probable modality, and its probability, 0–1.
+pub(super) fn most_probable(features: &[f64; MODALITY]) -> (Modality, f64) {
+    let scores = scores(features);
+    let best = (0..CLASSES).max_by(|&a, &b| scores[a].total_cmp(&scores[b])).unwrap_or(0);
+    let odds_against: f64 = scores.iter().map(|s| (s - scores[best]).exp()).sum();
+    (Modality::ALL[best], 1. / odds_against)
+}
+
+/// Logarithm of the odds of each modality, up to a constant.
+fn scores(features: &[f64; MODALITY]) -> [f64; CLASSES] {
+    static WEIGHTS: OnceLock<Vec<f64>> = OnceLock::new();
+    let weights = WEIGHTS
+        .get_or_init(|| FILE.as_chunks().0.iter().map(|b| f64::from(f32::from_le_bytes(*b))).collect());
+    let (first, last) = weights.split_at(HIDDEN * (MODALITY + 1));
+    let hidden: [f64; HIDDEN] = layer::<MODALITY, HIDDEN>(first, features).map(f64::tanh);
+    layer(last, &hidden)
+}
+
+fn layer<const IN: usize, const OUT: usize>(weights: &[f64], inputs: &[f64; IN]) -> [f64; OUT] {
+    let (factors, biases) = weights.split_at(IN * OUT);
+    std::array::from_fn(|k| {
+        let own = &factors[k * IN..(k + 1) * IN];
+        biases[k] + own.iter().zip(inputs).map(|(w, v)| w * v).sum::<f64>()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The file is what scripts/train-modality wrote beside the weights: features and scores of some images.
+    #[test]
+    fn scores_are_those_of_the_network_that_was_trained() {
+        let mut rows = 0;
+        for line in include_str!("../../../fixtures/modality_network.csv").lines().skip(1) {
+            let values: Vec<f64> = line.split(',').map(|v| v.parse().unwrap()).collect();
+            let (features, expected) = values.split_at(MODALITY);
+            for (expected, found) in expected.iter().zip(scores(features.try_into().unwrap())) {
+                assert!((expected - found).abs() < 1e-3, "{found}, trained: {expected}");
+            }
+            rows += 1;
+        }
+        assert!(rows >= 6);
+    }
+}
