@@ -57,11 +57,10 @@ def histology(image, s):
 
 
 def split(image, s):
-    level = cv2.subtract(image, gaussian(image, 1.5 * s))
-    h, w = level.shape
+    h, w = image.shape
     pad = math.floor(s + 0.5)
     height, width = (cv2.getOptimalDFTSize(n + 2 * pad) for n in (h, w))
-    framed = cv2.copyMakeBorder(level, pad, height - h - pad, pad, width - w - pad, BORDER)
+    framed = cv2.copyMakeBorder(image, pad, height - h - pad, pad, width - w - pad, BORDER)
     fx, fy = np.fft.fftfreq(width)[None], np.fft.fftfreq(height)[:, None]
     f2 = (fx ** 2 + fy ** 2) * s ** 2
     band = np.exp(-2 * np.pi ** 2 * 0.14 ** 2 * f2) * (1 - np.exp(-2 * np.pi ** 2 * 0.25 ** 2 * f2))
@@ -70,7 +69,7 @@ def split(image, s):
     spectrum = cv2.dft(framed, flags=cv2.DFT_COMPLEX_OUTPUT)
     turned = cv2.merge([-gain * spectrum[..., 1], gain * spectrum[..., 0]])
     filtered = cv2.dft(turned, flags=cv2.DFT_INVERSE | cv2.DFT_SCALE | cv2.DFT_REAL_OUTPUT)
-    return over_local_contrast(filtered, 0.8 * s)[pad:pad + h, pad:pad + w]
+    return over_local_contrast(np.ascontiguousarray(filtered[pad:pad + h, pad:pad + w]), 0.8 * s)
 
 
 FILTERS = {'confocal': confocal, 'split': split, 'histology': histology}

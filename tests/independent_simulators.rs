@@ -107,7 +107,7 @@ fn cones_in_coherent_light_are_found() {
 
 #[test]
 fn cut_cells_are_found() {
-    // interference contrast may look like a split detector's; among rods, one image of four shows the ring of the rods
+    // among rods, one image of four shows the ring of the rods
     check(
         "simulate_cut_cells.py",
         &[
@@ -115,7 +115,9 @@ fn cut_cells_are_found() {
             Set { overexposed: Some(0.98), ..set("dark", true, Some(Modality::Histology), 0.995) },
             set("dark-wall", true, Some(Modality::Histology), 0.92),
             set("bright-wall", true, Some(Modality::Histology), 0.93),
-            set("interference", true, None, 0.995),
+            set("interference", true, Some(Modality::Histology), 0.995),
+            set("rods", false, Some(Modality::Histology), 0.9),
+            set("rods-dark", false, Some(Modality::Histology), 0.94),
         ],
     );
 }

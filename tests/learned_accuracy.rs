@@ -99,7 +99,7 @@ fn with_fewer_pixels(m: &Marked) -> Marked {
 
 /// Bar for the images as they are, and how much each change may cost.
 fn holds(modality: Modality, bar: f64, loss: f64) {
-    let images = marked(modality, 5);
+    let images = marked(modality, 20);
     if images.is_empty() {
         return;
     }
