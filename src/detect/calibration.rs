@@ -26,7 +26,7 @@ pub(super) fn spacing(sure: f64, moved: f64, clarity: f64) -> f64 {
     let sure = sure.clamp(0.001, 0.999);
     let sure = (sure / (1. - sure)).ln();
     let unclear = (1. - clarity).max(0.);
-    Logistic { offset: 1.353, slope: 1. }.at(0.817 * sure - 9.326 * moved - 10.755 * unclear)
+    Logistic { offset: 1.397, slope: 1. }.at(0.792 * sure - 9.374 * moved - 9.685 * unclear)
 }
 
 /// The probability by the height of the classical filter's response, given the `cones` of the image, highest first, and how high
@@ -35,8 +35,8 @@ pub(super) fn spacing(sure: f64, moved: f64, clarity: f64) -> f64 {
 pub(super) fn classical(modality: Modality, cones: &[Detection], least: f64) -> impl Fn(f64) -> f64 + use<> {
     let median = cones.get(cones.len() / 2).map_or(1., |d| d.score).max(f64::MIN_POSITIVE);
     move |score| match modality {
-        Modality::Confocal => Logistic { offset: 1.172, slope: 7.610 }.at(score / median),
-        Modality::Split => Logistic { offset: 0.270, slope: 4.226 }.at(score - least),
-        Modality::Histology => Logistic { offset: -2.302, slope: 6.805 }.at(score / median),
+        Modality::Confocal => Logistic { offset: 1.179, slope: 7.582 }.at(score / median),
+        Modality::Split => Logistic { offset: 0.259, slope: 4.227 }.at(score - least),
+        Modality::Histology => Logistic { offset: -2.294, slope: 6.793 }.at(score / median),
     }
 }
