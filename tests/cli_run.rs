@@ -268,3 +268,15 @@ fn long_tables_are_cut_on_the_terminal_and_whole_in_the_file() {
     let outcome = place.ok(&["compare", "csv", "--window", "10x10", "--samplers", "square", "--out", "out"]);
     assert!(outcome.stdout.contains("… and 16 more in l_infinity.csv"), "{}", outcome.stdout);
 }
+
+#[test]
+fn the_summary_says_how_sure_the_modality_is() {
+    let place = two_images();
+    let confidences = |arguments: &[&str]| -> Vec<f64> {
+        place.ok(&[&["run", "in", "--out", "out", "--samplers", "jittered", "-q"], arguments].concat());
+        place.table("out/summary.csv").iter().map(|row| number(row, "modality_confidence")).collect()
+    };
+    let found = confidences(&[]);
+    assert!(found.iter().all(|c| *c > 1. / 3. && *c < 1.), "{found:?}");
+    assert_eq!(confidences(&["--modality", "confocal"]), [1., 1.]);
+}

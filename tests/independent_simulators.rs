@@ -1,7 +1,8 @@
 //! Detection on images of two simulators that share nothing with `render`: fields of coherent light that add up
 //! (`scripts/simulate_coherent.py`), and a plane divided among cut cells (`scripts/simulate_cut_cells.py`). No weights, thresholds or
 //! constants were fitted to these images; two ways to train the confocal network were given up partly because of the former, and
-//! the latter showed that histology needed a network, and which kinds of image its training lacked.
+//! the latter showed that histology needed a network, which kinds of image its training lacked, and that one network for the modality
+//! depends on its seed.
 
 mod common;
 
@@ -22,8 +23,9 @@ const TOLERANCE: f64 = 1.15;
 
 struct Set {
     name: &'static str,
-    /// The spacing of every image must be right, and the modality, if one is named.
+    /// The spacing of every image must be right.
     clear: bool,
+    /// What every image must be taken for.
     modality: Option<Modality>,
     /// Lowest mean Dice coefficient.
     dice: f64,

@@ -164,16 +164,21 @@ def summary(seen, disturbed, samples, folds, rule):
         kept = suppress(found[found[:, 2] > threshold_of(found, rule, constant)], radius * SPACING)
         return dice(places(kept, spacing), (sample.marks + 0.5) * factor - 0.5, shape or sample.image.shape)
 
-    def when_disturbed(constants):
-        return np.mean([score(by_name[name], found, spacing, *constants, shape, factor)
-                        for (name, _), (found, spacing, shape, factor) in disturbed.items()])
+    def chosen(kept):
+        """The constants that are best on these folds."""
+        means = mean[:, kept].mean(1)
+        subjects = {subject for k in kept for subject in folds[k]}
+        shown = [(by_name[name], *look) for (name, _), look in disturbed.items() if by_name[name].subject in subjects]
+        when_disturbed = lambda c: np.mean([score(sample, found, spacing, *choices[c], shape, factor)
+                                            for sample, found, spacing, shape, factor in shown])
+        return int(max(np.flatnonzero(means > means.max() - TIED), key=when_disturbed))
 
-    tied = np.flatnonzero(mean.mean(1) > mean.mean(1).max() - TIED)
-    pick = int(tied[np.argmax([when_disturbed(choices[c]) for c in tied])])
+    every = range(len(folds))
+    pick = chosen(list(every))
     constant, radius = choices[pick]
     # constants for a fold are chosen on the other folds
-    others = [int(np.delete(mean, k, 1).mean(1).argmax()) for k in range(len(folds))]
-    nested = np.array([[folded[s, others[k], k] for k in range(len(folds))] for s in range(len(seen))])
+    others = [chosen([k for k in every if k != left_out]) for left_out in every]
+    nested = np.array([[folded[s, others[k], k] for k in every] for s in range(len(seen))])
     seed = int(folded[:, pick].mean(1).argmax())
     baseline = np.array([dice(s.classical, s.marks, s.image.shape) for s in samples])
     subjects = sorted({s.subject for s in samples})

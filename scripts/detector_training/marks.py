@@ -26,6 +26,19 @@ def inside(points, shape):
     return ((points >= BORDER - 0.5) & (points < [w - BORDER - 0.5, h - BORDER - 0.5])).all(1)
 
 
+def folds(rows, count):
+    """For each of `count` folds of subjects: the other rows, and its own."""
+    subjects = sorted({row.subject for row in rows})
+    np.random.default_rng(0).shuffle(subjects)
+    parts = [set(subjects[k::count]) for k in range(count)]
+    return [([row for row in rows if row.subject not in part], [row for row in rows if row.subject in part]) for part in parts]
+
+
+def floats(tensors):
+    """As the program reads them: 32 bits, little endian, one after the other."""
+    return b''.join(np.asarray(tensor).astype('<f4').tobytes() for tensor in tensors)
+
+
 def density_spacing(points, shape):
     h, w = shape
     return math.sqrt(2 * (w - 2 * BORDER) * (h - 2 * BORDER) / (math.sqrt(3) * max(1, inside(points, shape).sum())))

@@ -1,8 +1,10 @@
 """Simulated images whose looks are drawn anew for every image: of blur, noise and rods that marked images do not show, and of
 histology, of which there is no public set with marks."""
 import csv
+import glob
 import os
 import subprocess
+import sys
 import tempfile
 
 import numpy as np
@@ -53,6 +55,7 @@ KINDS = {
     ),
 }
 GROUPS = 6  # stand for subjects
+MODALITIES = tuple(KINDS)
 
 
 def simulate(folder, modality):
@@ -69,6 +72,18 @@ def simulate(folder, modality):
                     out.writelines(f"{row['x_px']},{row['y_px']}\n" for row in csv.DictReader(file))
                 with open(source + '.png', 'rb') as file, open(name + '.png', 'wb') as out:
                     out.write(file.read())
+
+
+def images(marked, made):
+    """Modality, source and paths: of the images in the folders confocal and split of `marked`, and of all that are simulated, into `made`."""
+    folders = [(modality, 'marked', os.path.join(marked, modality)) for modality in ('confocal', 'split')]
+    if not any(glob.glob(f'{folder}/*.png') for _, _, folder in folders):
+        sys.exit(f'{marked}/confocal and {marked}/split hold no .png')
+    for modality in MODALITIES:
+        folders.append((modality, 'simulated', f'{made}/{modality}'))
+        os.mkdir(folders[-1][2])
+        simulate(folders[-1][2], modality)
+    return [(modality, source, sorted(glob.glob(f'{folder}/*.png'))) for modality, source, folder in folders]
 
 
 def noise(folder, count):

@@ -96,11 +96,10 @@ pub(super) fn warnings_of(
 ) -> Vec<String> {
     let mut warnings = Vec::new();
     if let Some(found) = found {
-        let confidence = found.modality_confidence;
-        if confidence < CONFIDENT {
+        if found.modality_confidence < CONFIDENT {
             warnings.push(format!(
-                "it is uncertain how the image was taken (confidence {confidence:.2} that this is {}), and with it the detections; --modality says it",
-                found.modality
+                "it is uncertain how the image was taken (confidence {:.2} that it is {}), and with it the detections; --modality settles it",
+                found.modality_confidence, found.modality
             ));
         }
         let confidence = found.spacing_confidence;

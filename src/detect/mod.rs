@@ -32,6 +32,7 @@ pub use view::WIDEST_SPACING;
 use crate::image::{Plane, crop, imaged_part};
 use search::regularity;
 use spacing::Start;
+use std::borrow::Cow;
 use thiserror::Error;
 use view::View;
 
@@ -127,17 +128,23 @@ pub enum DetectError {
 /// If the image is too small, constant, or has pixels that are not numbers, or an option is out of range.
 pub fn detect(image: &Plane, options: &DetectOptions) -> Result<Detections, DetectError> {
     options.validate()?;
+    let (imaged, left, top) = without_margin(image)?;
+    let mut found = detect_imaged(&imaged, options)?;
+    found.move_by(left, top);
+    Ok(found)
+}
+
+/// The image without a straight black margin, whose edges look like cones and which has a spectrum of its own; and where what is left
+/// begins, px.
+fn without_margin(image: &Plane) -> Result<(Cow<'_, Plane>, usize, usize), DetectError> {
     check(image)?;
     let part = imaged_part(image);
     if (part.height, part.width) == image.dim() {
-        return detect_imaged(image, options);
+        return Ok((Cow::Borrowed(image), 0, 0));
     }
-    // a black margin has edges that look like cones, and a spectrum of its own
     let imaged = crop(image, part.top, part.left, part.height, part.width);
     check(&imaged)?;
-    let mut found = detect_imaged(&imaged, options)?;
-    found.move_by(part.left, part.top);
-    Ok(found)
+    Ok((Cow::Owned(imaged), part.left, part.top))
 }
 
 /// What the modality and the polarity of an image are decided by.
@@ -145,8 +152,8 @@ pub fn detect(image: &Plane, options: &DetectOptions) -> Result<Detections, Dete
 /// # Errors
 /// If the image is too small, constant, or has pixels that are not numbers.
 pub fn modality_features(image: &Plane) -> Result<ModalityFeatures, DetectError> {
-    check(image)?;
-    let rings = View::suitable(image, None).rings;
+    let (imaged, ..) = without_margin(image)?;
+    let rings = View::suitable(&imaged, None).rings;
     Ok(modality::features(rings.sample(), rings.whole()))
 }
 
@@ -268,6 +275,11 @@ mod tests {
     use super::*;
     use crate::render::{MosaicOptions, RenderOptions, simulate};
     use rand::SeedableRng;
+
+    #[test]
+    fn all_weights_together_are_small() {
+        assert!(weights().map(<[u8]>::len).iter().sum::<usize>() <= 400_000);
+    }
 
     #[test]
     fn a_black_margin_moves_the_cones_and_changes_nothing_else() {

@@ -204,6 +204,5 @@ pub fn exposed(image: &Plane, black: f64, white: f64) -> Plane {
     values.sort_by(f32::total_cmp);
     let at = |part: f64| values[(part * (values.len() - 1) as f64) as usize];
     let (low, high) = (if black > 0. { at(black) } else { 0. }, at(1. - white));
-    // what is exactly 0 was not imaged
-    image.mapv(|v| ((v - low) / (high - low)).clamp(1. / 255., 1.))
+    image.mapv(|v| ((v - low) / (high - low)).clamp(0., 1.))
 }

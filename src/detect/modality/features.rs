@@ -10,6 +10,8 @@ const COARSE: f64 = 0.2;
 const GREY: f64 = 0.08;
 /// Neighbourhood, in spacings, in which grey values are compared.
 const AROUND: f64 = 1.5;
+/// Grey values, in local standard deviations, range over no less than this: more than half of an image may be one grey.
+const LEAST_RANGE: f64 = 1e-2;
 /// Maxima lower than this part of their median are not cones.
 const CONE: f64 = 0.3;
 
@@ -57,7 +59,7 @@ impl Features {
         }
     }
 
-    /// What shows the modality; of an image, its negative and its mirror image the same.
+    /// What shows the modality, without units, in the order of the code; of an image, its negative and its mirror image the same.
     pub(super) fn of_modality(&self) -> [f64; MODALITY] {
         let greys = &self.greys;
         let [fine, coarse] = [self.fine_slopes, self.coarse_slopes];
@@ -143,7 +145,7 @@ impl Greys {
         };
         let [lowest, low, lower, median, upper, high, highest] =
             [0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99].map(&mut quantile);
-        let range = (high - low).max(f64::MIN_POSITIVE);
+        let range = (high - low).max(LEAST_RANGE);
         let sign = if negative { -1. } else { 1. };
         let (above, below) = ((highest - high) / range, (low - lowest) / range);
         let (bright_end, dark_end) = if negative { (below, above) } else { (above, below) };

@@ -1,9 +1,8 @@
 //! How an image was taken and which way round its contrast runs, decided from the image.
 //!
 //! A small network tells modalities apart; `scripts/train-modality` trains it on hand-marked and on simulated images, as they are and
-//! with gamma ½ and 2, noise, blur, over- and underexposed, as negatives and as crops. Which way round a split detector is, the same
-//! script's logistic regression says; so that evidence is in logits. Once cut cells are found, their own contrast says which way round
-//! it runs ([`of_cells`]).
+//! with gamma ½ and 2, noise, blur, over- and underexposed, as negatives and as crops. A logistic regression by the same script says
+//! which way round a split detector is. Once cut cells are found, their own contrast says which way round it runs ([`of_cells`]).
 
 mod features;
 mod network;
@@ -23,17 +22,17 @@ const CELL: f64 = 0.5;
 /// Pixels from which on an image may be larger than its flattened part.
 const LARGE: usize = 512 * 512;
 
-/// Evidence of a split detector that shows cones dark on the left, by [`Features::of_direction`].
-const DARK_LEFT: [f64; DIRECTION] = [55.77, 25.33, -43.59, 1.31];
 /// Dark on the left is how instruments are set up: odds of two to one, in logits.
 const USUAL: f64 = 0.7;
 
-/// What tells images apart, as `scripts/train-modality` reads it.
+/// What tells images apart, as `scripts/train-modality` reads it: numbers without units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModalityFeatures {
-    /// Of the modality.
+    /// What shows the modality: of slopes along x the excess over those along y and skewness, coarse and fine; skewness of blobs; of
+    /// grey values skewness, kurtosis, shape and ends; scatter of the cones' heights; the spectrum around the ring.
     pub modality: [f64; MODALITY],
-    /// Of the side on which a split detector shows cones dark.
+    /// What shows on which side a split detector has cones dark: skewness of its filter's response, of slopes along x, coarse and fine,
+    /// and of blobs.
     pub direction: [f64; DIRECTION],
 }
 
@@ -52,10 +51,7 @@ pub(super) fn decide(
     let (modality, confidence) =
         modality.map_or_else(|| network::most_probable(&features.of_modality()), |given| (given, 1.));
     let evidence = || match modality {
-        Modality::Split => {
-            let direction = features.of_direction(flat);
-            DARK_LEFT.iter().zip(direction).map(|(w, f)| w * f).sum::<f64>() + USUAL
-        }
+        Modality::Split => network::dark_left(&features.of_direction(flat)) + USUAL,
         // cones make high maxima, what lies between them shallow minima
         Modality::Confocal | Modality::Histology => features.blobs_skewness,
     };
@@ -91,6 +87,21 @@ pub(super) fn of_cells(image: &Plane, centres: &[Point], spacing: f64) -> Polari
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::detect::flatten;
+
+    #[test]
+    fn what_is_given_is_beyond_doubt_and_the_rest_is_not() {
+        let flat = flatten(&Plane::from_shape_fn((90, 100), |(y, x)| {
+            (0.7 * x as f32).sin() * (0.75 * y as f32).cos() + 0.1 * ((x * 31 + y * 17) % 11) as f32
+        }));
+        let ring = RingProfile::of(&flat);
+        for modality in Modality::ALL {
+            let (taken, confidence, _) = decide(&flat, &ring, Some(modality), None);
+            assert_eq!((taken, confidence), (modality, 1.));
+        }
+        let (_, confidence, _) = decide(&flat, &ring, None, None);
+        assert!((1. / 3. ..1.).contains(&confidence), "{confidence}");
+    }
 
     #[test]
     fn cells_are_bright_or_dark_against_what_lies_around_them_whatever_the_rest() {

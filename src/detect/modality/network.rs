@@ -1,7 +1,7 @@
-//! A small network that tells modalities apart by what [`Features`](super::features::Features) shows: one hidden layer. Trained by
-//! scripts/train-modality.
+//! A small network that tells modalities apart by what [`Features`](super::features::Features) shows: one hidden layer; and a logistic
+//! regression that tells which way round a split detector is. Trained by scripts/train-modality.
 
-use super::features::MODALITY;
+use super::features::{DIRECTION, MODALITY};
 use crate::detect::Modality;
 use std::sync::OnceLock;
 
@@ -9,31 +9,41 @@ use std::sync::OnceLock;
 const HIDDEN: usize = 64;
 const CLASSES: usize = Modality::ALL.len();
 
-/// Weights (out × in) and biases of either layer, modalities in the order of [`Modality::ALL`]: 32-bit floats, little endian.
+/// Weights (out × in) and biases of either layer, modalities in the order of [`Modality::ALL`], then those of the direction: 32-bit
+/// floats, little endian.
 static FILE: &[u8; 4 * COUNT] = include_bytes!("modality.f32");
-const COUNT: usize = HIDDEN * (MODALITY + 1) + CLASSES * (HIDDEN + 1);
+const FIRST: usize = HIDDEN * (MODALITY + 1);
+const LAST: usize = CLASSES * (HIDDEN + 1);
+const COUNT: usize = FIRST + LAST + DIRECTION;
 
 /// The file of the weights: results depend on it.
 pub(in crate::detect) const fn weights() -> &'static [u8] {
     FILE
 }
 
+fn numbers() -> &'static [f64] {
+    static NUMBERS: OnceLock<Vec<f64>> = OnceLock::new();
+    NUMBERS.get_or_init(|| FILE.as_chunks().0.iter().map(|b| f64::from(f32::from_le_bytes(*b))).collect())
+}
+
 /// The most probable modality, and its probability, 0–1.
 pub(super) fn most_probable(features: &[f64; MODALITY]) -> (Modality, f64) {
     let scores = scores(features);
     let best = (0..CLASSES).max_by(|&a, &b| scores[a].total_cmp(&scores[b])).unwrap_or(0);
-    let odds_against: f64 = scores.iter().map(|s| (s - scores[best]).exp()).sum();
-    (Modality::ALL[best], 1. / odds_against)
+    let sum: f64 = scores.iter().map(|s| (s - scores[best]).exp()).sum();
+    (Modality::ALL[best], 1. / sum)
 }
 
 /// Logarithm of the odds of each modality, up to a constant.
 fn scores(features: &[f64; MODALITY]) -> [f64; CLASSES] {
-    static WEIGHTS: OnceLock<Vec<f64>> = OnceLock::new();
-    let weights = WEIGHTS
-        .get_or_init(|| FILE.as_chunks().0.iter().map(|b| f64::from(f32::from_le_bytes(*b))).collect());
-    let (first, last) = weights.split_at(HIDDEN * (MODALITY + 1));
+    let (first, rest) = numbers().split_at(FIRST);
     let hidden: [f64; HIDDEN] = layer::<MODALITY, HIDDEN>(first, features).map(f64::tanh);
-    layer(last, &hidden)
+    layer(&rest[..LAST], &hidden)
+}
+
+/// Evidence, in logits, that a split detector shows cones dark on the left.
+pub(super) fn dark_left(features: &[f64; DIRECTION]) -> f64 {
+    numbers()[FIRST + LAST..].iter().zip(features).map(|(w, f)| w * f).sum()
 }
 
 fn layer<const IN: usize, const OUT: usize>(weights: &[f64], inputs: &[f64; IN]) -> [f64; OUT] {
