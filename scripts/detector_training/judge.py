@@ -173,8 +173,8 @@ def summary(seen, disturbed, samples, folds, rule):
                                             for sample, found, spacing, shape, factor in shown])
         return int(max(np.flatnonzero(means > means.max() - TIED), key=when_disturbed))
 
-    every = range(len(folds))
-    pick = chosen(list(every))
+    every = list(range(len(folds)))
+    pick = chosen(every)
     constant, radius = choices[pick]
     # constants for a fold are chosen on the other folds
     others = [chosen([k for k in every if k != left_out]) for left_out in every]

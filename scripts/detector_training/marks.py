@@ -26,6 +26,11 @@ def inside(points, shape):
     return ((points >= BORDER - 0.5) & (points < [w - BORDER - 0.5, h - BORDER - 0.5])).all(1)
 
 
+def group(image, marked):
+    """What is left out together: a subject, or what stands for one among simulated images, GROUP_KIND_NUMBER.png."""
+    return subject(image) if marked else 'simulated ' + os.path.basename(image).split('_')[0]
+
+
 def folds(rows, count):
     """For each of `count` folds of subjects: the other rows, and its own."""
     subjects = sorted({row.subject for row in rows})
