@@ -1,12 +1,13 @@
-//! Files appear whole or not at all.
+//! Files that appear whole or not at all.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Writes a file whole or not at all: into a temporary file of the same folder, which takes the name at the end. A
-/// failure, a panic or an interruption leaves what was there before. Devices and pipes are written directly.
+/// Writes a file whole or not at all: into a temporary file of the same folder, which is synced to
+/// the disk and then takes the name. A failure, a panic, an interruption or a loss of power leaves
+/// what was there before. Devices and pipes are written directly.
 ///
 /// # Errors
 /// If the operating system or `write` refuses; then nothing remains of the attempt.
@@ -24,8 +25,19 @@ pub fn write_atomically(
     let (temporary, file) = Temporary::beside(&target)?;
     let mut writer = BufWriter::new(file);
     write(&mut writer)?;
-    writer.into_inner()?;
+    // without the sync a loss of power could leave the new name on an empty file
+    writer.into_inner()?.sync_all()?;
     fs::rename(&temporary.0, &target)
+}
+
+/// Syncs a folder's list of names to the disk, where the operating system can: renames in it then
+/// survive a loss of power.
+pub fn sync_folder(path: &Path) {
+    // Windows opens no folders as files and needs no such call; elsewhere a refusal changes nothing
+    // that the program could mend
+    if let Ok(folder) = File::open(path) {
+        let _ = folder.sync_all();
+    }
 }
 
 /// A file that vanishes when dropped, unless it was renamed before.

@@ -107,15 +107,40 @@ pub enum BatchError {
         folder: PathBuf,
     },
     /// Coordinates of somebody else stand where detections would be written.
-    #[error("{path}: holds other coordinates than detections: choose another --out folder", path = path.display())]
+    #[error(
+        "{path}: holds coordinates that a person has made or corrected: give up the corrections explicitly, or choose \
+         another folder for the results",
+        path = path.display()
+    )]
     Foreign {
         /// The file.
         path: PathBuf,
     },
     /// A folder that holds more than results stands where results would be written.
-    #[error("{path}: holds other files than results: choose another --out folder", path = path.display())]
+    #[error(
+        "{path}: holds {file}, which is no result of this program: move it away, or choose another folder for the results",
+        path = path.display()
+    )]
     ForeignFolder {
         /// The folder.
+        path: PathBuf,
+        /// The first such file in it.
+        file: String,
+    },
+    /// Another command is writing into the folder.
+    #[error("{path}: another run is writing into this folder: wait for its end, or choose another folder", path = path.display())]
+    Busy {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Cones that a person has corrected and that a run from the start would replace.
+    #[error(
+        "{path}: a person has corrected these cones, and a run from the start would replace them: go on with the earlier run, give \
+         up the corrections explicitly, or choose another folder for the results",
+        path = path.display()
+    )]
+    Corrected {
+        /// The file of cones.
         path: PathBuf,
     },
     /// An image whose results would be called like the list of failures.

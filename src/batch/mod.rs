@@ -1,52 +1,33 @@
-//! Folders of files: finds them, names them, gives them their scale, works through them on all cores, keeps
-//! failures apart. Knows nothing of mathematics.
+//! Batches of files: finds them, names them, gives them their scale, works through them on all cores,
+//! keeps failures apart and results whole. Knows nothing of mathematics.
+//!
+//! Every command that measures mosaics is the same pipeline: [`run_files`] gets cones from images,
+//! [`measure_files`] and [`compare_files`] from coordinate files; what is computed of them and
+//! written is one [`Plan`].
 
-mod agreement;
-mod comparison;
-mod coordinates;
-mod crop;
-mod detection;
+mod agree;
+mod analysis;
+mod detect;
 mod error;
-mod failures;
-mod image_figure;
-mod image_window;
-mod inputs;
-mod labels;
-mod length;
-mod maps;
-mod measured;
-mod outputs;
-mod pairing;
+mod input;
+mod measure;
+mod output;
 mod paper;
-mod progress;
-mod readings;
-mod region;
-mod rois;
 mod run;
-mod scales;
-mod validation;
-mod verdicts;
-mod work;
+mod validate;
+mod window;
 
-pub use agreement::{AgreementOutcome, ColumnAgreement, agree_files};
-pub use comparison::{CompareOptions, compare_files};
-pub use coordinates::{CoordinatesOptions, CoordinatesOutcome, measure_files};
-pub use crop::Crop;
-pub use detection::{DetectionExtras, DetectionOutcome, detect_files};
+pub use agree::{AgreementOutcome, ColumnAgreement, agree_files};
+pub use analysis::{MapRequest, MapWindow, Plan, RoiRequest, RoiSource};
+pub use detect::{DetectionExtras, DetectionOutcome, detect_files};
 pub use error::BatchError;
-pub use failures::Failure;
-pub use image_window::ImageWindow;
-pub use inputs::{Input, coordinate_files, image_files};
-pub use labels::{GroupBy, Labels};
-pub use length::Length;
-pub use maps::{MapRequest, MapWindow};
+pub use input::{GroupBy, Input, Labels, ScaleSource, coordinate_files, image_files};
+pub use measure::{CoordinatesOptions, CoordinatesOutcome, compare_files, measure_files};
+pub use output::{Ending, Failure, Leftovers, Progress, Silent};
 pub use paper::remake_paper;
-pub use progress::{Progress, Silent};
-pub use region::Region;
-pub use rois::{RoiRequest, RoiSource};
 pub use run::{RunOptions, RunOutcome, run_files};
-pub use scales::ScaleSource;
-pub use validation::{
+pub use validate::{
     Analysis, Comparison, Detected, Grouping, ValidationOptions, ValidationOutcome, ValidationRow, VersusRow,
     validate_files,
 };
+pub use window::{Crop, ImageWindow, Length, Region};

@@ -1,4 +1,4 @@
-use super::outputs::{OutputFolder, series_table};
+use super::output::{OutputFolder, ResultFolder, series_table};
 use super::{BatchError, Progress};
 use crate::compare::paper::{
     FIGURE_1_SAMPLERS, Pattern, PrintedDistances, TABLE_1_SAMPLERS, TABLE_2_SAMPLERS, distance_between,
@@ -60,7 +60,7 @@ pub fn remake_paper(
     progress: &dyn Progress,
 ) -> Result<PaperResults, BatchError> {
     let tasks = tasks(patterns)?;
-    let out = OutputFolder::create(out)?;
+    let out = ResultFolder::open(out)?;
     progress.begin(tasks.len());
     let made: Result<Vec<_>, CompareError> =
         tasks.par_iter().map(|task| work(task, seed, progress).map(|made| (*task, made))).collect();
@@ -79,6 +79,7 @@ pub fn remake_paper(
     }
     let results = results(&all, patterns, seed)?;
     write(&all, &results, &out)?;
+    out.close(0)?;
     Ok(results)
 }
 

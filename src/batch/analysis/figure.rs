@@ -1,0 +1,42 @@
+use crate::batch::BatchError;
+use crate::compare::ReferenceCurve;
+use crate::image::Plane;
+use crate::mosaic::Mosaic;
+use crate::report::{Curve, MosaicFigure, MosaicRecord, ReferenceLine, mosaic_figure};
+use crate::stats::Measures;
+
+/// The paper's row for a mosaic.
+pub(super) fn figure(
+    title: &str,
+    picture: Option<&Plane>,
+    mosaic: &Mosaic,
+    measures: &Measures,
+    record: &MosaicRecord,
+    curves: &[ReferenceCurve],
+) -> Result<String, BatchError> {
+    let references: Vec<ReferenceLine> = curves
+        .iter()
+        .map(|c| ReferenceLine {
+            name: &c.sampler,
+            r: &c.pcf.r,
+            g: &c.pcf.g,
+            l_infinity: record.distance_to(&c.sampler),
+        })
+        .collect();
+    Ok(mosaic_figure(&MosaicFigure {
+        title,
+        picture,
+        points: mosaic.points(),
+        window: mosaic.window(),
+        unit: mosaic.unit(),
+        um_per_unit: mosaic.micrometres_per_unit(),
+        nn: &measures.neighbours.distances,
+        nn_mean: measures.nearest.mean,
+        nn_sd: measures.nearest.sd,
+        ri: measures.nearest.ri,
+        histogram_edges: &measures.histogram.edges,
+        histogram_counts: &measures.histogram.counts,
+        pcf: measures.pcf.as_ref().ok().map(|p| Curve { r: &p.r, g: &p.g }),
+        references: &references,
+    })?)
+}

@@ -1,0 +1,141 @@
+//! One mosaic, wherever it comes from: its statistics, its comparison with samplers, maps, regions
+//! and warnings, and the files that hold them. `run`, `measure` and `compare` only feed this.
+
+mod figure;
+mod maps;
+mod measured;
+mod plan;
+mod rois;
+mod verdicts;
+mod write;
+
+pub use maps::{MapRequest, MapWindow};
+pub use plan::Plan;
+pub use rois::{RoiRequest, RoiSource};
+
+pub(super) use maps::write_landmarks;
+pub(super) use measured::CONFIDENT;
+pub(super) use rois::write as write_rois;
+pub(super) use verdicts::write_table as write_verdicts;
+pub(super) use write::{Layout, required_files, write};
+
+use super::{BatchError, Input};
+use crate::compare::{ReferenceCurve, References, SamplerVerdict};
+use crate::detect::{Detections, FourierEstimate, fourier_spacing};
+use crate::image::Plane;
+use crate::mosaic::Mosaic;
+use crate::report::{Cell, LandmarkRecord, MosaicRecord};
+use crate::stats::{Functions, Maps, Measures, PowerSpectrum, functions, measure, spectrum};
+use measured::{distances, not_compared, record_of, warnings_of};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// A mosaic to be analysed.
+pub(super) struct Specimen<'a> {
+    /// The file that it was found or marked in.
+    pub input: &'a Input,
+    /// The points that count, in their window.
+    pub mosaic: Mosaic,
+    /// Points of the file that lie outside the window.
+    pub outside: usize,
+    /// The image, where there is one.
+    pub image: Option<&'a Plane>,
+    /// How the points were found, if this program found them.
+    pub found: Option<&'a Detections>,
+}
+
+/// Everything that is known of a mosaic.
+pub(super) struct Analysis {
+    pub measures: Measures,
+    pub record: MosaicRecord,
+    pub warnings: Vec<String>,
+    pub curves: Arc<Vec<ReferenceCurve>>,
+    pub verdicts: Vec<SamplerVerdict>,
+    pub functions: Option<Functions>,
+    pub spectrum: Option<PowerSpectrum>,
+    pub maps: Option<Maps>,
+    pub landmarks: Option<LandmarkRecord>,
+    /// Rows of `rois.csv`.
+    pub regions: Vec<Vec<Cell>>,
+    /// Spacing by the spectrum of the image, if it is wanted and there is an image.
+    pub fourier: Option<FourierEstimate>,
+    /// Wall-clock seconds of measuring and comparing.
+    pub seconds: [f64; 2],
+}
+
+/// Analyses one mosaic as planned.
+///
+/// # Errors
+/// If something that was asked for cannot be computed of this mosaic: functions of distance, maps,
+/// regions, the spectrum of the image, or an ambiguous row of the manifest. Statistics that are not
+/// defined are missing values or warnings.
+pub(super) fn analyse(
+    specimen: &Specimen,
+    plan: &Plan,
+    references: &References,
+) -> Result<Analysis, BatchError> {
+    let (mosaic, path) = (&specimen.mosaic, &specimen.input.path);
+    let clock = Instant::now();
+    let measures = measure(mosaic, &plan.measure);
+    let measured = clock.elapsed().as_secs_f64();
+
+    let curves = match &measures.pcf {
+        Ok(_) => references.curves(mosaic.len(), mosaic.window()).unwrap_or_default(),
+        Err(_) => Arc::default(),
+    };
+    let (verdicts, no_verdicts) =
+        verdicts::verdicts_on(mosaic, &measures, &plan.samplers, plan.verdict.as_ref(), plan.seed);
+    let mut record = record_of(mosaic, &measures, distances(&measures, &curves)?);
+    record.verdicts = verdicts::records(&verdicts);
+    let compared = clock.elapsed().as_secs_f64();
+
+    let mut warnings = warnings_of(specimen.found, &record, &measures);
+    if specimen.outside > 0 {
+        warnings.push(format!("{} points outside the window are left out", specimen.outside));
+    }
+    warnings.extend(not_compared(&measures, &plan.samplers, &curves));
+    warnings.extend(no_verdicts);
+    plan.labels.of(path, mosaic.scale())?.put_on(&mut record, &mut warnings);
+
+    let functions = plan
+        .functions
+        .as_ref()
+        .map(|distances| functions(mosaic.points(), mosaic.window(), &measures.neighbours, distances))
+        .transpose()?;
+    let spectrum = plan.spectrum.as_ref().and_then(|(options, _)| {
+        spectrum(mosaic.points(), mosaic.window(), options)
+            .inspect_err(|missing| warnings.push(format!("no spectrum: {missing}")))
+            .ok()
+    });
+    let maps = plan
+        .maps
+        .as_ref()
+        .map(|request| Ok::<_, BatchError>(crate::stats::maps(mosaic, &measures, &request.of(mosaic, path)?)?))
+        .transpose()?;
+    let landmarks =
+        maps.as_ref().map(|maps| LandmarkRecord::new(&path.display().to_string(), mosaic, maps));
+    let regions = match &plan.rois {
+        Some(request) => rois::rows(specimen.input, mosaic, &record, plan, request)?,
+        None => Vec::new(),
+    };
+    let fourier = match specimen.image.filter(|_| plan.wants_fourier()) {
+        Some(image) => fourier_spacing(image)
+            .map_err(|source| BatchError::Detect { file: path.clone(), source })
+            .map(Some)?,
+        None => None,
+    };
+    Ok(Analysis {
+        measures,
+        record,
+        warnings,
+        curves,
+        verdicts,
+        functions,
+        spectrum,
+        maps,
+        landmarks,
+        regions,
+        fourier,
+        seconds: [measured, compared - measured],
+    })
+}

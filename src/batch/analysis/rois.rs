@@ -1,0 +1,181 @@
+use super::Plan;
+use super::measured::{record_of, warnings_of};
+use crate::batch::output::OutputFolder;
+use crate::batch::{BatchError, Input, Length};
+use crate::geometry::Rectangle;
+use crate::mosaic::io::RoiTable;
+use crate::mosaic::{LengthUnit, Mosaic};
+use crate::report::{Cell, CoordinatesRecord, MosaicRecord, Subject, Summary, SummaryKind, tables};
+use crate::stats::{grown, lies_in, measure, sliding};
+use rayon::prelude::*;
+use std::path::Path;
+
+/// One row a region.
+const FILE: &str = "rois.csv";
+
+/// Regions of interest of every mosaic of a batch.
+#[derive(Clone, Debug)]
+pub struct RoiRequest {
+    /// Where they are.
+    pub source: RoiSource,
+    /// Each grows about its centre until it holds this many bound cells, 1 to 100 000; `None`: they stay as they are.
+    pub cells: Option<usize>,
+}
+
+/// Where regions of interest come from.
+#[derive(Clone, Debug)]
+pub enum RoiSource {
+    /// A table of boxes.
+    Table(RoiTable),
+    /// Squares that slide over the bounds of the window.
+    Sliding {
+        /// Their side.
+        side: Length,
+        /// From one to the next; `None`: the side, so that they tile the window.
+        step: Option<Length>,
+    },
+}
+
+impl RoiRequest {
+    /// Whether every field is in its range.
+    ///
+    /// # Errors
+    /// If the number of cells is not.
+    pub fn validate(&self) -> Result<(), BatchError> {
+        match self.cells {
+            Some(n) if !(1..=100_000).contains(&n) => Err(crate::stats::StatsError::Option {
+                option: "number of cells of the regions",
+                value: n as f64,
+                range: "it must be 1 to 100000",
+            }
+            .into()),
+            _ => Ok(()),
+        }
+    }
+
+    /// The table of regions may not be the one that is written.
+    pub(in crate::batch) fn refuse_overlap(&self, out: &Path) -> Result<(), BatchError> {
+        let RoiSource::Table(table) = &self.source else { return Ok(()) };
+        let (read, written) = (Path::new(table.file()).canonicalize(), out.join(FILE).canonicalize());
+        match (read, written) {
+            (Ok(read), Ok(written)) if read == written => {
+                Err(BatchError::Overlap { file: table.file().into(), folder: out.to_owned() })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// In words, for the record of a batch.
+    pub(super) fn describe(&self) -> serde_json::Value {
+        let source = match &self.source {
+            RoiSource::Table(table) => serde_json::json!({ "table": table.file() }),
+            RoiSource::Sliding { side, step } => serde_json::json!({ "side": side, "step": step }),
+        };
+        serde_json::json!({ "source": source, "cells": self.cells })
+    }
+
+    /// The boxes of a mosaic and their names, in the unit of its coordinates.
+    fn boxes(&self, input: &Input, mosaic: &Mosaic) -> Result<Vec<(String, Rectangle)>, BatchError> {
+        let file = &input.path;
+        match &self.source {
+            RoiSource::Table(table) => {
+                let factor = factor(table, mosaic, file)?;
+                let name = file.file_name().unwrap_or_default().to_string_lossy();
+                let boxes = table.boxes_of(&name)?;
+                let scaled = |f: &Rectangle| {
+                    Rectangle::new(f.x0() * factor, f.y0() * factor, f.x1() * factor, f.y1() * factor)
+                };
+                boxes.into_iter().map(|roi| Ok((roi.name.clone(), scaled(&roi.frame)?))).collect()
+            }
+            RoiSource::Sliding { side, step } => {
+                let side = side.of("the side of the regions", mosaic, file)?;
+                let step = step.map_or(Ok(side), |step| step.of("the step of the regions", mosaic, file))?;
+                let boxes = sliding(&mosaic.window().bounds(), side, step)?;
+                if boxes.is_empty() {
+                    return Err(BatchError::NoRoi { file: file.clone(), side });
+                }
+                let named = |([row, column], frame): ([usize; 2], _)| (format!("r{row}c{column}"), frame);
+                Ok(boxes.into_iter().map(named).collect())
+            }
+        }
+    }
+}
+
+/// From the unit of a table to that of a mosaic.
+fn factor(table: &RoiTable, mosaic: &Mosaic, file: &Path) -> Result<f64, BatchError> {
+    let no_scale = || BatchError::NoScale { what: "one of regions and coordinates", file: file.to_owned() };
+    match (table.unit(), mosaic.unit()) {
+        (None | Some(LengthUnit::Unit), _) | (_, LengthUnit::Unit) => Ok(1.),
+        (Some(given), unit) => given.factor_to(unit, mosaic.scale()).ok_or_else(no_scale),
+    }
+}
+
+/// The columns of `rois.csv`: where a region is, then those of `summary.csv` for the points in it.
+fn header(summary: &Summary) -> Vec<String> {
+    let place = tables::ROIS.header();
+    place.into_iter().chain(summary.header().into_iter().filter(|name| name != "file")).collect()
+}
+
+/// Returns the rows of one mosaic, one per region, each measured as a mosaic of its own: the points in the part of the window that
+/// lies in its box, their Voronoi cells among themselves, bound if they lie strictly inside that part. Of a region without
+/// any of the window there are no values. The same for any number of threads.
+///
+/// # Errors
+/// If a table has no boxes for the file, or a length is in µm and no scale is known.
+pub(super) fn rows(
+    input: &Input,
+    mosaic: &Mosaic,
+    whole: &MosaicRecord,
+    plan: &Plan,
+    request: &RoiRequest,
+) -> Result<Vec<Vec<Cell>>, BatchError> {
+    let summary = plan.summary(SummaryKind::Coordinates);
+    let header = summary.header();
+    let one = |(name, frame): (String, Rectangle)| -> Result<Vec<Cell>, BatchError> {
+        let (points, window) = (mosaic.points(), mosaic.window());
+        let mut flags = Vec::new();
+        let frame = match request.cells {
+            None => frame,
+            Some(needed) => {
+                let grown = grown(points, window, frame, needed);
+                if !grown.enough {
+                    flags.push("few");
+                }
+                grown.frame
+            }
+        };
+        let part = window.within(&frame);
+        if part.is_none() {
+            flags = vec!["outside"];
+        } else if !lies_in(&frame, window) {
+            flags.push("edge");
+        }
+        let edges = [frame.x0(), frame.y0(), frame.x1(), frame.y1()];
+        let mut row: Vec<Cell> = vec![input.path.display().to_string().as_str().into(), name.as_str().into()];
+        row.extend(edges.map(Cell::from));
+        row.push(flags.join(" ").as_str().into());
+        let values = match part {
+            None => vec![Cell::Missing; header.len()],
+            Some(part) => {
+                let inside = points.iter().copied().filter(|&p| part.contains(p)).collect();
+                let (roi, _) = Mosaic::new(inside, part, mosaic.unit(), mosaic.scale())
+                    .map_err(|source| BatchError::Mosaic { file: input.path.clone(), source })?;
+                let measures = measure(&roi, &plan.measure);
+                let mut mosaic = record_of(&roi, &measures, Vec::new());
+                mosaic.labels.clone_from(&whole.labels);
+                mosaic.place = whole.place;
+                let warnings = warnings_of(None, &mosaic, &measures);
+                let file = input.path.display().to_string();
+                summary.row(&Subject::Coordinates(&CoordinatesRecord { file, outside: 0, mosaic, warnings }))
+            }
+        };
+        row.extend(header.iter().zip(values).filter(|(name, _)| *name != "file").map(|(_, cell)| cell));
+        Ok(row)
+    };
+    request.boxes(input, mosaic)?.into_par_iter().map(one).collect()
+}
+
+/// Writes `rois.csv`.
+pub(in crate::batch) fn write(out: &OutputFolder, summary: &Summary, rows: &[Vec<Cell>]) -> Result<(), BatchError> {
+    out.write_table(FILE, &header(summary), rows)
+}

@@ -1,0 +1,90 @@
+//! The files of one mosaic. In a folder of its own they have plain names; beside others each name
+//! begins with that of the mosaic and a dot.
+
+use super::measured::{functions_table, pcf_table, points_table, recovery_table};
+use super::{Analysis, Plan, Specimen, figure, maps, verdicts};
+use crate::batch::BatchError;
+use crate::batch::output::{OutputFolder, series_table};
+use crate::report::spectrum_png;
+
+const PCF: &str = "pcf.csv";
+const FIGURE: &str = "figure.svg";
+const FUNCTIONS: [&str; 2] = ["functions.csv", "density_recovery.csv"];
+const SPECTRUM: [&str; 2] = ["spectrum.csv", "spectrum.png"];
+/// The table of the points, with their neighbours and cells; `points.csv` of an image's folder
+/// holds the cones as they were found.
+const POINTS: [&str; 2] = ["points.csv", "cells.csv"];
+
+/// Where the files of a mosaic go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::batch) enum Layout {
+    /// Into a folder of its own, with the figure.
+    Folder,
+    /// Beside those of others.
+    Beside,
+}
+
+/// Names that [`write`] always writes into the folder of an image, given the plan.
+pub(in crate::batch) fn required_files(plan: &Plan, with_verdicts: bool) -> Vec<&'static str> {
+    let mut names = vec![PCF, FIGURE];
+    if plan.functions.is_some() {
+        names.extend(FUNCTIONS.into_iter().chain([POINTS[1]]));
+    }
+    if plan.maps.is_some() {
+        names.extend(maps::OF_IMAGE);
+    }
+    if with_verdicts {
+        names.extend(verdicts::FILES);
+    }
+    names
+}
+
+/// Writes the files of a mosaic into `folder`.
+///
+/// # Errors
+/// If a figure cannot be drawn or a file not be written.
+pub(in crate::batch) fn write(
+    analysis: &Analysis,
+    specimen: &Specimen,
+    plan: &Plan,
+    folder: &OutputFolder,
+    layout: Layout,
+) -> Result<(), BatchError> {
+    let (name, mosaic, measures) = (&specimen.input.name, &specimen.mosaic, &analysis.measures);
+    let called = |file: &str| match layout {
+        Layout::Folder => file.to_owned(),
+        Layout::Beside => format!("{name}.{file}"),
+    };
+    let (header, rows) = pcf_table(measures, &analysis.curves);
+    folder.write_table(&called(PCF), &header, &rows)?;
+    if layout == Layout::Folder {
+        let drawn =
+            figure::figure(name, specimen.image, mosaic, measures, &analysis.record, &analysis.curves)?;
+        folder.write(FIGURE, drawn.as_bytes())?;
+    }
+    if let Some(found) = &analysis.functions {
+        let (header, rows) = functions_table(found);
+        folder.write_table(&called(FUNCTIONS[0]), &header, &rows)?;
+        let (header, rows) = recovery_table(measures);
+        folder.write_table(&called(FUNCTIONS[1]), &header, &rows)?;
+        let (header, rows) = points_table(mosaic, measures);
+        let table = if layout == Layout::Folder { POINTS[1] } else { POINTS[0] };
+        folder.write_table(&called(table), &header, &rows)?;
+    }
+    if let (Some(found), Some((_, scale))) = (&analysis.spectrum, plan.spectrum) {
+        let (header, rows) = series_table([
+            ("frequency".to_owned(), found.frequency.as_slice()),
+            ("power".to_owned(), found.power.as_slice()),
+            ("anisotropy_db".to_owned(), found.anisotropy_db.as_slice()),
+        ]);
+        folder.write_table(&called(SPECTRUM[0]), &header, &rows)?;
+        folder.write(&called(SPECTRUM[1]), &spectrum_png(found, scale)?)?;
+    }
+    if let Some(found) = &analysis.maps {
+        maps::write(folder, &called(""), name, mosaic, found)?;
+        if let Some(image) = specimen.image.filter(|_| layout == Layout::Folder) {
+            maps::write_fourier(folder, image, analysis.fourier.as_ref(), mosaic.scale())?;
+        }
+    }
+    verdicts::write(folder, &called(""), name, measures, &analysis.verdicts)
+}

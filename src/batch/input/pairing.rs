@@ -1,0 +1,36 @@
+use std::path::{Path, PathBuf};
+
+const IMAGE_EXTENSIONS: [&str; 9] = ["png", "tif", "tiff", "PNG", "TIF", "TIFF", "Png", "Tif", "Tiff"];
+
+/// The name of the image that a coordinate file belongs to: its own less the extension and a final `_coords`.
+pub(in crate::batch) fn image_name(coordinates: &Path) -> String {
+    let stem = coordinates.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    stem.strip_suffix("_coords").map_or(stem.clone(), str::to_owned)
+}
+
+/// Whether a file says by its name that it holds marks.
+pub(in crate::batch) fn says_coords(path: &Path) -> bool {
+    path.file_stem().unwrap_or_default().to_string_lossy().ends_with("_coords")
+}
+
+/// The image of that name in a folder.
+pub(in crate::batch) fn image_in(folder: &Path, name: &str) -> Option<PathBuf> {
+    IMAGE_EXTENSIONS.iter().map(|e| folder.join(format!("{name}.{e}"))).find(|p| p.is_file())
+}
+
+/// The image beside a coordinate file.
+pub(in crate::batch) fn image_beside(coordinates: &Path) -> Option<PathBuf> {
+    let folder = coordinates.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    image_in(folder, &image_name(coordinates))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_belong_to_the_image_of_their_name() {
+        assert_eq!(image_name(Path::new("a/JC_0.08_x_coords.csv")), "JC_0.08_x");
+        assert_eq!(image_name(Path::new("JC_0.08_x.csv")), "JC_0.08_x");
+    }
+}

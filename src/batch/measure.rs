@@ -1,0 +1,240 @@
+use super::analysis::{
+    Analysis, Layout, Plan, Specimen, analyse, write, write_landmarks, write_rois, write_verdicts,
+};
+use super::output::{Ending, ResultFolder, Worked, for_each, write_failures};
+use super::window::Regions;
+use super::{BatchError, Crop, Failure, Input, Progress, Region};
+use crate::geometry::{Point, Window};
+use crate::mosaic::io::{ReadOptions, read_coordinates};
+use crate::mosaic::{LengthUnit, Mosaic};
+use crate::report::{
+    Cell, CoordinatesRecord, FindingRecord, LandmarkRecord, Subject, SummaryKind, counted, tables,
+};
+use std::path::{Path, PathBuf};
+
+/// How coordinate files are read, and what is made of them.
+#[derive(Clone)]
+pub struct CoordinatesOptions {
+    /// What is computed and written of every mosaic.
+    pub plan: Plan,
+    /// How the files are to be understood.
+    pub read: ReadOptions,
+    /// Where points could have been seen.
+    pub region: Region,
+    /// Folder of the images that windows are taken from; `None`: they lie beside the files.
+    pub images: Option<PathBuf>,
+    /// The rectangle of that window that counts; `None`: all of it.
+    pub crop: Option<Crop>,
+    /// Opposite edges of the window are the same place; not with a crop.
+    pub torus: bool,
+}
+
+/// What came of measuring or comparing coordinate files.
+#[derive(Clone, Debug)]
+pub struct CoordinatesOutcome {
+    /// One record per file, in the order of the inputs.
+    pub records: Vec<CoordinatesRecord>,
+    /// Files without results.
+    pub failures: Vec<Failure>,
+    /// Correlation of regularity with the distance to each sampler; empty where it was not asked
+    /// for.
+    pub findings: Vec<FindingRecord>,
+    /// How the batch ended.
+    pub ending: Ending,
+}
+
+/// What is kept of a file when its results are written.
+struct Done {
+    name: String,
+    record: CoordinatesRecord,
+    landmarks: Option<LandmarkRecord>,
+    regions: Vec<Vec<Cell>>,
+}
+
+/// Measures coordinate files into `out`.
+///
+/// Writes `summary.csv` (one row per file) and the same as `summary.json`, `NAME.pcf.csv`, and what
+/// the plan asks for: `groups.csv`, `verdicts.csv`, `landmarks.csv`, `rois.csv`, and of each file
+/// `NAME.functions.csv`, `.density_recovery.csv`, `.points.csv`, `.spectrum.csv`, `.spectrum.png`,
+/// `.maps.csv`, `.maps.svg`, `.profiles.csv`, `.envelope.csv`, `.verdict.svg`.
+///
+/// # Errors
+/// If an option is out of range, the file of a window cannot be read or `out` cannot be written to.
+/// Files that fail are in the outcome and in `failures.csv`.
+pub fn measure_files(
+    inputs: &[Input],
+    options: &CoordinatesOptions,
+    out: &Path,
+    progress: &dyn Progress,
+) -> Result<CoordinatesOutcome, BatchError> {
+    work_through(inputs, options, out, progress, |_, _| Ok(Vec::new()))
+}
+
+/// Measures coordinate files and compares them with samplers, into `out`.
+///
+/// Writes what [`measure_files`] does, and `regularity.csv` and `l_infinity.csv` (Tables 1 and 2 of
+/// Lanaro et al. 2020: one row per file) and `finding.csv` (one row per sampler: rank correlation of
+/// the two).
+///
+/// # Errors
+/// As [`measure_files`].
+pub fn compare_files(
+    inputs: &[Input],
+    options: &CoordinatesOptions,
+    out: &Path,
+    progress: &dyn Progress,
+) -> Result<CoordinatesOutcome, BatchError> {
+    work_through(inputs, options, out, progress, |out, done| {
+        let names = options.plan.sampler_names();
+        let rows: Vec<_> = done.iter().map(|d| d.record.regularity_row()).collect();
+        out.write_described(&tables::REGULARITY, &rows)?;
+        let rows: Vec<_> = done.iter().map(|d| d.record.distance_row(&names)).collect();
+        out.write_table("l_infinity.csv", &CoordinatesRecord::distance_header(&names), &rows)?;
+        let findings = findings(done, &names, options.plan.seed);
+        let rows: Vec<_> = findings.iter().map(FindingRecord::row).collect();
+        out.write_table("finding.csv", &FindingRecord::header(), &rows)?;
+        Ok(findings)
+    })
+}
+
+fn work_through(
+    inputs: &[Input],
+    options: &CoordinatesOptions,
+    out: &Path,
+    progress: &dyn Progress,
+    more: impl FnOnce(&ResultFolder, &[Done]) -> Result<Vec<FindingRecord>, BatchError>,
+) -> Result<CoordinatesOutcome, BatchError> {
+    let plan = &options.plan;
+    plan.validate()?;
+    plan.rois.iter().try_for_each(|request| request.refuse_overlap(out))?;
+    let regions = Regions::new(options)?;
+    let out = ResultFolder::open(out)?;
+    let references = plan.references();
+    let worked = for_each(inputs, progress, |input| {
+        let (mosaic, outside) = load(input, options, &regions)?;
+        let specimen = Specimen { input, mosaic, outside, image: None, found: None };
+        let analysis = analyse(&specimen, plan, &references)?;
+        write(&analysis, &specimen, plan, &out, Layout::Beside)?;
+        let Analysis { record, warnings, landmarks, regions, .. } = analysis;
+        let file = input.path.display().to_string();
+        let record = CoordinatesRecord { file, outside, mosaic: record, warnings };
+        let line = line_about(&record);
+        Ok((Done { name: input.name.clone(), record, landmarks, regions }, line))
+    });
+    write_tables(&out, options, &worked)?;
+    let findings = more(&out, &worked.done)?;
+    write_failures(&out, &worked.failures)?;
+    let ending = out.close(worked.left)?;
+    let records = worked.done.into_iter().map(|d| d.record).collect();
+    Ok(CoordinatesOutcome { records, failures: worked.failures, findings, ending })
+}
+
+/// Writes the tables of all files.
+fn write_tables(
+    out: &ResultFolder,
+    options: &CoordinatesOptions,
+    worked: &Worked<Done>,
+) -> Result<(), BatchError> {
+    let plan = &options.plan;
+    let done = &worked.done;
+    let summary = plan.summary(SummaryKind::Coordinates);
+    let subjects: Vec<(&str, Subject)> =
+        done.iter().map(|d| (d.name.as_str(), Subject::Coordinates(&d.record))).collect();
+    let rows: Vec<_> = subjects.iter().map(|(_, subject)| summary.row(subject)).collect();
+    out.write_table("summary.csv", &summary.header(), &rows)?;
+    let objects: Result<Vec<_>, _> = subjects.iter().map(|(_, subject)| summary.json(subject)).collect();
+    out.write_json("summary.json", &objects?)?;
+    plan.labels.write_groups(out, &summary, &subjects)?;
+    if plan.maps.is_some() {
+        write_landmarks(out, done.iter().filter_map(|d| d.landmarks.as_ref()))?;
+    }
+    if plan.rois.is_some() {
+        let rows: Vec<Vec<Cell>> = done.iter().flat_map(|d| d.regions.iter().cloned()).collect();
+        write_rois(out, &summary, &rows)?;
+    }
+    if plan.verdict.is_some() {
+        let found = done.iter().map(|d| (d.record.file.as_str(), d.record.mosaic.verdicts.as_slice()));
+        write_verdicts(out, found)?;
+    }
+    out.write_json("options.json", &options_json(options))
+}
+
+/// Records how coordinates were read and measured, and what they were compared with.
+fn options_json(options: &CoordinatesOptions) -> serde_json::Value {
+    let mut record = serde_json::json!({
+        "program": "conemosaic",
+        "version": env!("CARGO_PKG_VERSION"),
+        "read": options.read,
+        "window": options.region.to_string(),
+        "images": options.images,
+        "crop": options.crop.map(|c| c.to_string()),
+        "torus": options.torus,
+    });
+    if let (Some(record), serde_json::Value::Object(plan)) = (record.as_object_mut(), options.plan.describe())
+    {
+        record.extend(plan);
+    }
+    record
+}
+
+fn line_about(record: &CoordinatesRecord) -> String {
+    let ri = record.mosaic.nearest.ri.map(|ri| format!(", RI {ri:.2}")).unwrap_or_default();
+    let closest = record.mosaic.closest_sampler().map(|s| format!(", closest to {s}")).unwrap_or_default();
+    format!("{}{ri}{closest}", counted(record.mosaic.n, "point"))
+}
+
+/// Correlates regularity with the distance to each sampler: the paper's main finding, on these
+/// mosaics.
+fn findings(done: &[Done], samplers: &[String], seed: u64) -> Vec<FindingRecord> {
+    let of = |sampler: &String| {
+        let both = |d: &Done| {
+            let mosaic = &d.record.mosaic;
+            Some((mosaic.nearest.ri?, mosaic.distance_to(sampler)?))
+        };
+        let pairs: Vec<(f64, f64)> = done.iter().filter_map(both).collect();
+        FindingRecord::of(sampler, &pairs, seed)
+    };
+    samplers.iter().map(of).collect()
+}
+
+/// Reads the mosaic in a coordinate file, and counts its points outside the window; those cut off by
+/// a crop are not counted: to leave them out is its purpose.
+fn load(
+    input: &Input,
+    options: &CoordinatesOptions,
+    regions: &Regions,
+) -> Result<(Mosaic, usize), BatchError> {
+    let file = read_coordinates(&input.path, &options.read)?;
+    let unit = match options.region {
+        Region::Unit => LengthUnit::Unit,
+        _ => file.unit.unwrap_or(LengthUnit::Pixel),
+    };
+    let scales = &options.plan.scales;
+    let (window, scale) = regions.of(&input.path, unit, scales)?;
+    let mut points = file.points;
+    let expansion = scales.expansion();
+    if unit == LengthUnit::Micrometre && expansion != 1. {
+        points.iter_mut().for_each(|p| *p = Point::new(p.x * expansion, p.y * expansion));
+    }
+    let outside = points.iter().filter(|&&p| !window.contains(p)).count();
+    let window = match &options.crop {
+        None => window,
+        Some(crop) => {
+            let frame = crop.frame("the crop", &input.path, &window.bounds(), unit, scale)?;
+            frame.and_then(|frame| window.within(&frame)).ok_or_else(|| BatchError::NothingCropped {
+                file: input.path.clone(),
+                crop: crop.to_string(),
+            })?
+        }
+    };
+    let window = match window {
+        Window::Polygon(_) if options.torus => {
+            return Err(BatchError::NoTorus { file: input.path.clone() });
+        }
+        window if options.torus => Window::Torus(window.bounds()),
+        window => window,
+    };
+    let (mosaic, _) = Mosaic::new(points, window, unit, scale)
+        .map_err(|source| BatchError::Mosaic { file: input.path.clone(), source })?;
+    Ok((mosaic, outside))
+}

@@ -1,0 +1,21 @@
+//! Where results go: a locked folder, whose files appear whole or not at all and are known by their
+//! hashes, and the work on all files of a batch.
+
+mod ending;
+mod failures;
+mod folder;
+mod for_each;
+mod ledger;
+mod progress;
+mod results;
+
+pub use ending::Ending;
+pub use failures::Failure;
+pub use ledger::Leftovers;
+pub use progress::{Progress, Silent};
+
+pub(super) use failures::write_failures;
+pub(super) use folder::{OutputFolder, series_table};
+pub(super) use for_each::{Worked, for_each};
+pub(super) use ledger::{MARKER, Standing, hex};
+pub(super) use results::ResultFolder;

@@ -1,0 +1,162 @@
+use crate::batch::input::{image_beside, image_in, image_name};
+use crate::batch::{BatchError, CoordinatesOptions, ScaleSource};
+use crate::geometry::Window;
+use crate::image::{self, imaged_area};
+use crate::mosaic::io::{OutlineFile, read_outline};
+use crate::mosaic::{LengthUnit, Scale};
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+/// Where the points of a coordinate file could have been seen.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Region {
+    /// The unit square.
+    Unit,
+    /// An image of this size: [−.5, W−.5] × [−.5, H−.5] px; in µm [0, W] × [0, H].
+    Size(f64, f64),
+    /// Left, upper, right and lower edge, in the unit of the coordinates.
+    Edges([f64; 4]),
+    /// What was imaged of the image of that name beside the file; see [`imaged_area`].
+    Auto,
+    /// All of that image.
+    Image,
+    /// The polygons in a file, in the unit of the coordinates unless it names another; see [`read_outline`].
+    File(PathBuf),
+}
+
+impl FromStr for Region {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers = |separator: char| -> Option<Vec<f64>> {
+            text.split(separator)
+                .map(|part| part.trim().parse().ok().filter(|v: &f64| v.is_finite()))
+                .collect()
+        };
+        match (text, numbers('x').as_deref(), numbers(',').as_deref()) {
+            ("unit", ..) => Ok(Self::Unit),
+            ("auto", ..) => Ok(Self::Auto),
+            ("image", ..) => Ok(Self::Image),
+            (_, Some(&[w, h]), _) if w > 0. && h > 0. => Ok(Self::Size(w, h)),
+            (_, _, Some(&[x0, y0, x1, y1])) if x0 < x1 && y0 < y1 => Ok(Self::Edges([x0, y0, x1, y1])),
+            _ if Path::new(text).is_file() => Ok(Self::File(text.into())),
+            _ => Err(format!(
+                "“{text}” is no window, nor a file: expected auto, image, unit, WxH, X0,Y0,X1,Y1 or a file of corners"
+            )),
+        }
+    }
+}
+
+impl fmt::Display for Region {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unit => f.write_str("unit"),
+            Self::Size(w, h) => write!(f, "{w}x{h}"),
+            Self::Edges([x0, y0, x1, y1]) => write!(f, "{x0},{y0},{x1},{y1}"),
+            Self::Auto => f.write_str("auto"),
+            Self::Image => f.write_str("image"),
+            Self::File(path) => path.display().fmt(f),
+        }
+    }
+}
+
+/// Windows of coordinate files: what was asked for, its file read.
+pub(in crate::batch) struct Regions<'a> {
+    asked: &'a Region,
+    /// Folder of the images; `None`: beside the files.
+    images: Option<&'a Path>,
+    outline: Option<OutlineFile>,
+}
+
+impl<'a> Regions<'a> {
+    /// # Errors
+    /// If the file of a window cannot be read.
+    pub(in crate::batch) fn new(options: &'a CoordinatesOptions) -> Result<Self, BatchError> {
+        let outline = match &options.region {
+            Region::File(path) => Some(read_outline(path, &options.read)?),
+            _ => None,
+        };
+        Ok(Self { asked: &options.region, images: options.images.as_deref(), outline })
+    }
+
+    /// The image that a coordinate file belongs to.
+    fn image_of(&self, file: &Path) -> Option<PathBuf> {
+        match self.images {
+            Some(image) if image.is_file() => Some(image.to_owned()),
+            Some(folder) => image_in(folder, &image_name(file)),
+            None => image_beside(file),
+        }
+    }
+
+    /// The window of a coordinate file, in `unit`, and the scale of its pixels.
+    ///
+    /// # Errors
+    /// If there is no image beside the file where one is needed, or units do not agree and there is no scale.
+    pub(in crate::batch) fn of(
+        &self,
+        file: &Path,
+        unit: LengthUnit,
+        scales: &ScaleSource,
+    ) -> Result<(Window, Option<Scale>), BatchError> {
+        // a window, the unit it is in, and the width of the image
+        let (window, given, width) = match (self.asked, &self.outline) {
+            (Region::Auto | Region::Image, _) => {
+                let beside =
+                    self.image_of(file).ok_or_else(|| BatchError::NoImage { file: file.to_owned() })?;
+                let plane = image::read(&beside)?;
+                let (height, width) = plane.dim();
+                let window = match self.asked {
+                    Region::Auto => imaged_area(&plane)?,
+                    _ => Window::of_image(width, height)?,
+                };
+                (window, LengthUnit::Pixel, width as f64)
+            }
+            (Region::Edges([x0, y0, x1, y1]), _) => (Window::rectangle(*x0, *y0, *x1, *y1)?, unit, x1 - x0),
+            (Region::Size(w, h), _) if unit == LengthUnit::Pixel => {
+                (Window::rectangle(-0.5, -0.5, w - 0.5, h - 0.5)?, unit, *w)
+            }
+            (Region::Size(w, h), _) => (Window::rectangle(0., 0., *w, *h)?, unit, *w),
+            (_, Some(outline)) => {
+                let window = outline.window.clone();
+                let width = window.bounds().width();
+                (window, outline.unit.unwrap_or(unit), width)
+            }
+            (Region::Unit | Region::File(_), None) => (Window::unit_square(), unit, 1.),
+        };
+        let scale = match unit {
+            LengthUnit::Unit => None,
+            LengthUnit::Micrometre if scales.is_unknown() => None,
+            LengthUnit::Pixel | LengthUnit::Micrometre => {
+                scales.scale_of(file, width.round().max(1.) as usize)?
+            }
+        };
+        let missing = || BatchError::NoScale { what: "one of window and coordinates", file: file.to_owned() };
+        let window = match (given, unit) {
+            // as its coordinates, see `load`
+            (LengthUnit::Micrometre, LengthUnit::Micrometre) if scales.expansion() != 1. => {
+                window.scaled(scales.expansion())?
+            }
+            (LengthUnit::Pixel, LengthUnit::Micrometre) | (LengthUnit::Micrometre, LengthUnit::Pixel) => {
+                window.scaled(given.factor_to(unit, scale).ok_or_else(missing)?)?
+            }
+            _ => window,
+        };
+        Ok((window, scale))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn windows_are_read_as_documented() {
+        assert_eq!("150x100".parse(), Ok(Region::Size(150., 100.)));
+        assert_eq!("unit".parse(), Ok(Region::Unit));
+        assert_eq!("0,0,1.5,2".parse(), Ok(Region::Edges([0., 0., 1.5, 2.])));
+        for bad in ["", "0x5", "1,1,1,2", "nan,0,1,1", "150", "1,2,3"] {
+            assert!(bad.parse::<Region>().is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,148 @@
+use super::Crop;
+use crate::batch::BatchError;
+use crate::geometry::Window;
+use crate::image::{Plane, imaged_area};
+use crate::mosaic::io::{OutlineFile, ReadOptions, read_outline};
+use crate::mosaic::{LengthUnit, Scale};
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+/// The area of an image whose cones count.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum ImageWindow {
+    /// What was imaged: all but black margins. See [`imaged_area`].
+    #[default]
+    Auto,
+    /// All of the image.
+    Image,
+    /// A rectangle.
+    Rectangle(Crop),
+    /// The polygons in a file; see [`read_outline`].
+    File(PathBuf),
+}
+
+impl FromStr for ImageWindow {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "auto" => Ok(Self::Auto),
+            "image" => Ok(Self::Image),
+            _ => match text.parse() {
+                Ok(rectangle) => Ok(Self::Rectangle(rectangle)),
+                Err(_) if Path::new(text).is_file() => Ok(Self::File(text.into())),
+                Err(_) => Err(format!(
+                    "“{text}” is no window, nor a file: expected auto, image, WxH (centred), X0,Y0,X1,Y1 (px, or µm with \
+                     um behind it) or a file of corners"
+                )),
+            },
+        }
+    }
+}
+
+impl fmt::Display for ImageWindow {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Auto => f.write_str("auto"),
+            Self::Image => f.write_str("image"),
+            Self::Rectangle(rectangle) => rectangle.fmt(f),
+            Self::File(path) => path.display().fmt(f),
+        }
+    }
+}
+
+/// Windows of a run: what was asked for, its file read.
+pub(in crate::batch) struct ImageWindows<'a> {
+    asked: &'a ImageWindow,
+    crop: Option<&'a Crop>,
+    outline: Option<OutlineFile>,
+}
+
+impl<'a> ImageWindows<'a> {
+    /// # Errors
+    /// If the file of a window cannot be read.
+    pub(in crate::batch) fn new(asked: &'a ImageWindow, crop: Option<&'a Crop>) -> Result<Self, BatchError> {
+        let outline = match asked {
+            ImageWindow::File(path) => Some(read_outline(path, &ReadOptions::default())?),
+            ImageWindow::Auto | ImageWindow::Image | ImageWindow::Rectangle(_) => None,
+        };
+        Ok(Self { asked, crop, outline })
+    }
+
+    /// The window of an image in px: what was asked for, within the image and the crop.
+    ///
+    /// # Errors
+    /// If nothing is left, or a length is in µm and there is no scale.
+    pub(in crate::batch) fn of(&self, file: &Path, image: &Plane, scale: Option<Scale>) -> Result<Window, BatchError> {
+        let (height, width) = image.dim();
+        let whole = Window::of_image(width, height)?;
+        let left = |window: Option<Window>, asked: String| {
+            window.ok_or(BatchError::Nowhere { file: file.to_owned(), window: asked, width, height })
+        };
+        let window = match (self.asked, &self.outline) {
+            (ImageWindow::Rectangle(rectangle), _) => {
+                rectangle.window("the window", file, width, height, scale)?
+            }
+            (ImageWindow::Auto, _) => imaged_area(image)?,
+            (_, Some(outline)) => {
+                let inside = pixels_of(outline, file, scale)?.within(&whole.bounds());
+                left(inside, format!("window {}", self.asked))?
+            }
+            (ImageWindow::Image | ImageWindow::File(_), None) => whole,
+        };
+        let Some(crop) = self.crop else { return Ok(window) };
+        let frame = crop.window("the crop", file, width, height, scale)?;
+        left(window.within(&frame.bounds()), format!("crop {crop} of the window {}", self.asked))
+    }
+}
+
+/// The window of a file in px.
+fn pixels_of(outline: &OutlineFile, file: &Path, scale: Option<Scale>) -> Result<Window, BatchError> {
+    let missing = || BatchError::NoScale { what: "the file of the window", file: file.to_owned() };
+    match outline.unit {
+        None | Some(LengthUnit::Pixel) => Ok(outline.window.clone()),
+        Some(unit @ LengthUnit::Unit) => Err(BatchError::NotPixels { file: file.to_owned(), unit }),
+        Some(unit @ LengthUnit::Micrometre) => {
+            let factor = unit.factor_to(LengthUnit::Pixel, scale).ok_or_else(missing)?;
+            Ok(outline.window.scaled(factor)?)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn window(asked: &str, crop: Option<&str>, image: &Plane) -> Result<Window, BatchError> {
+        let (asked, crop) = (asked.parse().unwrap(), crop.map(|c| c.parse::<Crop>().unwrap()));
+        ImageWindows::new(&asked, crop.as_ref())?.of(Path::new("a.png"), image, None)
+    }
+
+    #[test]
+    fn a_crop_is_cut_from_the_window() {
+        let image = Plane::from_shape_fn((60, 100), |(y, x)| f32::from(u8::from(x >= 40 || y >= 30)));
+        let whole = Window::of_image(100, 60).unwrap();
+        assert_eq!(window("image", None, &image).unwrap(), whole);
+        assert_eq!(
+            window("40x20", None, &image).unwrap(),
+            Window::rectangle(29.5, 19.5, 69.5, 39.5).unwrap()
+        );
+        let imaged = window("auto", None, &image).unwrap();
+        // 1 px of margin along the two black edges
+        assert_eq!(imaged.area(), 6000. - 41. * 31.);
+        let cropped = window("auto", Some("-0.5,-0.5,60.5,59.5"), &image).unwrap();
+        assert_eq!(cropped.area(), 61. * 60. - 41. * 31.);
+        let black = window("auto", Some("0,0,30,20"), &image).unwrap_err();
+        assert!(matches!(black, BatchError::Nowhere { .. }), "{black:?}");
+    }
+
+    #[test]
+    fn what_is_no_window_says_what_one_is() {
+        let error = "nowhere.csv".parse::<ImageWindow>().unwrap_err();
+        assert!(error.contains("nor a file") && error.contains("auto"), "{error}");
+        for text in ["auto", "image", "40x20px", "1,2,3,4um"] {
+            assert_eq!(text.parse::<ImageWindow>().unwrap().to_string(), text);
+        }
+    }
+}
