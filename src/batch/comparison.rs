@@ -60,17 +60,14 @@ pub fn compare_files(
         Ok((record, line))
     });
     let names: Vec<String> = samplers.iter().map(|s| s.name().to_owned()).collect();
-    let rows: Vec<_> = records.iter().map(CoordinatesRecord::regularity_row).collect();
-    out.write_described(&tables::REGULARITY, &rows)?;
-    let rows: Vec<_> = records.iter().map(|r| r.distance_row(&names)).collect();
-    out.write_table("l_infinity.csv", &CoordinatesRecord::distance_header(&names), &rows)?;
+    out.write(tables::REGULARITY.file, &tables::REGULARITY.csv(&records)?)?;
+    let layout = tables::Layout { samplers: &names, parts: &[] };
+    out.write(tables::L_INFINITY.file, &tables::L_INFINITY.csv_as(&layout, &records)?)?;
     let findings = findings(&records, &names, seed);
-    let rows: Vec<_> = findings.iter().map(FindingRecord::row).collect();
-    out.write_table("finding.csv", &FindingRecord::header(), &rows)?;
+    out.write(tables::FINDING.file, &tables::FINDING.csv(&findings)?)?;
     if with.verdict.is_some() {
         let found = records.iter().map(|r| (r.file.as_str(), r.mosaic.verdicts.as_slice()));
-        let (header, rows) = verdicts::table(found);
-        out.write_table("verdicts.csv", &header, &rows)?;
+        verdicts::write_table(&out, found)?;
     }
     let samplers = serde_json::json!({ "names": names, "seed": seed, "verdict": with.verdict });
     out.write_json("options.json", &options_json(options, samplers))?;
@@ -81,7 +78,7 @@ pub fn compare_files(
 /// The paper's main finding on these mosaics, one record a sampler: regularity against distance.
 fn findings(records: &[CoordinatesRecord], samplers: &[String], seed: u64) -> Vec<FindingRecord> {
     let of = |sampler: &String| {
-        let both = |r: &CoordinatesRecord| Some((r.mosaic.nearest.ri?, r.mosaic.distance_to(sampler)?));
+        let both = |r: &CoordinatesRecord| Some((r.mosaic.stats.nearest.ri?, r.mosaic.distance_to(sampler)?));
         let pairs: Vec<(f64, f64)> = records.iter().filter_map(both).collect();
         FindingRecord::of(sampler, &pairs, seed)
     };

@@ -1,5 +1,5 @@
 use super::failures::write_failures;
-use super::measured::{functions_table, pcf_table, points_table, record_of, recovery_table, warnings_of};
+use super::measured::warnings_of;
 use super::outputs::OutputFolder;
 use super::region::{Region, Regions};
 use super::work::for_each;
@@ -10,8 +10,8 @@ use crate::geometry::{Point, Window};
 use crate::mosaic::io::{ReadOptions, read_coordinates};
 use crate::mosaic::{LengthUnit, Mosaic};
 use crate::report::{
-    Cell, CoordinatesRecord, FindingRecord, MetricSelection, PowerScale, Subject, Summary, SummaryKind,
-    counted, spectrum_png,
+    CoordinatesRecord, FindingRecord, MetricSelection, MosaicRecord, PowerScale, Subject, Summary,
+    SummaryKind, counted, spectrum_png, tables,
 };
 use crate::stats::{
     FunctionOptions, MeasureOptions, Measures, SpectrumOptions, StatsError, functions, measure, spectrum,
@@ -88,16 +88,17 @@ pub fn measure_files(
         let mut record = record(input, &mosaic, outside, &measures, Vec::new());
         let label = options.labels.of(&input.path, mosaic.scale())?;
         label.put_on(&mut record.mosaic, &mut record.warnings);
-        let (header, rows) = pcf_table(&measures, &[]);
-        out.write_table(&format!("{}.pcf.csv", input.name), &header, &rows)?;
+        out.write(&format!("{}.pcf.csv", input.name), &tables::pcf_csv(&measures, &[])?)?;
         if let Some(distances) = &options.functions {
             let found = functions(mosaic.points(), mosaic.window(), &measures.neighbours, distances)?;
-            let (header, rows) = functions_table(&found);
-            out.write_table(&format!("{}.functions.csv", input.name), &header, &rows)?;
-            let (header, rows) = recovery_table(&measures);
-            out.write_table(&format!("{}.density_recovery.csv", input.name), &header, &rows)?;
-            let (header, rows) = points_table(&mosaic, &measures);
-            out.write_table(&format!("{}.points.csv", input.name), &header, &rows)?;
+            let recovery = measures.density_recovery.as_ref().ok();
+            for (kind, bytes) in [
+                ("functions", tables::functions_csv(&found)?),
+                ("density_recovery", tables::density_recovery_csv(recovery)?),
+                ("points", tables::points_csv(&mosaic, &measures)?),
+            ] {
+                out.write(&format!("{}.{kind}.csv", input.name), &bytes)?;
+            }
         }
         if let Some((power, scale)) = &options.spectrum
             && let Err(missing) = write_spectrum(&out, &input.name, &mosaic, power, *scale)?
@@ -130,8 +131,7 @@ pub fn measure_files(
     let summary = options.summary();
     let subjects: Vec<(&str, Subject)> =
         names.iter().map(String::as_str).zip(records.iter().map(Subject::Coordinates)).collect();
-    let rows: Vec<_> = subjects.iter().map(|(_, subject)| summary.row(subject)).collect();
-    out.write_table("summary.csv", &summary.header(), &rows)?;
+    out.write("summary.csv", &summary.csv(subjects.iter().map(|(_, subject)| *subject))?)?;
     let objects: Result<Vec<_>, _> = subjects.iter().map(|(_, subject)| summary.json(subject)).collect();
     out.write_json("summary.json", &objects?)?;
     options.labels.write_groups(&out, &summary, &subjects)?;
@@ -158,13 +158,7 @@ fn write_spectrum(
         Ok(spectrum) => spectrum,
         Err(missing) => return Ok(Err(missing)),
     };
-    let header = ["frequency", "power", "anisotropy_db"].map(str::to_owned);
-    let rows: Vec<Vec<Cell>> = (0..spectrum.power.len())
-        .map(|k| {
-            vec![spectrum.frequency[k].into(), spectrum.power[k].into(), spectrum.anisotropy_db[k].into()]
-        })
-        .collect();
-    out.write_table(&format!("{name}.spectrum.csv"), &header, &rows)?;
+    out.write(&format!("{name}.spectrum.csv"), &tables::spectrum_csv(&spectrum)?)?;
     out.write(&format!("{name}.spectrum.png"), &spectrum_png(&spectrum, scale)?)?;
     Ok(Ok(()))
 }
@@ -190,7 +184,7 @@ pub(super) fn options_json(options: &CoordinatesOptions, samplers: serde_json::V
 }
 
 pub(super) fn line_about(record: &CoordinatesRecord) -> String {
-    let ri = record.mosaic.nearest.ri.map(|ri| format!(", RI {ri:.2}")).unwrap_or_default();
+    let ri = record.mosaic.stats.nearest.ri.map(|ri| format!(", RI {ri:.2}")).unwrap_or_default();
     format!("{}{ri}", counted(record.mosaic.n, "point"))
 }
 
@@ -201,12 +195,13 @@ pub(super) fn record(
     measures: &Measures,
     l_infinity: Vec<crate::report::SamplerDistance>,
 ) -> CoordinatesRecord {
-    let mosaic = record_of(mosaic, measures, l_infinity);
+    let mosaic = MosaicRecord::new(mosaic, measures, l_infinity);
     let mut warnings = warnings_of(None, &mosaic, measures);
     if outside > 0 {
         warnings.push(format!("{outside} points outside the window are left out"));
     }
-    CoordinatesRecord { file: input.path.display().to_string(), outside, mosaic, warnings }
+    let (file, name) = (input.path.display().to_string(), input.name.clone());
+    CoordinatesRecord { file, name, outside, mosaic, warnings }
 }
 
 /// The mosaic in a coordinate file, and how many of its points lie outside the window (those cut off by a crop are not

@@ -1,10 +1,11 @@
 use super::coordinates::{CoordinatesOptions, record};
 use super::outputs::OutputFolder;
 use super::{BatchError, Input, Length};
-use crate::geometry::Rectangle;
+use crate::geometry::{Rectangle, Window};
 use crate::mosaic::io::RoiTable;
 use crate::mosaic::{LengthUnit, Mosaic};
-use crate::report::{Cell, MosaicRecord, Subject, Summary, tables};
+use crate::report::tables::{RoiRow, rois_csv};
+use crate::report::{CoordinatesRecord, MosaicRecord, Summary};
 use crate::stats::{grown, lies_in, measure, sliding};
 use rayon::prelude::*;
 use std::path::Path;
@@ -109,12 +110,6 @@ fn factor(table: &RoiTable, mosaic: &Mosaic, file: &Path) -> Result<f64, BatchEr
     }
 }
 
-/// The columns of `rois.csv`: where a region is, then those of `summary.csv` for the points in it.
-fn header(summary: &Summary) -> Vec<String> {
-    let place = tables::ROIS.header();
-    place.into_iter().chain(summary.header().into_iter().filter(|name| name != "file")).collect()
-}
-
 /// The rows of one mosaic, one a region, each measured as a mosaic of its own: the points in the part of the window that
 /// lies in its box, their Voronoi cells among themselves, bound if they lie strictly inside that part. Of a region without
 /// any of the window there are no values. The same for any number of threads.
@@ -127,10 +122,8 @@ pub(super) fn rows(
     whole: &MosaicRecord,
     options: &CoordinatesOptions,
     request: &RoiRequest,
-) -> Result<Vec<Vec<Cell>>, BatchError> {
-    let summary = options.summary();
-    let header = summary.header();
-    let one = |(name, frame): (String, Rectangle)| -> Result<Vec<Cell>, BatchError> {
+) -> Result<Vec<RoiRow>, BatchError> {
+    let one = |(name, frame): (String, Rectangle)| -> Result<RoiRow, BatchError> {
         let (points, window) = (mosaic.points(), mosaic.window());
         let mut flags = Vec::new();
         let frame = match request.cells {
@@ -149,29 +142,27 @@ pub(super) fn rows(
         } else if !lies_in(&frame, window) {
             flags.push("edge");
         }
-        let edges = [frame.x0(), frame.y0(), frame.x1(), frame.y1()];
-        let mut row: Vec<Cell> = vec![input.path.display().to_string().as_str().into(), name.as_str().into()];
-        row.extend(edges.map(Cell::from));
-        row.push(flags.join(" ").as_str().into());
-        let values = match part {
-            None => vec![Cell::Missing; header.len()],
-            Some(part) => {
-                let inside = points.iter().copied().filter(|&p| part.contains(p)).collect();
-                let (roi, _) = Mosaic::new(inside, part, mosaic.unit(), mosaic.scale())
-                    .map_err(|source| BatchError::Mosaic { file: input.path.clone(), source })?;
-                let mut found = record(input, &roi, 0, &measure(&roi, &options.measure), Vec::new());
-                found.mosaic.labels.clone_from(&whole.labels);
-                found.mosaic.place = whole.place;
-                summary.row(&Subject::Coordinates(&found))
-            }
+        let measured = |part: Window| -> Result<CoordinatesRecord, BatchError> {
+            let inside = points.iter().copied().filter(|&p| part.contains(p)).collect();
+            let (roi, _) = Mosaic::new(inside, part, mosaic.unit(), mosaic.scale())
+                .map_err(|source| BatchError::Mosaic { file: input.path.clone(), source })?;
+            let mut found = record(input, &roi, 0, &measure(&roi, &options.measure), Vec::new());
+            found.mosaic.labels.clone_from(&whole.labels);
+            found.mosaic.place = whole.place;
+            Ok(found)
         };
-        row.extend(header.iter().zip(values).filter(|(name, _)| *name != "file").map(|(_, cell)| cell));
-        Ok(row)
+        Ok(RoiRow {
+            file: input.path.display().to_string(),
+            roi: name,
+            frame,
+            flag: flags.join(" "),
+            record: part.map(measured).transpose()?,
+        })
     };
     request.boxes(input, mosaic)?.into_par_iter().map(one).collect()
 }
 
 /// Writes `rois.csv`.
-pub(super) fn write(out: &OutputFolder, summary: &Summary, rows: &[Vec<Cell>]) -> Result<(), BatchError> {
-    out.write_table(FILE, &header(summary), rows)
+pub(super) fn write(out: &OutputFolder, summary: &Summary, rows: &[RoiRow]) -> Result<(), BatchError> {
+    out.write(FILE, &rois_csv(summary, rows)?)
 }
