@@ -15,6 +15,8 @@ mod regularity;
 mod selection;
 mod summary;
 mod unit;
+#[cfg(test)]
+mod values;
 mod voronoi;
 
 pub use dictionary::{dictionary, dictionary_csv, dictionary_text};
