@@ -57,6 +57,34 @@ fn summaries_of_this_program_and_more_than_two_graders_can_be_compared() {
 }
 
 #[test]
+fn a_run_and_a_grader_are_compared_by_names_without_units() {
+    let place = Place::new();
+    for (name, seed) in [("a", 1), ("b", 2), ("c", 3)] {
+        place.image(&format!("in/{name}.png"), seed);
+    }
+    place.ok(&["run", "in", "--detector", "classical", "--samplers", "jittered", "--out", "run", "-q"]);
+    for name in ["a", "b", "c"] {
+        place.copy(&format!("run/images/{name}/points.csv"), &format!("marks/{name}_coords.csv"));
+    }
+    place.ok(&["measure", "marks", "--window", "64x56", "--out", "marked", "-q"]);
+    place.ok(&["agree", "run", "marked", "--metrics", "density,nn_mean,spacing", "--out", "out", "-q"]);
+    let rows = place.table("out/agreement.csv");
+    let columns: Vec<&str> = rows.iter().map(|r| r["column"].as_str()).collect();
+    assert_eq!(columns, ["density_per_px2", "nn_mean_px", "spacing_density_px"]);
+    assert!(rows.iter().all(|r| r["n"] == "3" && number(r, "difference").abs() < 1e-12), "{rows:?}");
+    place.ok(&["agree", "run", "marked", "--out", "all", "-q"]);
+    let all = place.table("all/agreement.csv");
+    assert!(all.iter().any(|r| r["column"] == "nn_mean_px") && !all.iter().any(|r| r["column"] == "nn_mean"));
+    // an earlier version's names, and a grader in µm without a scale
+    place.write("old.csv", "file,unit,spacing,density\na,px,7,0.02\nb,px,7.5,0.019\nc,px,8,0.017\n");
+    place.ok(&["agree", "run", "old.csv", "--metrics", "spacing_density,density", "--out", "old", "-q"]);
+    assert_eq!(place.table("old/agreement.csv")[1]["column"], "density_per_px2");
+    place.write("um.csv", "file,unit,density\na,um,0.02\nb,um,0.019\n");
+    let complaint = place.refused(&["agree", "run", "um.csv", "--metrics", "density", "--out", "no"]);
+    assert!(complaint.contains("unit"), "{complaint}");
+}
+
+#[test]
 fn tables_that_cannot_be_compared_are_refused_with_a_remedy() {
     let place = Place::new();
     place.write("one.csv", "name,density\na,1\nb,2\n");

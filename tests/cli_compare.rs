@@ -55,6 +55,12 @@ fn regularity_has_the_paper_s_form_and_says_which_deviation() {
         (number(row, "nn_mean") / number(row, "nn_sd_population") - number(row, "ri_population")).abs()
             < 1e-9
     );
+    assert!(row["nn_mean_um"].is_empty());
+    place.ok(&[&COMPARE[..], &["--no-verdict", "--um-per-px", "0.5", "--out", "out", "-q"]].concat());
+    let row = &place.table("out/regularity.csv")[0];
+    for column in ["nn_mean", "nn_sd_population", "nn_sd_sample"] {
+        assert_eq!(number(row, &format!("{column}_um")), 0.5 * number(row, column), "{column}");
+    }
     assert!(!place.names("out").contains(&"verdicts.csv".to_owned()));
 }
 

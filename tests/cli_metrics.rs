@@ -108,6 +108,7 @@ fn metrics_are_chosen_by_group_metric_or_column_and_shown() {
         "n",
         "warnings",
         "density",
+        "density_per_px2",
         "density_per_mm2",
         "density_per_deg2",
         "density_per_arcmin2",
@@ -169,6 +170,10 @@ fn groups_have_means_deviations_and_numbers() {
     assert!((number(row, "mean") - (densities[0] + densities[1]) / 2.).abs() < 1e-15);
     let sd = (densities[0] - densities[1]).abs() / 2f64.sqrt();
     assert!((number(row, "sd") - sd).abs() < 1e-15);
+    // two subjects with an image each: the standard error is that of their means
+    assert_eq!(row["subjects"], "2");
+    assert!((number(row, "se") - sd / 2f64.sqrt()).abs() < 1e-15);
+    assert!(number(row, "mean_low") < number(row, "mean_of_subjects"), "{row:?}");
     measured(&place, &["--manifest", "manifest.csv", "--group-by", "column:eye,subject"]);
     let groups = place.table("out/groups.csv");
     assert!(groups.iter().any(|r| r["group"] == "OD, s2" && r["n"] == "1" && r["sd"].is_empty()));

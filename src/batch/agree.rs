@@ -2,7 +2,8 @@ use super::BatchError;
 use super::input::{Readings, chosen_columns};
 use super::output::{OutputFolder, ResultFolder};
 use crate::compare::{Agreement, Intraclass, agreement, intraclass};
-use crate::report::{AgreementLine, AgreementPanel, Cell, agreement_figure, tables};
+use crate::report::tables::{AGREEMENT, AgreementRow, DIFFERENCES, DifferenceRow, UNPAIRED, UnpairedRow};
+use crate::report::{AgreementLine, AgreementPanel, agreement_figure};
 use std::path::{Path, PathBuf};
 
 /// How two graders agree in one column.
@@ -75,10 +76,11 @@ pub fn agree_files(
         .collect();
     let (mut found, mut overall) = (Vec::new(), Vec::new());
     for column in &chosen {
-        for (k, first) in readings.iter().enumerate() {
-            for second in &readings[k + 1..] {
+        let named: Vec<(&Readings, &String)> = readings.iter().zip(&column.named).collect();
+        for (k, (first, first_name)) in named.iter().enumerate() {
+            for (second, second_name) in &named[k + 1..] {
                 let both = |item: &&String| {
-                    let values = [first.value(item, column)?, second.value(item, column)?];
+                    let values = [first.value(item, first_name)?, second.value(item, second_name)?];
                     Some(((*item).clone(), values))
                 };
                 let pairs: Vec<(String, [f64; 2])> = items.iter().filter_map(both).collect();
@@ -86,7 +88,7 @@ pub fn agree_files(
                 let Some(agreement) = agreement(&differences) else { continue };
                 let rows: Vec<Vec<f64>> = pairs.iter().map(|(_, values)| values.to_vec()).collect();
                 found.push(ColumnAgreement {
-                    column: column.clone(),
+                    column: column.name.clone(),
                     graders: [first.label.clone(), second.label.clone()],
                     pairs,
                     agreement,
@@ -95,10 +97,11 @@ pub fn agree_files(
             }
         }
         if readings.len() > 2 {
-            let row =
-                |item: &&String| readings.iter().map(|r| r.value(item, column)).collect::<Option<Vec<f64>>>();
+            let row = |item: &&String| {
+                named.iter().map(|(r, name)| r.value(item, name)).collect::<Option<Vec<f64>>>()
+            };
             let rows: Vec<Vec<f64>> = items.iter().filter_map(row).collect();
-            overall.extend(intraclass(&rows).map(|icc| (column.clone(), icc)));
+            overall.extend(intraclass(&rows).map(|icc| (column.name.clone(), icc)));
         }
     }
     if found.is_empty() {
@@ -114,73 +117,38 @@ pub fn agree_files(
     Ok(outcome)
 }
 
-fn interval(i: Option<[f64; 2]>) -> [Cell; 2] {
-    [i.map(|i| i[0]).into(), i.map(|i| i[1]).into()]
-}
-
-fn reliability(icc: Option<&Intraclass>) -> Vec<Cell> {
-    let of = |value: fn(&Intraclass) -> Option<f64>| Cell::from(icc.and_then(value));
-    let [agreement_low, agreement_high] = interval(icc.and_then(|i| i.agreement_interval));
-    let [consistency_low, consistency_high] = interval(icc.and_then(|i| i.consistency_interval));
-    vec![
-        of(|i| i.agreement),
-        agreement_low,
-        agreement_high,
-        of(|i| i.consistency),
-        consistency_low,
-        consistency_high,
-        of(|i| Some(i.within_sd)),
-        of(|i| Some(i.repeatability)),
-        of(|i| i.within_cv_percent),
-    ]
-}
-
 fn write(out: &OutputFolder, outcome: &AgreementOutcome) -> Result<(), BatchError> {
-    let mut rows: Vec<Vec<Cell>> = Vec::new();
-    for c in &outcome.columns {
-        let mean = |k: usize| c.pairs.iter().map(|(_, v)| v[k]).sum::<f64>() / c.pairs.len() as f64;
-        let mut row: Vec<Cell> = vec![
-            c.column.as_str().into(),
-            c.graders[0].as_str().into(),
-            c.graders[1].as_str().into(),
-            c.agreement.n.into(),
-            mean(0).into(),
-            mean(1).into(),
-            c.agreement.bias.into(),
-        ];
-        row.extend(interval(c.agreement.bias_interval()));
-        row.push(c.agreement.sd.into());
-        let (limits, intervals) = (c.agreement.limits, c.agreement.limit_intervals());
-        for k in 0..2 {
-            row.push(limits.map(|l| l[k]).into());
-            row.extend(interval(intervals.map(|i| i[k])));
-        }
-        row.extend(reliability(c.intraclass.as_ref()));
-        rows.push(row);
-    }
-    for (column, icc) in &outcome.overall {
-        let mut row: Vec<Cell> = vec![column.as_str().into(), "all".into(), "all".into(), icc.items.into()];
-        row.extend((0..12).map(|_| Cell::Missing));
-        row.extend(reliability(Some(icc)));
-        rows.push(row);
-    }
-    out.write_described(&tables::AGREEMENT, &rows)?;
-    let mut rows: Vec<Vec<Cell>> = Vec::new();
-    for c in &outcome.columns {
-        for (item, [a, b]) in &c.pairs {
-            let texts = [item, &c.column, &c.graders[0], &c.graders[1]];
-            let mut row: Vec<Cell> = texts.map(|t| t.as_str().into()).to_vec();
-            row.extend([*a, *b, (a + b) / 2., a - b].map(Cell::from));
-            rows.push(row);
-        }
-    }
-    out.write_described(&tables::DIFFERENCES, &rows)?;
-    let rows: Vec<Vec<Cell>> = outcome
-        .unpaired
-        .iter()
-        .map(|(item, lacking)| vec![item.as_str().into(), lacking.as_str().into()])
-        .collect();
-    out.write_described(&tables::UNPAIRED, &rows)?;
+    let means = |c: &ColumnAgreement| -> [f64; 2] {
+        [0, 1].map(|k| c.pairs.iter().map(|(_, v)| v[k]).sum::<f64>() / c.pairs.len() as f64)
+    };
+    let pairs = outcome.columns.iter().map(|c| AgreementRow {
+        column: &c.column,
+        graders: c.graders.each_ref().map(String::as_str),
+        n: c.agreement.n,
+        means: Some(means(c)),
+        agreement: Some(c.agreement),
+        intraclass: c.intraclass,
+    });
+    let overall = outcome.overall.iter().map(|(column, icc)| AgreementRow {
+        column,
+        graders: ["all", "all"],
+        n: icc.items,
+        means: None,
+        agreement: None,
+        intraclass: Some(*icc),
+    });
+    out.write(AGREEMENT.file, &AGREEMENT.csv(pairs.chain(overall))?)?;
+    let differences = outcome.columns.iter().flat_map(|c| {
+        c.pairs.iter().map(|(image, values)| DifferenceRow {
+            image,
+            column: &c.column,
+            graders: c.graders.each_ref().map(String::as_str),
+            values: *values,
+        })
+    });
+    out.write(DIFFERENCES.file, &DIFFERENCES.csv(differences)?)?;
+    let unpaired = outcome.unpaired.iter().map(|(image, missing_from)| UnpairedRow { image, missing_from });
+    out.write(UNPAIRED.file, &UNPAIRED.csv(unpaired)?)?;
     out.write("agreement.svg", figure(outcome).as_bytes())
 }
 

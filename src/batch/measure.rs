@@ -7,9 +7,8 @@ use super::{BatchError, Crop, Failure, Input, Progress, Region};
 use crate::geometry::{Point, Window};
 use crate::mosaic::io::{ReadOptions, read_coordinates};
 use crate::mosaic::{LengthUnit, Mosaic};
-use crate::report::{
-    Cell, CoordinatesRecord, FindingRecord, LandmarkRecord, Subject, SummaryKind, counted, tables,
-};
+use crate::report::tables::{self, RoiRow};
+use crate::report::{CoordinatesRecord, FindingRecord, LandmarkRecord, Subject, SummaryKind, counted};
 use std::path::{Path, PathBuf};
 
 /// How coordinate files are read, and what is made of them.
@@ -45,10 +44,9 @@ pub struct CoordinatesOutcome {
 
 /// What is kept of a file when its results are written.
 struct Done {
-    name: String,
     record: CoordinatesRecord,
     landmarks: Option<LandmarkRecord>,
-    regions: Vec<Vec<Cell>>,
+    regions: Vec<RoiRow>,
 }
 
 /// Measures coordinate files into `out`.
@@ -86,13 +84,12 @@ pub fn compare_files(
 ) -> Result<CoordinatesOutcome, BatchError> {
     work_through(inputs, options, out, progress, |out, done| {
         let names = options.plan.sampler_names();
-        let rows: Vec<_> = done.iter().map(|d| d.record.regularity_row()).collect();
-        out.write_described(&tables::REGULARITY, &rows)?;
-        let rows: Vec<_> = done.iter().map(|d| d.record.distance_row(&names)).collect();
-        out.write_table("l_infinity.csv", &CoordinatesRecord::distance_header(&names), &rows)?;
+        let records = || done.iter().map(|d| &d.record);
+        out.write(tables::REGULARITY.file, &tables::REGULARITY.csv(records())?)?;
+        let layout = tables::Layout { samplers: &names, parts: &[] };
+        out.write(tables::L_INFINITY.file, &tables::L_INFINITY.csv_as(&layout, records())?)?;
         let findings = findings(done, &names, options.plan.seed);
-        let rows: Vec<_> = findings.iter().map(FindingRecord::row).collect();
-        out.write_table("finding.csv", &FindingRecord::header(), &rows)?;
+        out.write(tables::FINDING.file, &tables::FINDING.csv(&findings)?)?;
         Ok(findings)
     })
 }
@@ -117,9 +114,9 @@ fn work_through(
         write(&analysis, &specimen, plan, &out, Layout::Beside)?;
         let Analysis { record, warnings, landmarks, regions, .. } = analysis;
         let file = input.path.display().to_string();
-        let record = CoordinatesRecord { file, outside, mosaic: record, warnings };
+        let record = CoordinatesRecord { file, name: input.name.clone(), outside, mosaic: record, warnings };
         let line = line_about(&record);
-        Ok((Done { name: input.name.clone(), record, landmarks, regions }, line))
+        Ok((Done { record, landmarks, regions }, line))
     });
     write_tables(&out, options, &worked)?;
     let findings = more(&out, &worked.done)?;
@@ -139,9 +136,8 @@ fn write_tables(
     let done = &worked.done;
     let summary = plan.summary(SummaryKind::Coordinates);
     let subjects: Vec<(&str, Subject)> =
-        done.iter().map(|d| (d.name.as_str(), Subject::Coordinates(&d.record))).collect();
-    let rows: Vec<_> = subjects.iter().map(|(_, subject)| summary.row(subject)).collect();
-    out.write_table("summary.csv", &summary.header(), &rows)?;
+        done.iter().map(|d| (d.record.name.as_str(), Subject::Coordinates(&d.record))).collect();
+    out.write("summary.csv", &summary.csv(subjects.iter().map(|(_, subject)| *subject))?)?;
     let objects: Result<Vec<_>, _> = subjects.iter().map(|(_, subject)| summary.json(subject)).collect();
     out.write_json("summary.json", &objects?)?;
     plan.labels.write_groups(out, &summary, &subjects)?;
@@ -149,7 +145,7 @@ fn write_tables(
         write_landmarks(out, done.iter().filter_map(|d| d.landmarks.as_ref()))?;
     }
     if plan.rois.is_some() {
-        let rows: Vec<Vec<Cell>> = done.iter().flat_map(|d| d.regions.iter().cloned()).collect();
+        let rows: Vec<RoiRow> = done.iter().flat_map(|d| d.regions.iter().cloned()).collect();
         write_rois(out, &summary, &rows)?;
     }
     if plan.verdict.is_some() {
@@ -178,7 +174,7 @@ fn options_json(options: &CoordinatesOptions) -> serde_json::Value {
 }
 
 fn line_about(record: &CoordinatesRecord) -> String {
-    let ri = record.mosaic.nearest.ri.map(|ri| format!(", RI {ri:.2}")).unwrap_or_default();
+    let ri = record.mosaic.stats.nearest.ri.map(|ri| format!(", RI {ri:.2}")).unwrap_or_default();
     let closest = record.mosaic.closest_sampler().map(|s| format!(", closest to {s}")).unwrap_or_default();
     format!("{}{ri}{closest}", counted(record.mosaic.n, "point"))
 }
@@ -189,7 +185,7 @@ fn findings(done: &[Done], samplers: &[String], seed: u64) -> Vec<FindingRecord>
     let of = |sampler: &String| {
         let both = |d: &Done| {
             let mosaic = &d.record.mosaic;
-            Some((mosaic.nearest.ri?, mosaic.distance_to(sampler)?))
+            Some((mosaic.stats.nearest.ri?, mosaic.distance_to(sampler)?))
         };
         let pairs: Vec<(f64, f64)> = done.iter().filter_map(both).collect();
         FindingRecord::of(sampler, &pairs, seed)

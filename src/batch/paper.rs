@@ -1,4 +1,4 @@
-use super::output::{OutputFolder, ResultFolder, series_table};
+use super::output::{OutputFolder, ResultFolder};
 use super::{BatchError, Progress};
 use crate::compare::paper::{
     FIGURE_1_SAMPLERS, Pattern, PrintedDistances, TABLE_1_SAMPLERS, TABLE_2_SAMPLERS, distance_between,
@@ -6,9 +6,9 @@ use crate::compare::paper::{
 };
 use crate::compare::{CompareError, draw, l_infinity, mean_curve, of_sampler};
 use crate::geometry::Window;
+use crate::report::tables::{BandwidthRow, FINDING, PAPER_PCF, PAPER_SPECTRA, SamplerCurve, curves_csv};
 use crate::report::{
-    Cell, Curve, FindingRecord, PaperResults, PowerScale, SamplerPanel, counted, samplers_figure,
-    spectrum_png,
+    Curve, FindingRecord, PaperResults, PowerScale, SamplerPanel, counted, samplers_figure, spectrum_png,
 };
 use crate::sample::{Sampler, as_reference, sampler};
 use crate::stats::{Pcf, PowerSpectrum, SpectrumOptions, spectrum};
@@ -173,10 +173,7 @@ fn results(all: &Everything, patterns: usize, seed: u64) -> Result<PaperResults,
 }
 
 /// Of each bandwidth the distances between the samplers of Table 2, and how many of its rows hold with them.
-fn bandwidths(
-    all: &Everything,
-    printed: &[PrintedDistances],
-) -> Result<Vec<(f64, [f64; 3], usize)>, BatchError> {
+fn bandwidths(all: &Everything, printed: &[PrintedDistances]) -> Result<Vec<BandwidthRow>, BatchError> {
     let at = |&width: &f64| -> Result<_, CompareError> {
         let mut means = Vec::new();
         for name in TABLE_2_SAMPLERS {
@@ -187,35 +184,20 @@ fn bandwidths(
         let [bnot, darts, jittered] = &means[..] else { return Err(CompareError::TooFewPoints { found: 0 }) };
         let distances = [l_infinity(bnot, darts)?, l_infinity(bnot, jittered)?, l_infinity(darts, jittered)?];
         let holds = printed.iter().filter(|row| tightest(row, &distances).room >= 0.).count();
-        Ok((width, distances, holds))
+        Ok(BandwidthRow { bandwidth: width, distances, holds })
     };
     Ok(BANDWIDTHS.par_iter().map(at).collect::<Result<Vec<_>, _>>()?)
 }
 
 fn write(all: &Everything, results: &PaperResults, out: &OutputFolder) -> Result<(), BatchError> {
-    for (file, (header, rows)) in [
-        ("table1.csv", results.table1()),
-        ("table2_samplers.csv", results.table2()),
-        ("triangle.csv", results.triangles()),
-        ("bandwidths.csv", results.bandwidth_table()),
-        ("finding.csv", (FindingRecord::header(), results.findings.iter().map(FindingRecord::row).collect())),
-        (
-            "pcf.csv",
-            curves_table(
-                "r_in_hexagonal_spacings",
-                results.curves.iter().map(|(n, c)| (n.as_str(), &c.r, &c.g)),
-            ),
-        ),
-        (
-            "spectra.csv",
-            curves_table(
-                "frequency_in_sqrt_n",
-                all.spectra.iter().map(|(n, s)| (*n, &s.frequency, &s.power)),
-            ),
-        ),
-    ] {
-        out.write_table(file, &header, &rows)?;
+    for (file, bytes) in results.tables()? {
+        out.write(file, &bytes)?;
     }
+    out.write(FINDING.file, &FINDING.csv(&results.findings)?)?;
+    let curves = results.curves.iter().map(|(name, curve)| (name.as_str(), &curve.r, &curve.g));
+    out.write(PAPER_PCF.file, &curves_csv(&PAPER_PCF, &named(curves))?)?;
+    let spectra = all.spectra.iter().map(|(name, spectrum)| (*name, &spectrum.frequency, &spectrum.power));
+    out.write(PAPER_SPECTRA.file, &curves_csv(&PAPER_SPECTRA, &named(spectra))?)?;
     let figure = figure(all, results)?;
     out.write("figure1.svg", figure.as_bytes())?;
     let made = format!(
@@ -229,15 +211,8 @@ fn write(all: &Everything, results: &PaperResults, out: &OutputFolder) -> Result
     out.write("index.html", document.to_html().as_bytes())
 }
 
-/// One column of abscissae, then one a curve; a curve that ends earlier leaves empty cells.
-fn curves_table<'a>(
-    abscissa: &str,
-    curves: impl Iterator<Item = (&'a str, &'a Vec<f64>, &'a Vec<f64>)>,
-) -> (Vec<String>, Vec<Vec<Cell>>) {
-    let curves: Vec<_> = curves.collect();
-    let longest = curves.iter().map(|c| c.1.as_slice()).max_by_key(|x| x.len()).unwrap_or_default();
-    let values = curves.iter().map(|c| (c.0.replace('-', "_"), c.2.as_slice()));
-    series_table([(abscissa.to_owned(), longest)].into_iter().chain(values))
+fn named<'a>(curves: impl Iterator<Item = (&'a str, &'a Vec<f64>, &'a Vec<f64>)>) -> Vec<SamplerCurve<'a>> {
+    curves.map(|(name, x, y)| SamplerCurve { sampler: name.replace('-', "_"), x, y }).collect()
 }
 
 fn figure(all: &Everything, results: &PaperResults) -> Result<String, BatchError> {

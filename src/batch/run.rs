@@ -3,7 +3,7 @@ use super::failures::write_failures;
 use super::image_figure::figure;
 use super::image_window::ImageWindows;
 use super::labels::Label;
-use super::measured::{distances, not_compared, pcf_table, record_of, warnings_of};
+use super::measured::{distances, not_compared, warnings_of};
 use super::outputs::OutputFolder;
 use super::verdicts::{self, verdicts_on};
 use super::work::for_each;
@@ -14,8 +14,8 @@ use crate::geometry::Window;
 use crate::image::Plane;
 use crate::mosaic::{LengthUnit, Mosaic, Scale};
 use crate::report::{
-    DetectionRecord, ImageRecord, LandmarkRecord, MetricGroup, MetricSelection, Subject, Summary,
-    SummaryKind, page,
+    DetectionRecord, ImageRecord, LandmarkRecord, MetricGroup, MetricSelection, MosaicRecord, Subject,
+    Summary, SummaryKind, page, tables,
 };
 use crate::sample::Sampler;
 use crate::stats::{Histogram, MeasureOptions, Measures, PcfOptions, measure};
@@ -164,13 +164,11 @@ pub fn run_files(
     let (samplers, summary) = (options.sampler_names(), options.summary());
     let subjects: Vec<(&str, Subject)> =
         done.iter().map(|d| (d.record.name.as_str(), Subject::Image(&d.record))).collect();
-    let rows: Vec<_> = subjects.iter().map(|(_, subject)| summary.row(subject)).collect();
-    out.write_table("summary.csv", &summary.header(), &rows)?;
+    out.write("summary.csv", &summary.csv(subjects.iter().map(|(_, subject)| *subject))?)?;
     options.labels.write_groups(&out, &summary, &subjects)?;
     if options.verdict.is_some() {
         let found = done.iter().map(|d| (d.record.file.as_str(), d.record.mosaic.verdicts.as_slice()));
-        let (header, rows) = verdicts::table(found);
-        out.write_table("verdicts.csv", &header, &rows)?;
+        verdicts::write_table(&out, found)?;
     }
     let landmarks: Vec<Option<LandmarkRecord>> = done.iter().map(|d| d.landmarks.clone()).collect();
     if options.maps.is_some() {
@@ -244,7 +242,7 @@ fn one_image(
     };
     let (verdicts, no_verdicts) =
         verdicts_on(&mosaic, &measures, &options.samplers, options.verdict.as_ref(), options.seed);
-    let mut mosaic_record = record_of(&mosaic, &measures, distances(&measures, &curves)?);
+    let mut mosaic_record = MosaicRecord::new(&mosaic, &measures, distances(&measures, &curves)?);
     mosaic_record.verdicts = verdicts::records(&verdicts);
     lap(&mut seconds.compare);
 
@@ -323,8 +321,7 @@ fn write_image_folder(
 ) -> Result<(), BatchError> {
     write_detections(&folder.join("points.csv"), &found.cones, mosaic.scale())?;
     folder.write("overlay.png", &overlay_of(image, found)?)?;
-    let (header, rows) = pcf_table(measures, curves);
-    folder.write_table("pcf.csv", &header, &rows)?;
+    folder.write("pcf.csv", &tables::pcf_csv(measures, curves)?)?;
     let figure = figure(&record.name, Some(image), mosaic, measures, &record.mosaic, curves)?;
     folder.write("figure.svg", figure.as_bytes())
 }

@@ -110,7 +110,7 @@ fn distances(outcome: &CoordinatesOutcome, samplers: &[&'static dyn Sampler]) ->
             let distance = |s: &&'static dyn Sampler| {
                 r.mosaic.distance_to(s.name()).map_or("–".into(), |d| significant(d, 3))
             };
-            let ri = r.mosaic.nearest.ri.map_or("–".into(), |ri| significant(ri, 3));
+            let ri = r.mosaic.stats.nearest.ri.map_or("–".into(), |ri| significant(ri, 3));
             [marked(r), r.mosaic.n.to_string(), ri]
                 .into_iter()
                 .chain(samplers.iter().map(distance))

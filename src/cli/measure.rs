@@ -264,11 +264,11 @@ fn summary(outcome: &CoordinatesOutcome, options: &CoordinatesOptions) -> String
                 marked(r),
                 m.n.to_string(),
                 m.unit.symbol().replace("um", "µm"),
-                number(m.nearest.mean),
-                number(m.nearest.sd),
-                number(m.nearest.ri),
-                number(m.nearest_interior.ri),
-                number(if scaled { m.density_per_mm2() } else { Some(m.density) }),
+                number(m.stats.nearest.mean),
+                number(m.stats.nearest.sd),
+                number(m.stats.nearest.ri),
+                number(m.stats.nearest_interior.ri),
+                number(if scaled { m.density_per_mm2() } else { Some(m.stats.density) }),
             ]
         })
         .collect();

@@ -4,7 +4,7 @@ use anyhow::{Result, bail};
 use clap::Args;
 use conemosaic::batch::{GroupBy, Labels};
 use conemosaic::mosaic::io::Manifest;
-use conemosaic::report::{MetricSelection, dictionary, dictionary_table, dictionary_text, write_csv};
+use conemosaic::report::{MetricSelection, dictionary, dictionary_csv, dictionary_text};
 use std::path::PathBuf;
 
 /// What every column of every table means: definition, unit, edge rule, source
@@ -29,10 +29,7 @@ pub struct Metrics {
 impl Metrics {
     pub fn execute(self, common: &Common) -> Result<Done> {
         let text = if self.csv {
-            let (header, rows) = dictionary_table();
-            let mut bytes = Vec::new();
-            write_csv(&mut bytes, &header.iter().map(String::as_str).collect::<Vec<_>>(), &rows)?;
-            String::from_utf8_lossy(&bytes).into_owned()
+            String::from_utf8_lossy(&dictionary_csv()?).into_owned()
         } else if self.markdown {
             dictionary()
         } else {

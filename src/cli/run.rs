@@ -128,7 +128,7 @@ impl Run {
             .into_iter()
             .map(|k| {
                 let r = &outcome.records[k];
-                let density = if scaled { r.mosaic.density_per_mm2() } else { Some(r.mosaic.density) };
+                let density = if scaled { r.mosaic.density_per_mm2() } else { Some(r.mosaic.stats.density) };
                 let least = r.mosaic.l_infinity.iter().map(|d| d.l_infinity).min_by(f64::total_cmp);
                 let number = |value: Option<f64>| Cell::from(value).readable();
                 vec![
@@ -136,8 +136,8 @@ impl Run {
                     r.detection.modality.to_string(),
                     r.mosaic.n.to_string(),
                     number(density),
-                    number(r.mosaic.spacing),
-                    r.mosaic.nearest.ri.map_or("–".into(), |ri| significant(ri, 3)),
+                    number(r.mosaic.stats.spacing),
+                    r.mosaic.stats.nearest.ri.map_or("–".into(), |ri| significant(ri, 3)),
                     r.mosaic.closest_sampler().unwrap_or("–").to_owned(),
                     least.map_or("–".into(), |d| significant(d, 2)),
                     expected_errors(&r.detection),

@@ -14,6 +14,7 @@ pub mod paper;
 mod reference;
 mod reliability;
 mod sign_flip;
+mod subjects;
 mod summary;
 mod validation;
 mod verdict;
@@ -31,6 +32,7 @@ pub use matching::{Assignment, MatchError, MatchOptions, Matching, Pair, match_p
 pub use reference::{ReferenceCurve, References};
 pub use reliability::{Reliability, ReliabilityBin, reliability};
 pub use sign_flip::sign_flip_test;
+pub use subjects::{SubjectMean, mean_over_subjects};
 pub use summary::{Summary, intervals, summarise};
 pub use validation::{Rates, Score, validate};
 pub use verdict::{Envelope, SamplerVerdict, VerdictOptions, verdict};

@@ -1,13 +1,14 @@
 use super::{Point, Rectangle, Window};
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use rayon::prelude::*;
+use serde::Serialize;
 use std::num::NonZero;
 
 /// Points from which on all threads look for neighbours.
 const SPREAD_FROM: usize = 8192;
 
 /// For every point the nearest other point; both empty for fewer than two points.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct NearestNeighbours {
     /// Distance to it, in the unit of the coordinates; 0 where points coincide.
     pub distances: Vec<f64>,

@@ -1,4 +1,4 @@
-use super::{Cell, counted, significant, tables};
+use super::{counted, significant};
 use crate::stats::{FEWEST_PAIRS, RankCorrelation, rank_correlation};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -20,22 +20,6 @@ impl FindingRecord {
     pub fn of(sampler: &str, pairs: &[(f64, f64)], seed: u64) -> Self {
         let correlation = rank_correlation(pairs, &mut ChaCha8Rng::seed_from_u64(seed));
         Self { sampler: sampler.to_owned(), mosaics: pairs.len(), correlation }
-    }
-
-    /// Columns of `finding.csv`.
-    pub fn header() -> Vec<String> {
-        tables::FINDING.header()
-    }
-
-    /// The row under [`Self::header`].
-    pub fn row(&self) -> Vec<Cell> {
-        vec![
-            self.sampler.as_str().into(),
-            self.mosaics.into(),
-            self.correlation.map(|c| c.rho).into(),
-            self.correlation.map(|c| c.p_value).into(),
-            self.words().as_str().into(),
-        ]
     }
 
     /// Why there is no correlation, if there is none.
@@ -77,6 +61,5 @@ mod tests {
         );
         assert!(record(3, None).words().contains("3 mosaics"));
         assert!(record(9, None).words().contains("do not differ"));
-        assert_eq!(record(3, None).row().len(), FindingRecord::header().len());
     }
 }

@@ -1,4 +1,4 @@
-use super::{Cell, significant};
+use super::significant;
 use crate::geometry::Point;
 use crate::mosaic::{LengthUnit, Mosaic};
 use crate::stats::{Ellipse, LocalWindow, Maps};
@@ -37,41 +37,13 @@ pub struct LandmarkRecord {
     pub note: String,
 }
 
-type Column = (&'static str, fn(&LandmarkRecord) -> Cell);
-
-const COLUMNS: &[Column] = &[
-    ("file", |r| r.file.as_str().into()),
-    ("unit", |r| r.unit.symbol().into()),
-    ("um_per_unit", |r| r.um_per_unit.into()),
-    ("local_window", |r| r.window.as_str().into()),
-    ("n", |r| r.n.into()),
-    ("n_whole", |r| r.whole.into()),
-    ("pcd", |r| r.peak.into()),
-    ("pcd_per_mm2", |r| r.per_mm2(r.peak).into()),
-    ("pcd_x", |r| r.peak_at.map(|p| p.x).into()),
-    ("pcd_y", |r| r.peak_at.map(|p| p.y).into()),
-    ("cdc_x", |r| r.centroid.map(|p| p.x).into()),
-    ("cdc_y", |r| r.centroid.map(|p| p.y).into()),
-    ("cdc_density", |r| r.centroid_density.into()),
-    ("cdc_density_per_mm2", |r| r.per_mm2(r.centroid_density).into()),
-    ("isodensity_share", |r| r.isodensity.into()),
-    ("isodensity_area", |r| r.isodensity_area.into()),
-    ("isodensity_area_mm2", |r| r.isodensity_area.zip(r.um_per_unit).map(|(a, um)| a * um * um / 1e6).into()),
-    ("ellipse_x", |r| r.ellipse.map(|e| e.centre.x).into()),
-    ("ellipse_y", |r| r.ellipse.map(|e| e.centre.y).into()),
-    ("ellipse_semi_major", |r| r.ellipse.map(|e| e.semi_major).into()),
-    ("ellipse_semi_minor", |r| r.ellipse.map(|e| e.semi_minor).into()),
-    ("ellipse_degrees", |r| r.ellipse.map(|e| e.degrees).into()),
-    ("note", |r| r.note.as_str().into()),
-];
-
 impl LandmarkRecord {
     /// What the maps of a mosaic say.
     pub fn new(file: &str, mosaic: &Mosaic, maps: &Maps) -> Self {
         let found = &maps.landmarks;
         let (window, few) = match maps.options.window {
-            LocalWindow::Cells(n) => (format!("{n} cells"), "ask for fewer cells (--map-cells)"),
-            LocalWindow::Side(side) => (side.to_string(), "give another side (--map-side)"),
+            LocalWindow::Cells(n) => (format!("{n} cells"), "ask for fewer cells per window"),
+            LocalWindow::Side(side) => (side.to_string(), "give the windows another side"),
         };
         let note = match (found.peak, found.cut) {
             (None, _) => {
@@ -107,8 +79,14 @@ impl LandmarkRecord {
         }
     }
 
-    fn per_mm2(&self, density: Option<f64>) -> Option<f64> {
+    /// Returns a density per squared unit in cones/mm², if the scale is known.
+    pub(super) fn per_mm2(&self, density: Option<f64>) -> Option<f64> {
         density.zip(self.um_per_unit).map(|(d, um)| d * 1e6 / (um * um))
+    }
+
+    /// Returns the area of the region in mm², if the scale is known.
+    pub(super) fn isodensity_area_mm2(&self) -> Option<f64> {
+        self.isodensity_area.zip(self.um_per_unit).map(|(area, um)| area * um * um / 1e6)
     }
 
     /// Peak, centroid and area in words; why there are none.
@@ -133,25 +111,5 @@ impl LandmarkRecord {
         });
         let note = (!self.note.is_empty()).then(|| format!("Note: {}.", self.note));
         [peak, centroid, note].into_iter().flatten().collect::<Vec<_>>().join(" ")
-    }
-
-    /// Columns of `landmarks.csv`.
-    pub fn header() -> Vec<String> {
-        COLUMNS.iter().map(|(name, _)| (*name).to_owned()).collect()
-    }
-
-    /// The row under [`Self::header`].
-    pub fn row(&self) -> Vec<Cell> {
-        COLUMNS.iter().map(|(_, value)| value(self)).collect()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_dictionary_tells_the_columns() {
-        assert_eq!(crate::report::tables::LANDMARKS.header(), LandmarkRecord::header());
     }
 }

@@ -34,18 +34,16 @@ pub use figure::{
 pub use finding::FindingRecord;
 pub use landmarks::LandmarkRecord;
 pub use metrics::{
-    EdgeRule, Metric, MetricGroup, MetricSelection, Quantity, Subject, Summary, SummaryKind, dictionary,
-    dictionary_table, dictionary_text, metrics,
+    ColumnNames, Metric, MetricGroup, MetricSelection, Quantity, Subject, Summary, SummaryKind, column_names,
+    dictionary, dictionary_csv, dictionary_text, metrics,
 };
 pub use overlay::{MarkKind, OverlayMark, encode_png, overlay, overlay_with_border};
 pub use page::{expected_errors, page};
 pub use paper::PaperResults;
-pub use record::{
-    CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord, OrientationRecord, RecoveryRecord,
-    SamplerDistance, by_need,
-};
+pub use record::{CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord, SamplerDistance, by_need};
 pub use spectrum::{PowerScale, spectrum_png};
 pub use table::{counted, significant, table};
+pub use tables::{EdgeRule, Failure, ValidationRow, VersusRow};
 pub use validation::{
     TextTable, accuracy_table, agreement_table, comparison_table, group_table, threshold_table,
 };

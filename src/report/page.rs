@@ -92,11 +92,11 @@ fn overview(records: &[ImageRecord], samplers: &[String], scaled: bool) -> Marku
                     }
                     td.word { (r.detection.modality) }
                     td { (m.n) }
-                    td { (number(if scaled { m.density_per_mm2() } else { Some(m.density) }, 4)) }
-                    td { (number(m.spacing, 3)) }
-                    td { (number(m.nearest.mean.zip(um).map(|(v, um)| v * um), 3)) " ± " (number(m.nearest.sd.zip(um).map(|(v, um)| v * um), 2)) }
-                    td { (number(m.nearest.ri, 3)) }
-                    td { (number(m.nearest_interior.ri, 3)) }
+                    td { (number(if scaled { m.density_per_mm2() } else { Some(m.stats.density) }, 4)) }
+                    td { (number(m.stats.spacing, 3)) }
+                    td { (number(m.stats.nearest.mean.zip(um).map(|(v, um)| v * um), 3)) " ± " (number(m.stats.nearest.sd.zip(um).map(|(v, um)| v * um), 2)) }
+                    td { (number(m.stats.nearest.ri, 3)) }
+                    td { (number(m.stats.nearest_interior.ri, 3)) }
                     td { (expected_errors(&r.detection)) }
                     td.word { (Cell::from(m.closest_sampler()).readable()) }
                     @for sampler in samplers {

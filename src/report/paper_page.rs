@@ -213,7 +213,7 @@ impl PaperResults {
     fn bandwidths_in_words(&self) -> String {
         let of = self.printed.len();
         let scan: Vec<String> =
-            self.bandwidths.iter().map(|(width, _, holds)| format!("{width:.2}: {holds}")).collect();
+            self.bandwidths.iter().map(|b| format!("{:.2}: {}", b.bandwidth, b.holds)).collect();
         format!(
             "The first fence is narrow, and the distances move with the kernel's bandwidth, which the paper does not state in \
              spacings. Rows of Table 2, of {of}, that hold at other bandwidths: {}. Details: bandwidths.csv.",

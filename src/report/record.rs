@@ -1,13 +1,10 @@
 //! What is known of one mosaic, in the form in which it is written to files.
 
-use super::{Cell, VerdictRecord, tables};
+use super::VerdictRecord;
 use crate::detect::{Detector, FourierEstimate, Modality, Polarity};
-use crate::geometry::Polygon;
-use crate::mosaic::{LengthUnit, RetinalPlace, hexagonal_spacing};
-use crate::stats::{
-    ClarkEvans, DensityRecovery, Deviation, ModalSpacing, Moments, NeighbourEllipse, Orientation, Trend,
-    VoronoiSummary,
-};
+use crate::geometry::{Polygon, Window};
+use crate::mosaic::{LengthUnit, Mosaic, RetinalPlace, hexagonal_spacing};
+use crate::stats;
 use serde::{Deserialize, Serialize};
 
 /// Points measured in their window, and compared with samplers.
@@ -19,6 +16,9 @@ pub struct MosaicRecord {
     pub unit: LengthUnit,
     /// Micrometres per unit, if known.
     pub um_per_unit: Option<f64>,
+    /// Micrometres per pixel of the image, where coordinates are in µm and the scale is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub um_per_image_px: Option<f64>,
     /// Micrometres per degree of visual angle, if a scale is known.
     pub um_per_degree: Option<f64>,
     /// Where on the retina it lies, if that is known.
@@ -32,89 +32,14 @@ pub struct MosaicRecord {
     /// Its outline, where it is not the rectangle of these edges.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outline: Option<Polygon>,
-    /// Points per squared unit.
-    pub density: f64,
-    /// Hexagonal spacing of that density.
-    pub spacing: Option<f64>,
-    /// Divisor of the variances.
-    pub deviation: Deviation,
-    /// Nearest-neighbour distances of all points.
-    pub nearest: Moments,
-    /// The same of points whose distance to the border is at least that to their nearest neighbour.
-    pub nearest_interior: Moments,
-    /// The same of points whose Voronoi cell lies strictly inside the window.
-    pub nearest_bound: Moments,
-    /// Mean nearest-neighbour distance over that of independent points.
-    pub clark_evans: ClarkEvans,
-    /// Voronoi cells strictly inside the window.
-    pub voronoi: VoronoiSummary,
-    /// What the density recovery profile says; `None` for fewer than two points.
-    pub density_recovery: Option<RecoveryRecord>,
-    /// Directions of its neighbours.
-    pub orientation: OrientationRecord,
-    /// Ring of the power spectrum of its points; `None` where it has none.
-    pub modal: Option<ModalSpacing>,
-    /// Whether density varies across the window.
-    pub trend: Trend,
+    /// All statistics that are single numbers.
+    #[serde(flatten)]
+    pub stats: stats::Summary,
     /// Distance of pair correlation functions to each sampler, in the order of the samplers.
     pub l_infinity: Vec<SamplerDistance>,
     /// What simulations of each sampler say of it, if that was asked for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub verdicts: Vec<VerdictRecord>,
-}
-
-/// What a density recovery profile says, see [`DensityRecovery`]. Lengths in the unit of the mosaic.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct RecoveryRecord {
-    /// Width of the annuli.
-    pub bin_width: f64,
-    /// Effective radius.
-    pub effective_radius: Option<f64>,
-    /// Packing factor.
-    pub packing: Option<f64>,
-    /// Reliability factor.
-    pub reliability: f64,
-}
-
-impl From<&DensityRecovery> for RecoveryRecord {
-    fn from(profile: &DensityRecovery) -> Self {
-        Self {
-            bin_width: profile.bin_width,
-            effective_radius: profile.effective_radius,
-            packing: profile.packing,
-            reliability: profile.reliability,
-        }
-    }
-}
-
-/// Directions of neighbours, see [`Orientation`]: angles in degrees, counter-clockwise from the x axis as the picture is seen.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct OrientationRecord {
-    /// Interior points whose nearest neighbour has a direction.
-    pub axes: usize,
-    /// Length of the mean of exp(2iθ) of these directions.
-    pub resultant: Option<f64>,
-    /// Their mean axis, 0–180°.
-    pub direction: Option<f64>,
-    /// Chance of such a resultant where all directions are alike.
-    pub p_value: Option<f64>,
-    /// Ellipse of the ways to the neighbours.
-    pub ellipse: Option<NeighbourEllipse>,
-    /// Orientation of the hexagons, 0–60°.
-    pub hexagon_direction: Option<f64>,
-}
-
-impl From<&Orientation> for OrientationRecord {
-    fn from(found: &Orientation) -> Self {
-        Self {
-            axes: found.nearest.n,
-            resultant: found.nearest.resultant,
-            direction: found.nearest.direction,
-            p_value: found.nearest.p_value,
-            ellipse: found.ellipse,
-            hexagon_direction: found.hexagon_direction,
-        }
-    }
 }
 
 /// l-infinity distance of a mosaic's pair correlation function to the mean one of a sampler.
@@ -127,9 +52,51 @@ pub struct SamplerDistance {
 }
 
 impl MosaicRecord {
+    /// Records a mosaic, its scalars and its distances to samplers; place, labels and verdicts are left open.
+    pub fn new(mosaic: &Mosaic, measures: &stats::Measures, l_infinity: Vec<SamplerDistance>) -> Self {
+        let bounds = mosaic.window().bounds();
+        let in_micrometres = mosaic.unit() == LengthUnit::Micrometre;
+        Self {
+            n: mosaic.len(),
+            unit: mosaic.unit(),
+            um_per_unit: mosaic.micrometres_per_unit(),
+            um_per_image_px: mosaic.scale().filter(|_| in_micrometres).map(|s| s.micrometres_per_pixel()),
+            um_per_degree: mosaic.scale().map(|s| s.micrometres_per_degree()),
+            place: None,
+            labels: Vec::new(),
+            window: [bounds.x0(), bounds.y0(), bounds.x1(), bounds.y1()],
+            window_area: mosaic.window().area(),
+            outline: match mosaic.window() {
+                Window::Polygon(polygon) => Some(polygon.clone()),
+                Window::Rectangle(_) | Window::Torus(_) => None,
+            },
+            stats: measures.summary.clone(),
+            l_infinity,
+            verdicts: Vec::new(),
+        }
+    }
+
+    /// Micrometres per pixel, if known.
+    pub fn um_per_px(&self) -> Option<f64> {
+        match self.unit {
+            LengthUnit::Pixel => self.um_per_unit,
+            LengthUnit::Micrometre => self.um_per_image_px,
+            LengthUnit::Unit => None,
+        }
+    }
+
+    /// Pixels per unit of the coordinates; `None` in the unit square, and for µm without a scale.
+    pub fn px_per_unit(&self) -> Option<f64> {
+        match self.unit {
+            LengthUnit::Pixel => Some(1.),
+            LengthUnit::Micrometre => self.um_per_image_px.map(|um| 1. / um),
+            LengthUnit::Unit => None,
+        }
+    }
+
     /// Points per mm², if the scale is known.
     pub fn density_per_mm2(&self) -> Option<f64> {
-        self.um_per_unit.map(|um| self.density * 1e6 / (um * um))
+        self.um_per_unit.map(|um| self.stats.density * 1e6 / (um * um))
     }
 
     /// Area of the window in mm², if the scale is known.
@@ -242,49 +209,12 @@ pub struct ImageRecord {
 pub struct CoordinatesRecord {
     /// Path as given.
     pub file: String,
+    /// Name under which its results stand.
+    pub name: String,
     /// Points of the file that lie outside the window and were left out.
     pub outside: usize,
     /// Their statistics.
     pub mosaic: MosaicRecord,
     /// What a reader of these numbers should know.
     pub warnings: Vec<String>,
-}
-
-impl CoordinatesRecord {
-    /// A row of `regularity.csv`, in the form of Table 1 of Lanaro et al. (population deviation), and with the sample's: nearest-neighbour distances of all points.
-    pub fn regularity_row(&self) -> Vec<Cell> {
-        let nearest = self.mosaic.nearest;
-        let [population, sample] = [Deviation::Population, Deviation::Sample]
-            .map(|d| nearest.with_divisor(self.mosaic.deviation, d));
-        vec![
-            self.file.as_str().into(),
-            self.mosaic.unit.symbol().into(),
-            nearest.mean.into(),
-            population.sd.into(),
-            population.ri.into(),
-            sample.sd.into(),
-            sample.ri.into(),
-            nearest.n.into(),
-        ]
-    }
-
-    /// Columns of `l_infinity.csv`: the file, one column a sampler, then what helps to read them.
-    pub fn distance_header(samplers: &[String]) -> Vec<String> {
-        tables::L_INFINITY.header_of(samplers)
-    }
-
-    /// The row under [`Self::distance_header`].
-    pub fn distance_row(&self, samplers: &[String]) -> Vec<Cell> {
-        [self.file.as_str().into()]
-            .into_iter()
-            .chain(samplers.iter().map(|name| self.mosaic.distance_to(name).into()))
-            .chain([
-                self.mosaic.closest_sampler().into(),
-                self.mosaic.n.into(),
-                self.mosaic.nearest.ri.into(),
-                self.mosaic.deviation.name().into(),
-                self.warnings.join("; ").as_str().into(),
-            ])
-            .collect()
-    }
 }

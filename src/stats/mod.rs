@@ -23,6 +23,7 @@ mod rank_correlation;
 mod rank_envelope;
 mod rois;
 mod spectrum;
+mod summary;
 mod trend;
 mod voronoi;
 
@@ -47,5 +48,6 @@ pub use rank_correlation::{FEWEST_PAIRS, RankCorrelation, rank_correlation};
 pub use rank_envelope::{RankEnvelope, rank_envelope};
 pub use rois::{Grown, grown, lies_in, sliding};
 pub use spectrum::{ModalSpacing, PowerSpectrum, SpectrumOptions, modal_spacing, spectrum};
+pub use summary::{OrientationSummary, RecoverySummary, Summary};
 pub use trend::{TREND_LEVEL, TREND_TOLERANCE, Trend, trend};
 pub use voronoi::{Cell, Voronoi, VoronoiSummary, voronoi};

@@ -43,7 +43,7 @@ pub struct Cell {
 }
 
 /// Voronoi cells of a pattern.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Voronoi {
     /// One a point, in the order of the points.
     pub cells: Vec<Cell>,

@@ -24,9 +24,10 @@ use crate::compare::{ReferenceCurve, References, SamplerVerdict};
 use crate::detect::{Detections, FourierEstimate, fourier_spacing};
 use crate::image::Plane;
 use crate::mosaic::Mosaic;
-use crate::report::{Cell, LandmarkRecord, MosaicRecord};
+use crate::report::tables::RoiRow;
+use crate::report::{LandmarkRecord, MosaicRecord};
 use crate::stats::{Functions, Maps, Measures, PowerSpectrum, functions, measure, spectrum};
-use measured::{distances, not_compared, record_of, warnings_of};
+use measured::{distances, not_compared, warnings_of};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -56,7 +57,7 @@ pub(super) struct Analysis {
     pub maps: Option<Maps>,
     pub landmarks: Option<LandmarkRecord>,
     /// Rows of `rois.csv`.
-    pub regions: Vec<Vec<Cell>>,
+    pub regions: Vec<RoiRow>,
     /// Spacing by the spectrum of the image, if it is wanted and there is an image.
     pub fourier: Option<FourierEstimate>,
     /// Wall-clock seconds of measuring and comparing.
@@ -85,7 +86,7 @@ pub(super) fn analyse(
     };
     let (verdicts, no_verdicts) =
         verdicts::verdicts_on(mosaic, &measures, &plan.samplers, plan.verdict.as_ref(), plan.seed);
-    let mut record = record_of(mosaic, &measures, distances(&measures, &curves)?);
+    let mut record = MosaicRecord::new(mosaic, &measures, distances(&measures, &curves)?);
     record.verdicts = verdicts::records(&verdicts);
     let compared = clock.elapsed().as_secs_f64();
 

@@ -1,11 +1,12 @@
 use super::Plan;
-use super::measured::{record_of, warnings_of};
+use super::measured::warnings_of;
 use crate::batch::output::OutputFolder;
 use crate::batch::{BatchError, Input, Length};
-use crate::geometry::Rectangle;
+use crate::geometry::{Rectangle, Window};
 use crate::mosaic::io::RoiTable;
 use crate::mosaic::{LengthUnit, Mosaic};
-use crate::report::{Cell, CoordinatesRecord, MosaicRecord, Subject, Summary, SummaryKind, tables};
+use crate::report::tables::{RoiRow, rois_csv};
+use crate::report::{CoordinatesRecord, MosaicRecord, Summary};
 use crate::stats::{grown, lies_in, measure, sliding};
 use rayon::prelude::*;
 use std::path::Path;
@@ -110,12 +111,6 @@ fn factor(table: &RoiTable, mosaic: &Mosaic, file: &Path) -> Result<f64, BatchEr
     }
 }
 
-/// The columns of `rois.csv`: where a region is, then those of `summary.csv` for the points in it.
-fn header(summary: &Summary) -> Vec<String> {
-    let place = tables::ROIS.header();
-    place.into_iter().chain(summary.header().into_iter().filter(|name| name != "file")).collect()
-}
-
 /// Returns the rows of one mosaic, one per region, each measured as a mosaic of its own: the points in the part of the window that
 /// lies in its box, their Voronoi cells among themselves, bound if they lie strictly inside that part. Of a region without
 /// any of the window there are no values. The same for any number of threads.
@@ -128,10 +123,8 @@ pub(super) fn rows(
     whole: &MosaicRecord,
     plan: &Plan,
     request: &RoiRequest,
-) -> Result<Vec<Vec<Cell>>, BatchError> {
-    let summary = plan.summary(SummaryKind::Coordinates);
-    let header = summary.header();
-    let one = |(name, frame): (String, Rectangle)| -> Result<Vec<Cell>, BatchError> {
+) -> Result<Vec<RoiRow>, BatchError> {
+    let one = |(name, frame): (String, Rectangle)| -> Result<RoiRow, BatchError> {
         let (points, window) = (mosaic.points(), mosaic.window());
         let mut flags = Vec::new();
         let frame = match request.cells {
@@ -150,32 +143,34 @@ pub(super) fn rows(
         } else if !lies_in(&frame, window) {
             flags.push("edge");
         }
-        let edges = [frame.x0(), frame.y0(), frame.x1(), frame.y1()];
-        let mut row: Vec<Cell> = vec![input.path.display().to_string().as_str().into(), name.as_str().into()];
-        row.extend(edges.map(Cell::from));
-        row.push(flags.join(" ").as_str().into());
-        let values = match part {
-            None => vec![Cell::Missing; header.len()],
-            Some(part) => {
-                let inside = points.iter().copied().filter(|&p| part.contains(p)).collect();
-                let (roi, _) = Mosaic::new(inside, part, mosaic.unit(), mosaic.scale())
-                    .map_err(|source| BatchError::Mosaic { file: input.path.clone(), source })?;
-                let measures = measure(&roi, &plan.measure);
-                let mut mosaic = record_of(&roi, &measures, Vec::new());
-                mosaic.labels.clone_from(&whole.labels);
-                mosaic.place = whole.place;
-                let warnings = warnings_of(None, &mosaic, &measures);
-                let file = input.path.display().to_string();
-                summary.row(&Subject::Coordinates(&CoordinatesRecord { file, outside: 0, mosaic, warnings }))
-            }
+        let measured = |part: Window| -> Result<CoordinatesRecord, BatchError> {
+            let inside = points.iter().copied().filter(|&p| part.contains(p)).collect();
+            let (roi, _) = Mosaic::new(inside, part, mosaic.unit(), mosaic.scale())
+                .map_err(|source| BatchError::Mosaic { file: input.path.clone(), source })?;
+            let measures = measure(&roi, &plan.measure);
+            let mut record = MosaicRecord::new(&roi, &measures, Vec::new());
+            record.labels.clone_from(&whole.labels);
+            record.place = whole.place;
+            let warnings = warnings_of(None, &record, &measures);
+            let (file, name) = (input.path.display().to_string(), input.name.clone());
+            Ok(CoordinatesRecord { file, name, outside: 0, mosaic: record, warnings })
         };
-        row.extend(header.iter().zip(values).filter(|(name, _)| *name != "file").map(|(_, cell)| cell));
-        Ok(row)
+        Ok(RoiRow {
+            file: input.path.display().to_string(),
+            roi: name,
+            frame,
+            flag: flags.join(" "),
+            record: part.map(measured).transpose()?,
+        })
     };
     request.boxes(input, mosaic)?.into_par_iter().map(one).collect()
 }
 
 /// Writes `rois.csv`.
-pub(in crate::batch) fn write(out: &OutputFolder, summary: &Summary, rows: &[Vec<Cell>]) -> Result<(), BatchError> {
-    out.write_table(FILE, &header(summary), rows)
+pub(in crate::batch) fn write(
+    out: &OutputFolder,
+    summary: &Summary,
+    rows: &[RoiRow],
+) -> Result<(), BatchError> {
+    out.write(FILE, &rois_csv(summary, rows)?)
 }

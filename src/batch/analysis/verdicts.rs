@@ -1,8 +1,9 @@
 use crate::batch::BatchError;
-use crate::batch::output::{OutputFolder, series_table};
+use crate::batch::output::OutputFolder;
 use crate::compare::{SamplerVerdict, VerdictOptions, verdict};
 use crate::mosaic::Mosaic;
-use crate::report::{Cell, Curve, EnvelopePanel, VerdictRecord, envelope_figure, significant};
+use crate::report::tables::{VERDICTS, VerdictRow, envelope_csv};
+use crate::report::{Curve, EnvelopePanel, VerdictRecord, envelope_figure, significant};
 use crate::sample::Sampler;
 use crate::stats::Measures;
 
@@ -35,29 +36,13 @@ pub(super) fn records(verdicts: &[SamplerVerdict]) -> Vec<VerdictRecord> {
     verdicts.iter().map(VerdictRecord::from).collect()
 }
 
-/// Columns r, g, and of each sampler the mean of its simulations and the edges of their global envelope.
-fn envelope_table<'a>(
-    measures: &'a Measures,
-    verdicts: &'a [SamplerVerdict],
-) -> (Vec<String>, Vec<Vec<Cell>>) {
-    let (r, g) = measures.pcf.as_ref().map_or((&[][..], &[][..]), |pcf| (&pcf.r, &pcf.g));
-    let edges = |v: &'a SamplerVerdict| {
-        [("mean", &v.envelope.mean), ("low", &v.envelope.low), ("high", &v.envelope.high)]
-            .map(|(what, values)| (format!("{what}_{}", v.sampler.replace('-', "_")), values.as_slice()))
-    };
-    series_table(
-        [("r".to_owned(), r), ("g".to_owned(), g)].into_iter().chain(verdicts.iter().flat_map(edges)),
-    )
-}
-
 /// Writes `verdicts.csv`: each file and what was found on it.
 pub(in crate::batch) fn write_table<'a>(
     out: &OutputFolder,
     found: impl Iterator<Item = (&'a str, &'a [VerdictRecord])>,
 ) -> Result<(), BatchError> {
-    let rows: Vec<_> =
-        found.flat_map(|(file, verdicts)| verdicts.iter().map(move |v| v.row(file))).collect();
-    out.write_table("verdicts.csv", &VerdictRecord::header(), &rows)
+    let rows = found.flat_map(|(file, all)| all.iter().map(move |verdict| VerdictRow { file, verdict }));
+    out.write(VERDICTS.file, &VERDICTS.csv(rows)?)
 }
 
 /// Writes the envelopes and their figure, under names that begin with `prefix`; nothing without verdicts.
@@ -71,8 +56,7 @@ pub(super) fn write(
     if verdicts.is_empty() {
         return Ok(());
     }
-    let (header, rows) = envelope_table(measures, verdicts);
-    out.write_table(&format!("{prefix}{ENVELOPE}"), &header, &rows)?;
+    out.write(&format!("{prefix}{ENVELOPE}"), &envelope_csv(measures, verdicts)?)?;
     out.write(&format!("{prefix}{FIGURE}"), figure(title, measures, verdicts)?.as_bytes())
 }
 

@@ -1,11 +1,10 @@
 //! The files of one mosaic. In a folder of its own they have plain names; beside others each name
 //! begins with that of the mosaic and a dot.
 
-use super::measured::{functions_table, pcf_table, points_table, recovery_table};
 use super::{Analysis, Plan, Specimen, figure, maps, verdicts};
 use crate::batch::BatchError;
-use crate::batch::output::{OutputFolder, series_table};
-use crate::report::spectrum_png;
+use crate::batch::output::OutputFolder;
+use crate::report::{spectrum_png, tables};
 
 const PCF: &str = "pcf.csv";
 const FIGURE: &str = "figure.svg";
@@ -55,29 +54,21 @@ pub(in crate::batch) fn write(
         Layout::Folder => file.to_owned(),
         Layout::Beside => format!("{name}.{file}"),
     };
-    let (header, rows) = pcf_table(measures, &analysis.curves);
-    folder.write_table(&called(PCF), &header, &rows)?;
+    folder.write(&called(PCF), &tables::pcf_csv(measures, &analysis.curves)?)?;
     if layout == Layout::Folder {
         let drawn =
             figure::figure(name, specimen.image, mosaic, measures, &analysis.record, &analysis.curves)?;
         folder.write(FIGURE, drawn.as_bytes())?;
     }
     if let Some(found) = &analysis.functions {
-        let (header, rows) = functions_table(found);
-        folder.write_table(&called(FUNCTIONS[0]), &header, &rows)?;
-        let (header, rows) = recovery_table(measures);
-        folder.write_table(&called(FUNCTIONS[1]), &header, &rows)?;
-        let (header, rows) = points_table(mosaic, measures);
+        let recovery = measures.density_recovery.as_ref().ok();
         let table = if layout == Layout::Folder { POINTS[1] } else { POINTS[0] };
-        folder.write_table(&called(table), &header, &rows)?;
+        folder.write(&called(FUNCTIONS[0]), &tables::functions_csv(found)?)?;
+        folder.write(&called(FUNCTIONS[1]), &tables::density_recovery_csv(recovery)?)?;
+        folder.write(&called(table), &tables::points_csv(mosaic, measures)?)?;
     }
     if let (Some(found), Some((_, scale))) = (&analysis.spectrum, plan.spectrum) {
-        let (header, rows) = series_table([
-            ("frequency".to_owned(), found.frequency.as_slice()),
-            ("power".to_owned(), found.power.as_slice()),
-            ("anisotropy_db".to_owned(), found.anisotropy_db.as_slice()),
-        ]);
-        folder.write_table(&called(SPECTRUM[0]), &header, &rows)?;
+        folder.write(&called(SPECTRUM[0]), &tables::spectrum_csv(found)?)?;
         folder.write(&called(SPECTRUM[1]), &spectrum_png(found, scale)?)?;
     }
     if let Some(found) = &analysis.maps {

@@ -2,8 +2,8 @@ use crate::batch::output::OutputFolder;
 use crate::batch::{BatchError, Grouping};
 use crate::mosaic::io::Manifest;
 use crate::mosaic::{MICROMETRES_PER_DEGREE, RetinalPlace, Scale};
-use crate::report::{Cell, MosaicRecord, Subject, Summary, significant, tables};
-use crate::stats::{Deviation, moments};
+use crate::report::tables::{GROUPS, GroupMember, groups_csv};
+use crate::report::{MosaicRecord, Subject, Summary, significant};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::str::FromStr;
@@ -45,6 +45,9 @@ impl FromStr for GroupBy {
 /// Densities this many times the expected one, or its part, are rare in healthy eyes: in the foveal centre, where eyes differ most,
 /// Curcio et al. (1990) counted 100 000 to 324 000 per mm², 0.5 to 1.6 times their mean.
 const UNLIKELY: f64 = 2.;
+
+/// Columns of a manifest that name the person, in lower case.
+const PERSON: [&str; 2] = ["subject", "subject_id"];
 
 /// What a manifest says of one image.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -129,8 +132,14 @@ impl Labels {
         }
     }
 
-    /// Writes `groups.csv`, if groups are wanted: of every group and column of numbers, how many images have it, their mean and
-    /// standard deviation (n − 1). Every image counts once.
+    /// The person an image is of, by the manifest's column `subject`.
+    fn person_of<'a>(&self, record: &'a MosaicRecord) -> Option<&'a str> {
+        let is_person = |name: &String| PERSON.contains(&name.to_lowercase().as_str());
+        let k = self.columns().iter().position(is_person)?;
+        record.labels.get(k).map(String::as_str).filter(|text| !text.is_empty())
+    }
+
+    /// Writes `groups.csv`, if groups are wanted.
     pub(in crate::batch) fn write_groups(
         &self,
         out: &OutputFolder,
@@ -140,28 +149,13 @@ impl Labels {
         if self.group_by.is_none() {
             return Ok(());
         }
-        let mut groups: BTreeMap<String, Vec<Subject>> = BTreeMap::new();
-        for (name, subject) in subjects {
-            if let Some(group) = self.group_of(name, subject.mosaic())? {
-                groups.entry(group).or_default().push(*subject);
+        let mut groups: BTreeMap<String, Vec<GroupMember>> = BTreeMap::new();
+        for (name, record) in subjects {
+            if let Some(group) = self.group_of(name, record.mosaic())? {
+                let person = self.person_of(record.mosaic());
+                groups.entry(group).or_default().push(GroupMember { record: *record, person });
             }
         }
-        let mut rows: Vec<Vec<Cell>> = Vec::new();
-        for (group, members) in &groups {
-            for (column, unit, values) in summary.numbers(members) {
-                let known: Vec<f64> = values.into_iter().flatten().collect();
-                let found = moments(&known, Deviation::Sample);
-                rows.push(vec![
-                    group.as_str().into(),
-                    members.len().into(),
-                    column.as_str().into(),
-                    unit.into(),
-                    found.n.into(),
-                    found.mean.into(),
-                    found.sd.into(),
-                ]);
-            }
-        }
-        out.write_described(&tables::GROUPS, &rows)
+        out.write(GROUPS.file, &groups_csv(summary, &groups)?)
     }
 }

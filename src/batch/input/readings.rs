@@ -1,5 +1,6 @@
 use crate::batch::BatchError;
-use std::collections::BTreeMap;
+use crate::report::{ColumnNames, column_names};
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Columns that name images or say how they were taken rather than measure them.
@@ -12,6 +13,8 @@ pub(in crate::batch) struct Readings {
     pub label: String,
     /// Names of all columns.
     pub columns: Vec<String>,
+    /// The unit of the coordinates of all rows, if the table says it and it is one.
+    pub unit: Option<String>,
     /// By image, the value of every column; `None` where it is no number.
     pub items: BTreeMap<String, Vec<Option<f64>>>,
 }
@@ -44,6 +47,8 @@ impl Readings {
                     .into(),
             ));
         };
+        let unit_column = header.iter().position(|h| h == "unit");
+        let mut units = BTreeSet::new();
         let mut items: BTreeMap<String, Vec<Option<f64>>> = BTreeMap::new();
         for (k, row) in reader.records().enumerate() {
             let line = k + 2;
@@ -57,17 +62,33 @@ impl Readings {
             if item.is_empty() {
                 return Err(fail(format!("line {line} names no image: fill column {}", header[key])));
             }
+            units.extend(unit_column.and_then(|u| row.get(u)).map(|u| u.trim().to_owned()));
             let values = row.iter().map(|c| c.trim().parse().ok().filter(|v: &f64| v.is_finite())).collect();
             if items.insert(item.clone(), values).is_some() {
                 return Err(fail(format!(
-                    "line {line}: {item} stands in the table twice: keep one row an image"
+                    "line {line}: {item} stands in the table twice: keep one row per image"
                 )));
             }
         }
         let folder =
             path.is_dir().then_some(path).or_else(|| path.parent().filter(|_| path.ends_with("summary.csv")));
         let named = folder.and_then(Path::file_name).or_else(|| path.file_stem()).unwrap_or(path.as_os_str());
-        Ok(Self { label: named.to_string_lossy().into_owned(), columns: header, items })
+        let unit = units.pop_first().filter(|_| units.is_empty());
+        Ok(Self { label: named.to_string_lossy().into_owned(), columns: header, unit, items })
+    }
+
+    /// Whether any image has a number in a column.
+    fn has_numbers(&self, column: &str) -> bool {
+        let k = self.columns.iter().position(|c| c == column);
+        k.is_some_and(|k| self.items.values().any(|v| v.get(k).copied().flatten().is_some()))
+    }
+
+    /// The name by which it has a column of one unit, with numbers.
+    fn name_of(&self, names: &ColumnNames) -> Option<String> {
+        let pixels = self.unit.as_deref() == Some("px");
+        let plain = names.in_pixels.iter().copied().filter(|_| pixels);
+        let mut all = names.suffixed.iter().map(String::as_str).chain(plain);
+        all.find(|name| self.has_numbers(name)).map(str::to_owned)
     }
 
     /// What it has for an image; `None` where it has none or no number.
@@ -77,30 +98,64 @@ impl Readings {
     }
 }
 
-/// The columns asked for, or all that hold numbers in every table.
-pub(in crate::batch) fn chosen_columns(readings: &[Readings], asked: &[String]) -> Result<Vec<String>, BatchError> {
-    for column in asked {
-        if let Some(lacking) = readings.iter().find(|r| !r.columns.contains(column)) {
-            return Err(BatchError::Tables(format!(
-                "{} has no column {column}: it has {}",
-                lacking.label,
-                lacking.columns.join(", ")
-            )));
-        }
-    }
+/// A column to compare, and where each table has it.
+#[derive(Clone, Debug)]
+pub(in crate::batch) struct Chosen {
+    /// What it is called in the results: with its unit, where tables name it differently.
+    pub name: String,
+    /// Its name in each table.
+    pub named: Vec<String>,
+}
+
+/// Returns the columns asked for, or all that hold numbers in every table.
+///
+/// A column may have another name in each table: `density` is found as `density_per_px2`, or whatever unit all
+/// tables have, and a name of an earlier version as the one that took its place.
+pub(in crate::batch) fn chosen_columns(readings: &[Readings], asked: &[String]) -> Result<Vec<Chosen>, BatchError> {
     if !asked.is_empty() {
-        return Ok(asked.to_vec());
+        return asked.iter().map(|column| resolved(readings, column)).collect();
     }
-    let numbers = |r: &Readings, column: &String| {
-        r.columns
-            .iter()
-            .position(|c| c == column)
-            .is_some_and(|k| r.items.values().any(|v| v.get(k).copied().flatten().is_some()))
-    };
     let first = readings.first().map_or(&[][..], |r| &r.columns);
-    Ok(first
-        .iter()
-        .filter(|c| !NO_MEASURE.contains(&c.as_str()) && readings.iter().all(|r| numbers(r, c)))
-        .cloned()
-        .collect())
+    let numbers = |column: &&String| readings.iter().all(|r| r.has_numbers(column));
+    let common = first.iter().filter(|c| !NO_MEASURE.contains(&c.as_str()));
+    let common: Vec<&String> = common.filter(numbers).collect();
+    // beside columns that name their unit, those in the unit of the coordinates say nothing new
+    let twice = |column: &String| {
+        let names = column_names(column);
+        names.len() > 1 && names.iter().any(|n| common.contains(&&n.name))
+    };
+    let kept = common.iter().filter(|column| !twice(column));
+    Ok(kept.map(|column| literal(readings, column)).collect())
+}
+
+fn literal(readings: &[Readings], column: &str) -> Chosen {
+    Chosen { name: column.to_owned(), named: vec![column.to_owned(); readings.len()] }
+}
+
+fn resolved(readings: &[Readings], asked: &str) -> Result<Chosen, BatchError> {
+    let candidates = column_names(asked);
+    let has = |r: &&Readings| r.columns.iter().any(|c| c == asked);
+    // a length without unit is the same in all tables only if their coordinates have one unit
+    let units: BTreeSet<Option<&str>> = readings.iter().map(|r| r.unit.as_deref()).collect();
+    if readings.iter().all(|r| has(&r)) && (candidates.len() < 2 || units.len() < 2) {
+        return Ok(literal(readings, asked));
+    }
+    let in_all = |names: &ColumnNames| {
+        let named: Option<Vec<String>> = readings.iter().map(|r| r.name_of(names)).collect();
+        Some(Chosen { name: names.name.clone(), named: named? })
+    };
+    if let Some(found) = candidates.iter().find_map(in_all) {
+        return Ok(found);
+    }
+    let lacks = |r: &&Readings| !candidates.iter().any(|names| r.name_of(names).is_some());
+    match readings.iter().find(|r| !has(r) && lacks(r)) {
+        Some(r) => Err(BatchError::Tables(format!(
+            "{} has no column {asked}: it has {}",
+            r.label,
+            r.columns.join(", ")
+        ))),
+        None => Err(BatchError::Tables(format!(
+            "the tables have {asked} in no common unit: measure all of them in px, or give every one a scale"
+        ))),
+    }
 }

@@ -1,8 +1,6 @@
 use super::ledger::{Ledger, Standing};
 use crate::batch::BatchError;
 use crate::files::{sync_folder, write_atomically};
-use crate::report::tables::OutputTable;
-use crate::report::{Cell, write_csv};
 use serde::Serialize;
 use std::fs;
 use std::io::{self, Write};
@@ -49,19 +47,6 @@ impl OutputFolder {
         let mut json = serde_json::to_vec_pretty(value)?;
         json.push(b'\n');
         self.write(name, &json)
-    }
-
-    /// Writes a table as CSV.
-    pub fn write_table(&self, name: &str, header: &[String], rows: &[Vec<Cell>]) -> Result<(), BatchError> {
-        let header: Vec<&str> = header.iter().map(String::as_str).collect();
-        let mut bytes = Vec::new();
-        write_csv(&mut bytes, &header, rows)?;
-        self.write(name, &bytes)
-    }
-
-    /// A table of the data dictionary, under the name and the header that stand there.
-    pub fn write_described(&self, table: &OutputTable, rows: &[Vec<Cell>]) -> Result<(), BatchError> {
-        self.write_table(table.file, &table.header(), rows)
     }
 
     /// Opens a folder inside this one, and makes it where it is missing.
@@ -139,15 +124,4 @@ fn remove_folder(path: &Path) -> io::Result<()> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
         other => other,
     }
-}
-
-/// A table whose columns are series of numbers: as many rows as the first has; one that is shorter, and a value that is not
-/// defined, leaves empty cells.
-pub(in crate::batch) fn series_table<'a>(
-    columns: impl IntoIterator<Item = (String, &'a [f64])>,
-) -> (Vec<String>, Vec<Vec<Cell>>) {
-    let (header, columns): (Vec<String>, Vec<&[f64]>) = columns.into_iter().unzip();
-    let rows = columns.first().map_or(0, |first| first.len());
-    let row = |k: usize| columns.iter().map(|values| values.get(k).copied().into()).collect();
-    (header, (0..rows).map(row).collect())
 }

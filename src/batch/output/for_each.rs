@@ -68,7 +68,7 @@ fn failed(input: &Input, reason: &str, progress: &dyn Progress) -> Failure {
     let reason = reason.split_whitespace().collect::<Vec<_>>().join(" ");
     let reason = if reason.contains(&file) { reason } else { format!("{file}: {reason}") };
     progress.done(&input.name, Err(&reason));
-    Failure { file, name: input.name.clone(), reason }
+    Failure { file, reason }
 }
 
 /// The words of a panic.

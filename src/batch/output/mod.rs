@@ -15,7 +15,7 @@ pub use ledger::Leftovers;
 pub use progress::{Progress, Silent};
 
 pub(super) use failures::write_failures;
-pub(super) use folder::{OutputFolder, series_table};
+pub(super) use folder::OutputFolder;
 pub(super) use for_each::{Worked, for_each};
 pub(super) use ledger::{MARKER, Standing, hex};
 pub(super) use results::ResultFolder;

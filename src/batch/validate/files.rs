@@ -1,10 +1,13 @@
 //! What a validation writes: which files there are, and the page that shows them.
 
 use super::figures::{agreement, froc_svg, marks_as_detections};
-use super::{Analysis, ValidationOptions, ValidationRow, tables};
+use super::{Analysis, ValidationOptions, ValidationRow};
 use crate::batch::output::OutputFolder;
 use crate::batch::{BatchError, Failure};
 use crate::compare::{Froc, Score};
+use crate::report::tables::{
+    COMPARISON, FROC, RELIABILITY, SUBJECT_GROUPS, VALIDATION, froc_csv, validation_csv,
+};
 use crate::report::{
     ReliabilityFigure, ScoredImage, ValidationPage, counted, reliability_figure, significant, validation_page,
 };
@@ -18,7 +21,7 @@ pub(super) fn write(
     failures: &[Failure],
     options: &ValidationOptions,
 ) -> Result<(), BatchError> {
-    tables::images(out, rows, options.versus.is_some())?;
+    out.write(VALIDATION.file, &validation_csv(rows, options.versus.is_some())?)?;
     out.write_json("validation.json", &analysis.map(|a| record(a, options)))?;
 
     let mut figures: Vec<(&str, String)> = Vec::new();
@@ -42,14 +45,14 @@ pub(super) fn write(
     }
     match analysis.filter(|a| !a.groups.is_empty()) {
         Some(analysis) => {
-            tables::groups(out, &analysis.groups)?;
+            out.write(SUBJECT_GROUPS.file, &SUBJECT_GROUPS.csv(&analysis.groups)?)?;
             made("groups.csv", "a row a group");
         }
         None => {}
     }
     match analysis.and_then(|a| Some((a, a.froc.as_ref()?))) {
         Some((analysis, froc)) => {
-            tables::curve(out, froc)?;
+            out.write(FROC.file, &froc_csv(froc)?)?;
             out.write(
                 "froc.svg",
                 froc_svg(froc, &analysis.summary, analysis.comparison.as_ref()).as_bytes(),
@@ -64,7 +67,7 @@ pub(super) fn write(
     }
     match analysis.and_then(|a| a.reliability.as_ref()) {
         Some(reliability) => {
-            tables::bins(out, reliability)?;
+            out.write(RELIABILITY.file, &RELIABILITY.csv(&reliability.bins)?)?;
             let alarms: Vec<(f64, f64)> = rows
                 .iter()
                 .filter_map(|r| Some((r.expected_false_alarms?, r.score.rates.fp as f64)))
@@ -82,7 +85,7 @@ pub(super) fn write(
     }
     match analysis.and_then(|a| a.comparison.as_ref()) {
         Some(comparison) => {
-            tables::differences(out, &comparison.differences)?;
+            out.write(COMPARISON.file, &COMPARISON.csv(&comparison.differences)?)?;
             let pairs: Vec<(Score, Score)> =
                 rows.iter().filter_map(|r| Some((r.score, r.versus.as_ref()?.score))).collect();
             let (first, second) = (comparison.first.as_str(), comparison.second.as_str());

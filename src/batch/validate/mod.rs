@@ -6,14 +6,14 @@ mod files;
 mod grouping;
 mod image;
 mod pairs;
-mod tables;
 
+pub use crate::report::{ValidationRow, VersusRow};
 pub use analysis::{Analysis, Comparison};
 pub use grouping::Grouping;
 
 use super::output::{Ending, ResultFolder, for_each, write_failures};
 use super::{BatchError, Failure, Progress, ScaleSource};
-use crate::compare::{JudgedImage, MatchOptions, Score};
+use crate::compare::MatchOptions;
 use crate::detect::DetectOptions;
 use crate::mosaic::io::ReadOptions;
 use std::path::{Path, PathBuf};
@@ -67,36 +67,6 @@ pub struct ValidationOptions {
     pub resamples: usize,
     /// Seed of the bootstrap and of permutation tests.
     pub seed: u64,
-}
-
-/// The score of one image.
-#[derive(Clone, Debug)]
-pub struct ValidationRow {
-    /// The file of marks, as given.
-    pub file: String,
-    /// The image's name.
-    pub name: String,
-    /// The group it belongs to.
-    pub group: Option<String>,
-    /// How well detections and marks agree.
-    pub score: Score,
-    /// Every detection judged, where they have scores, and what the program's own detector rejected.
-    pub judged: Option<JudgedImage>,
-    /// False alarms that the scores lead to expect outside the border, Σ (1 − score), if all are between 0 and 1.
-    pub expected_false_alarms: Option<f64>,
-    /// The other detections, if two are compared.
-    pub versus: Option<VersusRow>,
-}
-
-/// How well other detections do on the same image.
-#[derive(Clone, Debug)]
-pub struct VersusRow {
-    /// They against the marks.
-    pub score: Score,
-    /// Every one of them judged, where they have scores.
-    pub judged: Option<JudgedImage>,
-    /// The detections against them, taken as marks.
-    pub between: Score,
 }
 
 /// What came of a validation.

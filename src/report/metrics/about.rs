@@ -1,236 +1,88 @@
-use super::EdgeRule::NotAffected;
-use super::MetricGroup::{About, Detection};
-use super::metric::Value::One;
-use super::{Metric, Quantity, SummaryKind};
-use crate::report::Cell;
-
-const PIXELS: Quantity = Quantity::Plain("px");
-const TEXT: Quantity = Quantity::Plain("text");
-const COUNT: Quantity = Quantity::Plain("count");
-const SHARE: Quantity = Quantity::Plain("0–1");
-const IMAGES: Option<SummaryKind> = Some(SummaryKind::Images);
-const COORDINATES: Option<SummaryKind> = Some(SummaryKind::Coordinates);
+use super::MetricGroup::About;
+use super::Quantity::Plain;
+use super::{Metric, metric};
+use crate::report::tables::{Part, column};
 
 pub(super) const FILE: &[Metric] = &[
-    Metric {
-        name: "file",
-        group: About,
-        quantity: TEXT,
-        edge: NotAffected,
-        definition: "The file, as given.",
-        source: "",
-        only: None,
-        value: One(|s| match (s.image(), s.coordinates()) {
-            (Some(image), _) => image.file.as_str().into(),
-            (_, Some(coordinates)) => coordinates.file.as_str().into(),
-            _ => Cell::Missing,
-        }),
-    },
-    Metric {
-        name: "name",
-        group: About,
-        quantity: TEXT,
-        edge: NotAffected,
-        definition: "Name under which its results stand.",
-        source: "",
-        only: IMAGES,
-        value: One(|s| s.image().map(|r| r.name.as_str()).into()),
-    },
-    Metric {
-        name: "width_px",
-        group: About,
-        quantity: PIXELS,
-        edge: NotAffected,
-        definition: "Width of the image.",
-        source: "",
-        only: IMAGES,
-        value: One(|s| s.image().map(|r| r.width_px).into()),
-    },
-    Metric {
-        name: "height_px",
-        group: About,
-        quantity: PIXELS,
-        edge: NotAffected,
-        definition: "Height of the image.",
-        source: "",
-        only: IMAGES,
-        value: One(|s| s.image().map(|r| r.height_px).into()),
-    },
-    Metric {
-        name: "um_per_px",
-        group: About,
-        quantity: Quantity::Plain("µm/px"),
-        edge: NotAffected,
-        definition: "Micrometres of retina per pixel; empty if no scale was given.",
-        source: "",
-        only: IMAGES,
-        value: One(|s| s.mosaic().um_per_unit.into()),
-    },
-    Metric {
-        name: "unit",
-        group: About,
-        quantity: TEXT,
-        edge: NotAffected,
-        definition: "Unit of the coordinates (px, um, unit), and of all lengths whose column names none.",
-        source: "",
-        only: COORDINATES,
-        value: One(|s| s.mosaic().unit.symbol().into()),
-    },
-    Metric {
-        name: "um_per_unit",
-        group: About,
-        quantity: Quantity::Plain("µm"),
-        edge: NotAffected,
-        definition: "Micrometres of retina per unit of the coordinates; empty if not known.",
-        source: "",
-        only: COORDINATES,
-        value: One(|s| s.mosaic().um_per_unit.into()),
-    },
-    Metric {
-        name: "um_per_degree",
-        group: About,
-        quantity: Quantity::Plain("µm/degree"),
-        edge: NotAffected,
-        definition: "Micrometres of retina per degree of visual angle: 288, or 291 × axial length / 24 mm, or as given.",
-        source: "Drasdo & Fowler 1974",
-        only: None,
-        value: One(|s| s.mosaic().um_per_degree.into()),
-    },
-    Metric {
-        name: "modality",
-        group: About,
-        quantity: TEXT,
-        edge: NotAffected,
-        definition: "How the image was taken to be made: confocal, split or histology.",
-        source: "",
-        only: IMAGES,
-        value: One(|s| s.image().map(|r| r.detection.modality.name()).into()),
-    },
-    Metric {
-        name: "n",
-        group: About,
-        quantity: COUNT,
-        edge: NotAffected,
-        definition: "Cones (points) in the window.",
-        source: "",
-        only: None,
-        value: One(|s| s.mosaic().n.into()),
-    },
-    Metric {
-        name: "outside_window",
-        group: About,
-        quantity: COUNT,
-        edge: NotAffected,
-        definition: "Points of the file outside the window, which are left out; not those that --crop leaves out.",
-        source: "",
-        only: COORDINATES,
-        value: One(|s| s.coordinates().map(|r| r.outside).into()),
-    },
-    Metric {
-        name: "warnings",
-        group: About,
-        quantity: TEXT,
-        edge: NotAffected,
-        definition: "What a reader of the numbers should know, separated by semicolons.",
-        source: "",
-        only: None,
-        value: One(|s| match (s.image(), s.coordinates()) {
-            (Some(image), _) => image.warnings.join("; ").as_str().into(),
-            (_, Some(coordinates)) => coordinates.warnings.join("; ").as_str().into(),
-            _ => Cell::Missing,
-        }),
-    },
-];
-
-pub(super) const DETECTION: &[Metric] = &[
-    Metric {
-        name: "detector",
-        group: Detection,
-        quantity: TEXT,
-        edge: NotAffected,
-        definition: "Filters that found the cones: classical or learned.",
-        source: "",
-        only: IMAGES,
-        value: One(|s| s.image().map(|r| r.detection.detector.name()).into()),
-    },
-    Metric {
-        name: "modality_confidence",
-        group: Detection,
-        quantity: SHARE,
-        edge: NotAffected,
-        definition: "Probability that the modality is the true one; 1 if it was given.",
-        source: "",
-        only: IMAGES,
-        value: One(|s| s.image().map(|r| r.detection.modality_confidence).into()),
-    },
-    Metric {
-        name: "polarity",
-        group: Detection,
-        quantity: TEXT,
-        edge: NotAffected,
-        definition: "Which way round the contrast was taken to run.",
-        source: "",
-        only: IMAGES,
-        value: One(|s| s.image().map(|r| r.detection.polarity.name()).into()),
-    },
-    Metric {
-        name: "expected_false_alarms",
-        group: Detection,
-        quantity: COUNT,
-        edge: NotAffected,
-        definition: "How many of the cones are expected to be none: sum of 1 − score.",
-        source: "",
-        only: IMAGES,
-        value: One(|s| s.image().map(|r| r.detection.expected_false_alarms).into()),
-    },
-    Metric {
-        name: "expected_misses",
-        group: Detection,
-        quantity: COUNT,
-        edge: NotAffected,
-        definition: "How many cones are expected among the candidates that were rejected: sum of their scores.",
-        source: "",
-        only: IMAGES,
-        value: One(|s| s.image().map(|r| r.detection.expected_misses).into()),
-    },
-    Metric {
-        name: "expected_error_rate",
-        group: Detection,
-        quantity: SHARE,
-        edge: NotAffected,
-        definition: "Both of these over the cones found.",
-        source: "",
-        only: IMAGES,
-        value: One(|s| s.image().map(|r| r.detection.expected_error_rate()).into()),
-    },
-    Metric {
-        name: "spacing_confidence",
-        group: Detection,
-        quantity: SHARE,
-        edge: NotAffected,
-        definition: "Probability that the spacing the detector worked with is within 15 % of the true one.",
-        source: "",
-        only: IMAGES,
-        value: One(|s| s.image().map(|r| r.detection.spacing_confidence).into()),
-    },
-    Metric {
-        name: "spacing_min_px",
-        group: Detection,
-        quantity: PIXELS,
-        edge: NotAffected,
-        definition: "Closest spacing the detector worked with, from place to place.",
-        source: "",
-        only: IMAGES,
-        value: One(|s| s.image().map(|r| r.detection.spacing_range_px[0]).into()),
-    },
-    Metric {
-        name: "spacing_max_px",
-        group: Detection,
-        quantity: PIXELS,
-        edge: NotAffected,
-        definition: "Widest spacing the detector worked with, from place to place.",
-        source: "",
-        only: IMAGES,
-        value: One(|s| s.image().map(|r| r.detection.spacing_range_px[1]).into()),
-    },
+    metric(About, Plain, column("file", "text", "The file, as given.").of(|s| s.file().into())),
+    metric(
+        About,
+        Plain,
+        column("name", "text", "Name under which its results stand.").of(|s| s.name().into()),
+    ),
+    metric(
+        About,
+        Plain,
+        column("width_px", "px", "Width of the image.")
+            .only(Part::Images)
+            .of(|s| s.image().map(|r| r.width_px).into()),
+    ),
+    metric(
+        About,
+        Plain,
+        column("height_px", "px", "Height of the image.")
+            .only(Part::Images)
+            .of(|s| s.image().map(|r| r.height_px).into()),
+    ),
+    metric(
+        About,
+        Plain,
+        column("um_per_px", "µm/px", "Micrometres of retina per pixel of the image; empty if not known.")
+            .of(|s| s.mosaic().um_per_px().into()),
+    ),
+    metric(
+        About,
+        Plain,
+        column(
+            "unit",
+            "text",
+            "Unit of the coordinates (px, um, unit), and of all lengths whose column names none.",
+        )
+        .of(|s| s.mosaic().unit.symbol().into()),
+    ),
+    metric(
+        About,
+        Plain,
+        column("um_per_unit", "µm", "Micrometres of retina per unit of the coordinates; empty if not known.")
+            .only(Part::Coordinates)
+            .of(|s| s.mosaic().um_per_unit.into()),
+    ),
+    metric(
+        About,
+        Plain,
+        column(
+            "um_per_degree",
+            "µm/degree",
+            "Micrometres of retina per degree of visual angle: 288, or 291 × axial length / 24 mm, \
+                or as given.",
+        )
+        .source("Drasdo & Fowler 1974")
+        .of(|s| s.mosaic().um_per_degree.into()),
+    ),
+    metric(
+        About,
+        Plain,
+        column("modality", "text", "How the image was taken to be made: confocal, split or histology.")
+            .only(Part::Images)
+            .of(|s| s.image().map(|r| r.detection.modality.name()).into()),
+    ),
+    metric(About, Plain, column("n", "count", "Cones (points) in the window.").of(|s| s.mosaic().n.into())),
+    metric(
+        About,
+        Plain,
+        column(
+            "outside_window",
+            "count",
+            "Points of the file outside the window, which are left out; not those that --crop \
+                leaves out.",
+        )
+        .only(Part::Coordinates)
+        .of(|s| s.coordinates().map(|r| r.outside).into()),
+    ),
+    metric(
+        About,
+        Plain,
+        column("warnings", "text", "What a reader of the numbers should know, separated by semicolons.")
+            .of(|s| s.warnings().join("; ").as_str().into()),
+    ),
 ];

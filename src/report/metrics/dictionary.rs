@@ -1,108 +1,189 @@
 use super::summary::columns;
 use super::{Metric, MetricGroup, SummaryKind, metrics};
-use crate::report::table;
-use crate::report::tables::{OutputTable, TABLES};
+use crate::report::tables::{ColumnWords, Row, TABLES, Table, TableWords, column};
+use crate::report::{ReportError, table};
 
 const KINDS: [(SummaryKind, &str); 2] = [(SummaryKind::Images, "run"), (SummaryKind::Coordinates, "measure")];
 
-/// Where `conemosaic metrics` and its page begin.
+/// Opening of the page.
 const INTRODUCTION: &str = "\
-Columns of `summary.csv`. Lengths, areas and densities are given in several units at once, which the column's name ends in; those that need \
-a scale are empty without one. In the summary of `measure` a name without unit means the unit of the coordinates, which the column `unit` names. \
-A cell is empty where its value is not defined or not known: metrics of bound cells where there are none (below four points at \
-least), standard deviations below two values, and ratios over one where all values are equal. Columns of a manifest follow behind.
+Columns of `summary.csv`. Lengths, areas and densities are given in several units at once, which the column's \
+name ends in; a cell is empty where its unit cannot be had: px of coordinates in µm or in the unit square, µm \
+and degrees without a scale. Columns have one name in all commands. Beside them the summary of `measure` gives \
+each of these values in the unit of the coordinates, which the column `unit` names, under the name without \
+unit. Options that take names (`--metrics`, `agree --columns`) accept the name without unit everywhere, and \
+`spacing` for `spacing_density`. A cell is empty where its value is not defined or not known: metrics of bound \
+cells where there are none (below four points at least), standard deviations below two values, and ratios over \
+one where all values are equal. Columns of a manifest follow behind.
 
-Edge rules: *all*: nothing is done about the border. *interior*: points at least as far from the border as from their nearest neighbour. \
-*bound*: points whose Voronoi cell is finite and has every vertex strictly inside the window (Cooper et al. 2016).";
+Edge rules: *all*: nothing is done about the border. *interior*: points at least as far from the border as \
+from their nearest neighbour. *bound*: points whose Voronoi cell is finite and has every vertex strictly inside \
+the window (Cooper et al. 2016).";
 
-/// Name, unit and commands of every column of a metric.
-fn rows_of(metric: &'static Metric) -> Vec<[String; 3]> {
+/// Opening of the tables beside the summary.
+const BESIDE: &str = "\
+Other tables. `NAME` stands for the name of an image or a file of coordinates, `SAMPLER` in a column for that \
+of each sampler; `unit` is the unit of the coordinates: px of an image.";
+
+/// A column as the data dictionary tells it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct DictionaryRow {
+    table: &'static str,
+    column: String,
+    group: &'static str,
+    unit: &'static str,
+    edge: &'static str,
+    commands: String,
+    definition: &'static str,
+    source: &'static str,
+}
+
+impl Row for DictionaryRow {
+    type Of<'a> = &'a Self;
+}
+
+/// The data dictionary itself.
+static DICTIONARY: Table<DictionaryRow> = Table {
+    file: "dictionary.csv",
+    commands: "metrics --csv",
+    about: "One row per column of every table.",
+    columns: &[
+        column("table", "text", "The file.").of(|r| r.table.into()),
+        column("column", "text", "The column.").of(|r| r.column.as_str().into()),
+        column("group", "text", "What it is chosen with; of the summary only.").of(|r| r.group.into()),
+        column("unit", "text", "Its unit.").of(|r| r.unit.into()),
+        column("edge_rule", "text", "What is done about the border.").of(|r| r.edge.into()),
+        column("commands", "text", "The commands that write it.").of(|r| r.commands.as_str().into()),
+        column("definition", "text", "What it is.").of(|r| r.definition.into()),
+        column("source", "text", "Who defined it.").of(|r| r.source.into()),
+    ],
+};
+
+/// Returns the columns of a metric, each with the commands that have it.
+fn rows_of(metric: &'static Metric) -> Vec<DictionaryRow> {
     let sampler = [String::from("SAMPLER")];
-    let mut rows: Vec<[String; 3]> = Vec::new();
+    let mut rows: Vec<DictionaryRow> = Vec::new();
     for (kind, command) in KINDS.into_iter().filter(|(kind, _)| metric.is_of(*kind)) {
         for column in columns(metric, kind, &sampler) {
-            let unit = column.unit.words(metric.quantity, kind).to_owned();
-            match rows.iter_mut().find(|row| row[0] == column.name && row[1] == unit) {
-                Some(row) => row[2] = format!("{}, {command}", row[2]),
-                None => rows.push([column.name, unit, command.to_owned()]),
+            match rows.iter_mut().find(|row| row.column == column.name) {
+                Some(row) => row.commands = format!("{}, {command}", row.commands),
+                None => rows.push(DictionaryRow {
+                    table: "summary.csv",
+                    unit: column.unit_words(),
+                    column: column.name,
+                    group: metric.group.name(),
+                    edge: metric.column.words.edge.name(),
+                    commands: command.to_owned(),
+                    definition: metric.column.words.definition,
+                    source: metric.column.words.source,
+                }),
             }
         }
     }
     rows
 }
 
-const HEADER: [&str; 8] =
-    ["table", "column", "group", "unit", "edge_rule", "commands", "definition", "source"];
-
-/// Where the tables beside the summary begin.
-const BESIDE: &str = "\
-Other tables. `NAME` stands for the name of an image or a file of coordinates, `SAMPLER` in a column for that of each sampler; `unit` is the \
-unit of the coordinates: px of an image.";
-
-/// The data dictionary as rows of a table, and its header: a row a column of the summaries, then of all other tables.
-pub fn dictionary_table() -> (Vec<String>, Vec<Vec<String>>) {
-    let rows = metrics().flat_map(|m| {
-        rows_of(m).into_iter().map(move |[name, unit, commands]| {
-            let texts = [m.group.name(), m.edge.name(), m.definition, m.source].map(str::to_owned);
-            let [group, edge, definition, source] = texts;
-            vec!["summary.csv".to_owned(), name, group, unit, edge, commands, definition, source]
-        })
-    });
+/// Returns all rows: columns of the summaries, then of all other tables.
+fn all_rows() -> Vec<DictionaryRow> {
     let beside = TABLES.into_iter().flat_map(|t| {
-        t.columns.iter().map(move |c| {
-            [t.file, c.name, "", c.unit, "", t.commands, c.definition, ""].map(str::to_owned).to_vec()
+        let words = t.words();
+        words.columns.into_iter().map(move |c| DictionaryRow {
+            table: words.file,
+            column: c.name.to_owned(),
+            group: "",
+            unit: c.unit,
+            edge: c.edge.name(),
+            commands: words.commands.to_owned(),
+            definition: c.definition,
+            source: c.source,
         })
     });
-    (HEADER.map(str::to_owned).to_vec(), rows.chain(beside).collect())
+    metrics().flat_map(rows_of).chain(beside).collect()
 }
 
-/// The data dictionary for a terminal: a block a metric.
+/// Returns the data dictionary as CSV: one row per column of the summaries, then of all other tables.
+///
+/// # Errors
+/// If it cannot be written as CSV.
+pub fn dictionary_csv() -> Result<Vec<u8>, ReportError> {
+    DICTIONARY.csv(&all_rows())
+}
+
+/// Returns the data dictionary for a terminal: one block per metric.
 pub fn dictionary_text() -> String {
     let mut text = String::new();
     for group in MetricGroup::ALL {
         text.push_str(&format!("{} (--metrics {})\n\n", group.title(), group.name()));
-        for metric in metrics().filter(|m| m.group == group) {
-            let columns: Vec<Vec<String>> = rows_of(metric).into_iter().map(|row| row.to_vec()).collect();
-            text.push_str(
-                &table(&["  column", "unit", "in"], &columns)
-                    .lines()
-                    .skip(2)
-                    .fold(String::new(), |all, line| format!("{all}  {line}\n")),
-            );
-            let edge = match metric.edge.name() {
-                "–" => String::new(),
-                rule => format!(" Edge rule: {rule}."),
-            };
-            let source =
-                if metric.source.is_empty() { String::new() } else { format!(" [{}]", metric.source) };
-            text.push_str(&format!("      {}{edge}{source}\n\n", metric.definition));
-        }
+        metrics().filter(|m| m.group == group).for_each(|m| text.push_str(&block(m)));
     }
-    for t in TABLES {
+    for t in TABLES.into_iter().map(|t| t.words()) {
         text.push_str(&format!("{} ({})\n\n  {}\n\n", t.file, t.commands, t.about));
         let rows: Vec<Vec<String>> = t
             .columns
             .iter()
-            .map(|c| vec![format!("  {}", c.name), c.unit.to_owned(), c.definition.to_owned()])
+            .map(|c| {
+                let definition = format!("{}{}{}", c.definition, rule(c.edge.name()), cited(c.source));
+                vec![format!("  {}", c.name), c.unit.to_owned(), definition]
+            })
             .collect();
         text.push_str(&format!("{}\n\n", table(&["  column", "unit", "definition"], &rows)));
     }
     text
 }
 
-/// A table beside the summary as a section in Markdown.
-fn section(t: &OutputTable) -> String {
-    let rows = t.columns.iter().map(|c| format!("| `{}` | {} | {} |\n", c.name, c.unit, c.definition));
+/// Returns a metric for a terminal: its columns, units and commands, then what it is.
+fn block(metric: &'static Metric) -> String {
+    let cells = |row: DictionaryRow| vec![row.column, row.unit.to_owned(), row.commands];
+    let columns: Vec<Vec<String>> = rows_of(metric).into_iter().map(cells).collect();
+    let mut text = String::new();
+    for line in table(&["  column", "unit", "in"], &columns).lines().skip(2) {
+        text.push_str(&format!("  {line}\n"));
+    }
+    let c = metric.column.words;
+    text.push_str(&format!("      {}{}{}\n\n", c.definition, rule(c.edge.name()), cited(c.source)));
+    text
+}
+
+fn rule(edge: &str) -> String {
+    if edge == "–" { String::new() } else { format!(" Edge rule: {edge}.") }
+}
+
+fn cited(source: &str) -> String {
+    if source.is_empty() { String::new() } else { format!(" [{source}]") }
+}
+
+/// Returns a table beside the summary as a section in Markdown.
+fn section(t: &TableWords) -> String {
+    let row = |c: &ColumnWords| {
+        format!("| `{}` | {} | {} | {} | {} |\n", c.name, c.unit, c.edge.name(), c.definition, c.source)
+    };
     format!(
-        "\n### `{}` – {}\n\n{}\n\n| column | unit | definition |\n|---|---|---|\n{}",
+        "\n### `{}` – {}\n\n{}\n\n| column | unit | edge rule | definition | source |\n|---|---|---|---|---|\n{}",
         t.file,
         t.commands,
         t.about,
-        rows.collect::<String>()
+        t.columns.iter().map(row).collect::<String>()
     )
 }
 
-/// The data dictionary as a page in Markdown.
+/// Returns a metric as a row in Markdown; its columns are lines of a cell.
+fn line(metric: &'static Metric) -> String {
+    let rows = rows_of(metric);
+    let join = |cells: Vec<String>| cells.join("<br>");
+    let mut commands: Vec<String> = rows.iter().map(|row| row.commands.clone()).collect();
+    commands.dedup();
+    format!(
+        "| {} | {} | {} | {} | {} | {} |\n",
+        join(rows.iter().map(|row| format!("`{}`", row.column)).collect()),
+        join(rows.iter().map(|row| row.unit.to_owned()).collect()),
+        join(commands),
+        metric.column.words.edge.name(),
+        metric.column.words.definition,
+        metric.column.words.source
+    )
+}
+
+/// Returns the data dictionary as a page in Markdown.
 pub fn dictionary() -> String {
     let mut page = format!(
         "# Data dictionary\n\nMade by `conemosaic metrics --markdown`; a test holds it to the program.\n\n{INTRODUCTION}\n"
@@ -112,32 +193,10 @@ pub fn dictionary() -> String {
         page.push_str(
             "| column | unit | in | edge rule | definition | source |\n|---|---|---|---|---|---|\n",
         );
-        for metric in metrics().filter(|m| m.group == group) {
-            let rows = rows_of(metric);
-            let join = |k: usize| {
-                let mut cells: Vec<&str> = rows.iter().map(|row| row[k].as_str()).collect();
-                if k == 2 {
-                    cells.dedup();
-                }
-                cells
-                    .iter()
-                    .map(|c| if k == 0 { format!("`{c}`") } else { (*c).to_owned() })
-                    .collect::<Vec<_>>()
-                    .join("<br>")
-            };
-            page.push_str(&format!(
-                "| {} | {} | {} | {} | {} | {} |\n",
-                join(0),
-                join(1),
-                join(2),
-                metric.edge.name(),
-                metric.definition,
-                metric.source
-            ));
-        }
+        metrics().filter(|m| m.group == group).for_each(|m| page.push_str(&line(m)));
     }
     page.push_str(&format!("\n## Beside the summary\n\n{BESIDE}\n"));
-    TABLES.iter().for_each(|t| page.push_str(&section(t)));
+    TABLES.iter().for_each(|t| page.push_str(&section(&t.words())));
     page
 }
 
@@ -148,12 +207,13 @@ mod tests {
 
     #[test]
     fn the_dictionary_has_exactly_the_columns_of_the_summaries() {
-        let (_, rows) = dictionary_table();
+        let rows = all_rows();
         for (kind, command) in KINDS {
             let summary = Summary::new(kind, &MetricSelection::default(), &["SAMPLER".into()], &[]);
-            let of_command =
-                |row: &&Vec<String>| row[0] == "summary.csv" && row[5].split(", ").any(|c| c == command);
-            let mut told: Vec<&String> = rows.iter().filter(of_command).map(|row| &row[1]).collect();
+            let of_command = |row: &&DictionaryRow| {
+                row.table == "summary.csv" && row.commands.split(", ").any(|c| c == command)
+            };
+            let mut told: Vec<&String> = rows.iter().filter(of_command).map(|row| &row.column).collect();
             let header = summary.header();
             let mut expected: Vec<&String> = header.iter().collect();
             told.sort_unstable();

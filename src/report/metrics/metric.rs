@@ -1,4 +1,6 @@
-use crate::report::{Cell, CoordinatesRecord, ImageRecord, MosaicRecord};
+use crate::report::tables::{Column, Part, Row};
+use crate::report::{CoordinatesRecord, ImageRecord, MosaicRecord};
+use crate::stats;
 
 /// What a row of a summary is about.
 #[derive(Clone, Copy)]
@@ -9,8 +11,38 @@ pub enum Subject<'a> {
     Coordinates(&'a CoordinatesRecord),
 }
 
+impl Row for Subject<'static> {
+    type Of<'a> = Subject<'a>;
+}
+
 impl<'a> Subject<'a> {
-    /// Its mosaic.
+    /// Returns the statistics of its mosaic.
+    pub(super) const fn stats(&self) -> &'a stats::Summary {
+        &self.mosaic().stats
+    }
+
+    pub(super) fn file(&self) -> &'a str {
+        match self {
+            Self::Image(record) => &record.file,
+            Self::Coordinates(record) => &record.file,
+        }
+    }
+
+    pub(super) fn name(&self) -> &'a str {
+        match self {
+            Self::Image(record) => &record.name,
+            Self::Coordinates(record) => &record.name,
+        }
+    }
+
+    pub(super) fn warnings(&self) -> &'a [String] {
+        match self {
+            Self::Image(record) => &record.warnings,
+            Self::Coordinates(record) => &record.warnings,
+        }
+    }
+
+    /// Returns its mosaic.
     pub const fn mosaic(&self) -> &'a MosaicRecord {
         match self {
             Self::Image(record) => &record.mosaic,
@@ -33,13 +65,23 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// A summary.
+/// Kinds of summaries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SummaryKind {
-    /// Of `run`: a row an image.
+    /// Of `run`: one row per image.
     Images,
-    /// Of `measure`: a row a file of coordinates.
+    /// Of `measure`: one row per file of coordinates.
     Coordinates,
+}
+
+impl SummaryKind {
+    /// Returns the part of all columns that it has.
+    pub(super) const fn part(self) -> Part {
+        match self {
+            Self::Images => Part::Images,
+            Self::Coordinates => Part::Coordinates,
+        }
+    }
 }
 
 /// What is chosen together.
@@ -125,77 +167,41 @@ impl MetricGroup {
     }
 }
 
-/// What is done about cones whose neighbours may lie beyond the border.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EdgeRule {
-    /// The border does not matter.
-    NotAffected,
-    /// Nothing: all points count.
-    All,
-    /// Only points at least as far from the border as from their nearest neighbour.
-    Interior,
-    /// Only points whose Voronoi cell is finite and has every vertex strictly inside the window (Cooper et al. 2016).
-    Bound,
-    /// An own one, which the definition names.
-    Own,
-}
-
-impl EdgeRule {
-    /// In a word.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::NotAffected => "–",
-            Self::All => "all",
-            Self::Interior => "interior",
-            Self::Bound => "bound",
-            Self::Own => "see definition",
-        }
-    }
-}
-
-/// What a number measures, and so which units it comes in.
+/// Dimension of a value, which decides the units that it is given in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// A length: in the unit of the coordinates, µm, degrees and minutes of visual angle.
+    /// A length: in the unit of the coordinates, px, µm, degrees and minutes of visual angle.
     Length,
     /// An area, likewise.
     Area,
     /// Cones per area, likewise.
     Density,
-    /// A number of this unit, or none.
-    Plain(&'static str),
+    /// Text, or a number of the one unit that its column names.
+    Plain,
 }
 
 /// A column of a summary, or several that differ in nothing but their unit.
 pub struct Metric {
-    /// Name of the column, less the unit.
-    pub name: &'static str,
     /// What it is chosen with.
     pub group: MetricGroup,
-    /// Which units it comes in.
+    /// Its dimension; values are in the unit of the coordinates.
     pub quantity: Quantity,
-    /// What is done about the border.
-    pub edge: EdgeRule,
-    /// What it is; when it is not defined.
-    pub definition: &'static str,
-    /// Who defined it.
-    pub source: &'static str,
-    /// The only summary that has it; `None`: both.
-    pub only: Option<SummaryKind>,
-    pub(super) value: Value,
+    /// Name (less the unit), definition and value.
+    pub column: Column<Subject<'static>>,
 }
 
-/// How a value is taken from a record: numbers in the unit of the coordinates.
-#[derive(Clone, Copy)]
-pub(super) enum Value {
-    One(fn(&Subject) -> Cell),
-    /// One column for every sampler compared with.
-    PerSampler(fn(&Subject, &str) -> Cell),
+/// Puts a column into a group.
+pub(super) const fn metric(
+    group: MetricGroup,
+    quantity: Quantity,
+    column: Column<Subject<'static>>,
+) -> Metric {
+    Metric { group, quantity, column }
 }
 
 impl Metric {
     /// Whether a summary has it.
     pub fn is_of(&self, kind: SummaryKind) -> bool {
-        self.only.is_none_or(|only| only == kind)
+        self.column.words.part.is_none_or(|only| only == kind.part())
     }
 }

@@ -1,36 +1,47 @@
-//! The columns of `summary.csv`: what each is, in which unit, by which edge rule, after whom. Headers, rows and the data
-//! dictionary all come from the lists here.
+//! The columns of `summary.csv`: what each is, in which unit, by which edge rule, after whom. Headers, rows
+//! and the data dictionary all come from the lists here.
 
 mod about;
 mod density;
+mod detection;
 mod dictionary;
+mod expected;
+mod fourier;
 mod metric;
+mod names;
 mod neighbours;
 mod order;
+mod regularity;
 mod selection;
 mod summary;
 mod unit;
+#[cfg(test)]
+mod values;
+mod voronoi;
 
-pub use dictionary::{dictionary, dictionary_table, dictionary_text};
-pub use metric::{EdgeRule, Metric, MetricGroup, Quantity, Subject, SummaryKind};
+pub use dictionary::{dictionary, dictionary_csv, dictionary_text};
+pub use metric::{Metric, MetricGroup, Quantity, Subject, SummaryKind};
+pub use names::{ColumnNames, column_names};
 pub use selection::MetricSelection;
 pub use summary::Summary;
 
-/// All metrics, in the order of the columns.
+use metric::metric;
+
+/// Returns all metrics, in the order of the columns.
 pub fn metrics() -> impl Iterator<Item = &'static Metric> {
     [
         about::FILE,
         density::DENSITY,
         neighbours::NEAREST,
         neighbours::SAMPLERS,
-        about::DETECTION,
-        neighbours::VORONOI,
-        neighbours::REGULARITY,
+        detection::DETECTION,
+        voronoi::VORONOI,
+        regularity::REGULARITY,
         order::RECOVERY,
         order::ORIENTATION,
-        order::FOURIER,
-        neighbours::EVENNESS,
-        density::EXPECTED,
+        fourier::FOURIER,
+        regularity::EVENNESS,
+        expected::EXPECTED,
     ]
     .into_iter()
     .flatten()
@@ -46,8 +57,13 @@ mod tests {
         let mut names = HashSet::new();
         let mut groups = Vec::new();
         for metric in metrics() {
-            assert!(names.insert(metric.name), "{} twice", metric.name);
-            assert!(metric.definition.ends_with('.'), "{}: {}", metric.name, metric.definition);
+            assert!(names.insert(metric.column.words.name), "{} twice", metric.column.words.name);
+            assert!(
+                metric.column.words.definition.ends_with('.'),
+                "{}: {}",
+                metric.column.words.name,
+                metric.column.words.definition
+            );
             if groups.last() != Some(&metric.group) {
                 groups.push(metric.group);
             }

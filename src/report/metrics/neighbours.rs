@@ -1,347 +1,116 @@
-use super::EdgeRule::{All, Bound, Interior, NotAffected, Own};
-use super::MetricGroup::{Evenness, Nearest, Regularity, Samplers, Voronoi};
-use super::metric::Value::{One, PerSampler};
-use super::{Metric, Quantity};
-
-const LENGTH: Quantity = Quantity::Length;
-const COUNT: Quantity = Quantity::Plain("count");
-const RATIO: Quantity = Quantity::Plain("ratio");
-const SHARE: Quantity = Quantity::Plain("0–1");
+use super::MetricGroup::{Nearest, Samplers};
+use super::Quantity::{Length, Plain};
+use super::{Metric, metric};
+use crate::report::tables::EdgeRule::{All, Bound, Interior, Own};
+use crate::report::tables::{Part, column};
 
 pub(super) const NEAREST: &[Metric] = &[
-    Metric {
-        name: "nn_mean",
-        group: Nearest,
-        quantity: LENGTH,
-        edge: All,
-        definition: "Mean distance to the nearest neighbour; empty for fewer than two points.",
-        source: "Wässle & Riemann 1978",
-        only: None,
-        value: One(|s| s.mosaic().nearest.mean.into()),
-    },
-    Metric {
-        name: "nn_sd",
-        group: Nearest,
-        quantity: LENGTH,
-        edge: All,
-        definition: "Standard deviation of these distances, by the divisor that sd_kind names; empty for fewer than two points.",
-        source: "Wässle & Riemann 1978",
-        only: None,
-        value: One(|s| s.mosaic().nearest.sd.into()),
-    },
-    Metric {
-        name: "ri",
-        group: Nearest,
-        quantity: RATIO,
-        edge: All,
-        definition: "Regularity (conformity) index: nn_mean / nn_sd; empty where all distances are equal, as in a lattice.",
-        source: "Wässle & Riemann 1978; Cook 1996",
-        only: None,
-        value: One(|s| s.mosaic().nearest.ri.into()),
-    },
-    Metric {
-        name: "ri_interior",
-        group: Nearest,
-        quantity: RATIO,
-        edge: Interior,
-        definition: "Regularity index of points at least as far from the border as from their nearest neighbour.",
-        source: "Wässle & Riemann 1978; Cook 1996",
-        only: None,
-        value: One(|s| s.mosaic().nearest_interior.ri.into()),
-    },
-    Metric {
-        name: "n_interior",
-        group: Nearest,
-        quantity: COUNT,
-        edge: Interior,
-        definition: "How many such points there are.",
-        source: "",
-        only: None,
-        value: One(|s| s.mosaic().nearest_interior.n.into()),
-    },
-    Metric {
-        name: "nn_bound_mean",
-        group: Nearest,
-        quantity: LENGTH,
-        edge: Bound,
-        definition: "Mean distance to the nearest neighbour of points with bound cells.",
-        source: "Cooper et al. 2016",
-        only: None,
-        value: One(|s| s.mosaic().nearest_bound.mean.into()),
-    },
-    Metric {
-        name: "nn_bound_ri",
-        group: Nearest,
-        quantity: RATIO,
-        edge: Bound,
-        definition: "Regularity index of points with bound cells.",
-        source: "Cooper et al. 2016",
-        only: None,
-        value: One(|s| s.mosaic().nearest_bound.ri.into()),
-    },
-    Metric {
-        name: "sd_kind",
-        group: Nearest,
-        quantity: Quantity::Plain("text"),
-        edge: NotAffected,
-        definition: "Divisor of the variances of nearest-neighbour distances: sample (n − 1) or population (n).",
-        source: "",
-        only: None,
-        value: One(|s| s.mosaic().deviation.name().into()),
-    },
+    metric(
+        Nearest,
+        Length,
+        column("nn_mean", "", "Mean distance to the nearest neighbour; empty for fewer than two points.")
+            .edge(All)
+            .source("Wässle & Riemann 1978")
+            .of(|s| s.stats().nearest.mean.into()),
+    ),
+    metric(
+        Nearest,
+        Length,
+        column(
+            "nn_sd",
+            "",
+            "Standard deviation of these distances, by the divisor that sd_kind names; empty for \
+                fewer than two points.",
+        )
+        .edge(All)
+        .source("Wässle & Riemann 1978")
+        .of(|s| s.stats().nearest.sd.into()),
+    ),
+    metric(
+        Nearest,
+        Plain,
+        column(
+            "ri",
+            "ratio",
+            "Regularity (conformity) index: nn_mean / nn_sd; empty where all distances are equal, \
+                as in a lattice.",
+        )
+        .edge(All)
+        .source("Wässle & Riemann 1978; Cook 1996")
+        .of(|s| s.stats().nearest.ri.into()),
+    ),
+    metric(
+        Nearest,
+        Plain,
+        column(
+            "ri_interior",
+            "ratio",
+            "Regularity index of points at least as far from the border as from their nearest \
+                neighbour.",
+        )
+        .edge(Interior)
+        .source("Wässle & Riemann 1978; Cook 1996")
+        .of(|s| s.stats().nearest_interior.ri.into()),
+    ),
+    metric(
+        Nearest,
+        Plain,
+        column("n_interior", "count", "How many such points there are.")
+            .edge(Interior)
+            .of(|s| s.stats().nearest_interior.n.into()),
+    ),
+    metric(
+        Nearest,
+        Length,
+        column("nn_bound_mean", "", "Mean distance to the nearest neighbour of points with bound cells.")
+            .edge(Bound)
+            .source("Cooper et al. 2016")
+            .of(|s| s.stats().nearest_bound.mean.into()),
+    ),
+    metric(
+        Nearest,
+        Plain,
+        column("nn_bound_ri", "ratio", "Regularity index of points with bound cells.")
+            .edge(Bound)
+            .source("Cooper et al. 2016")
+            .of(|s| s.stats().nearest_bound.ri.into()),
+    ),
+    metric(
+        Nearest,
+        Plain,
+        column(
+            "sd_kind",
+            "text",
+            "Divisor of the variances of nearest-neighbour distances: sample (n − 1) or population \
+                (n).",
+        )
+        .of(|s| s.stats().deviation.name().into()),
+    ),
 ];
 
 pub(super) const SAMPLERS: &[Metric] = &[
-    Metric {
-        name: "l_infinity_SAMPLER",
-        group: Samplers,
-        quantity: RATIO,
-        edge: Own,
-        definition: "Greatest difference of the mosaic's pair correlation function and the mean one of samples of as many points in the \
-                     same window; one column a sampler. Pairs hidden by the border are made up for by the window's set covariance.",
-        source: "Lanaro et al. 2020",
-        only: Some(super::SummaryKind::Images),
-        value: PerSampler(|s, name| s.mosaic().distance_to(name).into()),
-    },
-    Metric {
-        name: "closest_sampler",
-        group: Samplers,
-        quantity: Quantity::Plain("text"),
-        edge: Own,
-        definition: "The sampler of the least of these distances.",
-        source: "Lanaro et al. 2020",
-        only: Some(super::SummaryKind::Images),
-        value: One(|s| s.mosaic().closest_sampler().into()),
-    },
-];
-
-pub(super) const VORONOI: &[Metric] = &[
-    Metric {
-        name: "n_bound",
-        group: Voronoi,
-        quantity: COUNT,
-        edge: Bound,
-        definition: "Bound cells: finite, with every vertex strictly inside the window.",
-        source: "Cooper et al. 2016",
-        only: None,
-        value: One(|s| s.mosaic().voronoi.bound.into()),
-    },
-    Metric {
-        name: "icd_bound_mean",
-        group: Voronoi,
-        quantity: LENGTH,
-        edge: Bound,
-        definition: "Inter-cell distance: mean over bound cells of the mean distance to their Delaunay neighbours.",
-        source: "Cooper et al. 2016",
-        only: None,
-        value: One(|s| s.mosaic().voronoi.inter_cell.mean.into()),
-    },
-    Metric {
-        name: "icd_bound_ri",
-        group: Voronoi,
-        quantity: RATIO,
-        edge: Bound,
-        definition: "Mean over standard deviation (n − 1) of the inter-cell distances of bound cells.",
-        source: "Cooper et al. 2016",
-        only: None,
-        value: One(|s| s.mosaic().voronoi.inter_cell.ri.into()),
-    },
-    Metric {
-        name: "furthest_bound_mean",
-        group: Voronoi,
-        quantity: LENGTH,
-        edge: Bound,
-        definition: "Mean over bound cells of the distance to their furthest Delaunay neighbour.",
-        source: "Cooper et al. 2016",
-        only: None,
-        value: One(|s| s.mosaic().voronoi.furthest.mean.into()),
-    },
-    Metric {
-        name: "furthest_bound_ri",
-        group: Voronoi,
-        quantity: RATIO,
-        edge: Bound,
-        definition: "Mean over standard deviation (n − 1) of these distances.",
-        source: "Cooper et al. 2016",
-        only: None,
-        value: One(|s| s.mosaic().voronoi.furthest.ri.into()),
-    },
-    Metric {
-        name: "icd_all_mean",
-        group: Voronoi,
-        quantity: LENGTH,
-        edge: All,
-        definition: "Inter-cell distance of all cells. Those at the border have neighbours along the hull that are none: too large.",
-        source: "",
-        only: None,
-        value: One(|s| s.mosaic().voronoi.inter_cell_all.mean.into()),
-    },
-    Metric {
-        name: "furthest_all_mean",
-        group: Voronoi,
-        quantity: LENGTH,
-        edge: All,
-        definition: "Distance to the furthest neighbour of all cells: too large, as icd_all_mean.",
-        source: "",
-        only: None,
-        value: One(|s| s.mosaic().voronoi.furthest_all.mean.into()),
-    },
-    Metric {
-        name: "voronoi_area_mean",
-        group: Voronoi,
-        quantity: Quantity::Area,
-        edge: Bound,
-        definition: "Mean area of bound cells.",
-        source: "Cooper et al. 2016",
-        only: None,
-        value: One(|s| s.mosaic().voronoi.area.mean.into()),
-    },
-    Metric {
-        name: "voronoi_area_cv",
-        group: Voronoi,
-        quantity: RATIO,
-        edge: Bound,
-        definition: "Standard deviation (n − 1) of the areas of bound cells over their mean.",
-        source: "",
-        only: None,
-        value: One(|s| s.mosaic().voronoi.area_cv.into()),
-    },
-    Metric {
-        name: "voronoi_area_ri",
-        group: Voronoi,
-        quantity: RATIO,
-        edge: Bound,
-        definition: "Mean of the areas of bound cells over their standard deviation (n − 1).",
-        source: "Cooper et al. 2016",
-        only: None,
-        value: One(|s| s.mosaic().voronoi.area.ri.into()),
-    },
-    Metric {
-        name: "voronoi_sides_ri",
-        group: Voronoi,
-        quantity: RATIO,
-        edge: Bound,
-        definition: "Mean number of sides of bound cells over its standard deviation (n − 1); empty if all have six.",
-        source: "Cooper et al. 2016",
-        only: None,
-        value: One(|s| s.mosaic().voronoi.sides.ri.into()),
-    },
-    Metric {
-        name: "six_sided_percent",
-        group: Voronoi,
-        quantity: Quantity::Plain("%"),
-        edge: Bound,
-        definition: "Share of the bound cells that have six sides.",
-        source: "Curcio & Sloan 1992; Cooper et al. 2016",
-        only: None,
-        value: One(|s| s.mosaic().voronoi.six_sided_percent.into()),
-    },
-    Metric {
-        name: "psi6_mean",
-        group: Voronoi,
-        quantity: SHARE,
-        edge: Bound,
-        definition: "Mean modulus of the bond-orientational order ψ6 of bound cells: 1 where every cell is a regular hexagon.",
-        source: "Nelson & Halperin 1979",
-        only: None,
-        value: One(|s| s.mosaic().voronoi.psi6_mean.into()),
-    },
-    Metric {
-        name: "psi6_global",
-        group: Voronoi,
-        quantity: SHARE,
-        edge: Bound,
-        definition: "Modulus of the mean ψ6 of bound cells: 1 where all hexagons have one orientation.",
-        source: "Nelson & Halperin 1979",
-        only: None,
-        value: One(|s| s.mosaic().voronoi.psi6_global.into()),
-    },
-];
-
-pub(super) const REGULARITY: &[Metric] = &[
-    Metric {
-        name: "clark_evans_naive",
-        group: Regularity,
-        quantity: RATIO,
-        edge: All,
-        definition: "nn_mean over that of independent points of the same density, 1/(2√density): 1 for those, 2.149 for the triangular \
-                     lattice; empty for fewer than two points.",
-        source: "Clark & Evans 1954",
-        only: None,
-        value: One(|s| s.mosaic().clark_evans.naive.into()),
-    },
-    Metric {
-        name: "clark_evans_donnelly",
-        group: Regularity,
-        quantity: RATIO,
-        edge: Own,
-        definition: "The same with the expectation corrected for the border by its length; empty on a torus.",
-        source: "Donnelly 1978",
-        only: None,
-        value: One(|s| s.mosaic().clark_evans.donnelly.into()),
-    },
-    Metric {
-        name: "clark_evans_cdf",
-        group: Regularity,
-        quantity: RATIO,
-        edge: Own,
-        definition: "The same with the mean taken from the Kaplan–Meier estimate of the distribution of the distances.",
-        source: "Baddeley, Rubak & Turner 2015",
-        only: None,
-        value: One(|s| s.mosaic().clark_evans.cdf.into()),
-    },
-];
-
-pub(super) const EVENNESS: &[Metric] = &[
-    Metric {
-        name: "trend_p",
-        group: Evenness,
-        quantity: SHARE,
-        edge: NotAffected,
-        definition: "Chance of a trend this strong in a pattern whose density varies by 10 %; below .01 there is a warning; empty for fewer than 20 points.",
-        source: "",
-        only: None,
-        value: One(|s| s.mosaic().trend.p_value.into()),
-    },
-    Metric {
-        name: "density_variation",
-        group: Evenness,
-        quantity: RATIO,
-        edge: NotAffected,
-        definition: "Size of the slow variation of density as a share of its mean: √12 times its root mean square, which of a linear gradient is the \
-                     difference between opposite edges; chance is taken off.",
-        source: "",
-        only: None,
-        value: One(|s| s.mosaic().trend.variation.into()),
-    },
-    Metric {
-        name: "density_variation_low",
-        group: Evenness,
-        quantity: RATIO,
-        edge: NotAffected,
-        definition: "Lower end of its 98 % interval.",
-        source: "",
-        only: None,
-        value: One(|s| s.mosaic().trend.variation_interval.map(|i| i.0).into()),
-    },
-    Metric {
-        name: "density_variation_high",
-        group: Evenness,
-        quantity: RATIO,
-        edge: NotAffected,
-        definition: "Upper end of its 98 % interval.",
-        source: "",
-        only: None,
-        value: One(|s| s.mosaic().trend.variation_interval.map(|i| i.1).into()),
-    },
-    Metric {
-        name: "density_ratio",
-        group: Evenness,
-        quantity: RATIO,
-        edge: NotAffected,
-        definition: "Greatest over least density in the window by a quadratic fit, at most 100; above 1 by chance alone.",
-        source: "",
-        only: None,
-        value: One(|s| s.mosaic().trend.density_ratio.into()),
-    },
+    metric(
+        Samplers,
+        Plain,
+        column(
+            "l_infinity_SAMPLER",
+            "ratio",
+            "Greatest difference of the mosaic's pair correlation function and the mean one of \
+                samples of as many points in the same window; one column a sampler. Pairs hidden \
+                by the border are made up for by the window's set covariance.",
+        )
+        .edge(Own)
+        .source("Lanaro et al. 2020")
+        .only(Part::Images)
+        .per_sampler(|s, name| s.mosaic().distance_to(name).into()),
+    ),
+    metric(
+        Samplers,
+        Plain,
+        column("closest_sampler", "text", "The sampler of the least of these distances.")
+            .edge(Own)
+            .source("Lanaro et al. 2020")
+            .only(Part::Images)
+            .of(|s| s.mosaic().closest_sampler().into()),
+    ),
 ];

@@ -1,220 +1,167 @@
-use super::EdgeRule::{Bound, Interior, NotAffected, Own};
-use super::MetricGroup::{Fourier, Orientation, Recovery};
-use super::metric::Value::One;
-use super::{Metric, Quantity, SummaryKind};
-
-const LENGTH: Quantity = Quantity::Length;
-const COUNT: Quantity = Quantity::Plain("count");
-const RATIO: Quantity = Quantity::Plain("ratio");
-const SHARE: Quantity = Quantity::Plain("0–1");
-const DEGREES: Quantity = Quantity::Plain("degrees, counter-clockwise from the x axis");
-const IMAGES: Option<SummaryKind> = Some(SummaryKind::Images);
+use super::MetricGroup::{Orientation, Recovery};
+use super::Quantity::{Length, Plain};
+use super::{Metric, metric};
+use crate::report::tables::EdgeRule::{Bound, Interior, Own};
+use crate::report::tables::column;
 
 pub(super) const RECOVERY: &[Metric] = &[
-    Metric {
-        name: "recovery_effective_radius",
-        group: Recovery,
-        quantity: LENGTH,
-        edge: Own,
-        definition: "Radius of the empty disk that lacks as many cones as there are too few around the average cone, up to the first annulus above the mean density; empty if there is none, and for fewer than two points. Annuli are corrected by the share of them that lies in the window.",
-        source: "Rodieck 1991",
-        only: None,
-        value: One(|s| s.mosaic().density_recovery.and_then(|r| r.effective_radius).into()),
-    },
-    Metric {
-        name: "recovery_packing",
-        group: Recovery,
-        quantity: RATIO,
-        edge: Own,
-        definition: "Packing factor: square of the effective radius over that of the triangular lattice of the same density; 0 for independent points, 1 for the lattice.",
-        source: "Rodieck 1991",
-        only: None,
-        value: One(|s| s.mosaic().density_recovery.and_then(|r| r.packing).into()),
-    },
-    Metric {
-        name: "recovery_reliability",
-        group: Recovery,
-        quantity: RATIO,
-        edge: NotAffected,
-        definition: "Reliability factor: density × width of the annuli × √(π area).",
-        source: "Rodieck 1991",
-        only: None,
-        value: One(|s| s.mosaic().density_recovery.map(|r| r.reliability).into()),
-    },
-    Metric {
-        name: "recovery_bin_width",
-        group: Recovery,
-        quantity: LENGTH,
-        edge: NotAffected,
-        definition: "Width of the annuli: such that the reliability factor is 4.",
-        source: "Rodieck 1991",
-        only: None,
-        value: One(|s| s.mosaic().density_recovery.map(|r| r.bin_width).into()),
-    },
+    metric(
+        Recovery,
+        Length,
+        column(
+            "recovery_effective_radius",
+            "",
+            "Radius of the empty disk that lacks as many cones as there are too few around the \
+                average cone, up to the first annulus above the mean density; empty if there is \
+                none, and for fewer than two points. Annuli are corrected by the share of them \
+                that lies in the window.",
+        )
+        .edge(Own)
+        .source("Rodieck 1991")
+        .of(|s| s.stats().density_recovery.and_then(|r| r.effective_radius).into()),
+    ),
+    metric(
+        Recovery,
+        Plain,
+        column(
+            "recovery_packing",
+            "ratio",
+            "Packing factor: square of the effective radius over that of the triangular lattice of \
+                the same density; 0 for independent points, 1 for the lattice.",
+        )
+        .edge(Own)
+        .source("Rodieck 1991")
+        .of(|s| s.stats().density_recovery.and_then(|r| r.packing).into()),
+    ),
+    metric(
+        Recovery,
+        Plain,
+        column(
+            "recovery_reliability",
+            "ratio",
+            "Reliability factor: density × width of the annuli × √(π area).",
+        )
+        .source("Rodieck 1991")
+        .of(|s| s.stats().density_recovery.map(|r| r.reliability).into()),
+    ),
+    metric(
+        Recovery,
+        Length,
+        column("recovery_bin_width", "", "Width of the annuli: such that the reliability factor is 4.")
+            .source("Rodieck 1991")
+            .of(|s| s.stats().density_recovery.map(|r| r.bin_width).into()),
+    ),
 ];
 
 pub(super) const ORIENTATION: &[Metric] = &[
-    Metric {
-        name: "nn_axes",
-        group: Orientation,
-        quantity: COUNT,
-        edge: Interior,
-        definition: "Interior points whose nearest neighbour has a direction (does not coincide with them).",
-        source: "",
-        only: None,
-        value: One(|s| s.mosaic().orientation.axes.into()),
-    },
-    Metric {
-        name: "nn_axis_resultant",
-        group: Orientation,
-        quantity: SHARE,
-        edge: Interior,
-        definition: "Length of the mean of exp(2iθ), θ the directions of nearest neighbours: 0 if they are spread evenly, 1 if parallel; by chance about .9/√nn_axes.",
-        source: "Mardia & Jupp 2000",
-        only: None,
-        value: One(|s| s.mosaic().orientation.resultant.into()),
-    },
-    Metric {
-        name: "nn_axis_deg",
-        group: Orientation,
-        quantity: DEGREES,
-        edge: Interior,
-        definition: "Mean axis of the nearest neighbours, 0–180; empty where the resultant is 0.",
-        source: "Mardia & Jupp 2000",
-        only: None,
-        value: One(|s| s.mosaic().orientation.direction.into()),
-    },
-    Metric {
-        name: "nn_axis_p",
-        group: Orientation,
-        quantity: SHARE,
-        edge: Interior,
-        definition: "Chance of such a resultant where all directions are alike (Rayleigh's test; points linked as nearest neighbours count as one); empty for fewer than 10 of these groups.",
-        source: "Mardia & Jupp 2000",
-        only: None,
-        value: One(|s| s.mosaic().orientation.p_value.into()),
-    },
-    Metric {
-        name: "anisotropy",
-        group: Orientation,
-        quantity: RATIO,
-        edge: Bound,
-        definition: "Longer over shorter half axis of the ellipse with the second moments of the ways to Delaunay neighbours, mean over bound cells: 1 for none, the stretch of a stretched triangular lattice; empty without bound cells.",
-        source: "Curcio & Sloan 1992; Cooper et al. 2016",
-        only: None,
-        value: One(|s| s.mosaic().orientation.ellipse.map(|e| e.anisotropy).into()),
-    },
-    Metric {
-        name: "anisotropy_axis_deg",
-        group: Orientation,
-        quantity: DEGREES,
-        edge: Bound,
-        definition: "Direction of its longer half axis, 0–180; empty where both are equal.",
-        source: "Curcio & Sloan 1992; Cooper et al. 2016",
-        only: None,
-        value: One(|s| s.mosaic().orientation.ellipse.and_then(|e| e.direction).into()),
-    },
-    Metric {
-        name: "neighbour_ellipse_major",
-        group: Orientation,
-        quantity: LENGTH,
-        edge: Bound,
-        definition: "Its longer half axis, √2 × the root mean square along it: the spacing of a triangular lattice.",
-        source: "Curcio & Sloan 1992; Cooper et al. 2016",
-        only: None,
-        value: One(|s| s.mosaic().orientation.ellipse.map(|e| e.major).into()),
-    },
-    Metric {
-        name: "neighbour_ellipse_minor",
-        group: Orientation,
-        quantity: LENGTH,
-        edge: Bound,
-        definition: "Its shorter half axis.",
-        source: "Curcio & Sloan 1992; Cooper et al. 2016",
-        only: None,
-        value: One(|s| s.mosaic().orientation.ellipse.map(|e| e.minor).into()),
-    },
-    Metric {
-        name: "hexagon_axis_deg",
-        group: Orientation,
-        quantity: DEGREES,
-        edge: Bound,
-        definition: "Phase of the mean ψ6 over 6, 0–60: direction of a neighbour in a regular mosaic; psi6_global says how far the hexagons agree.",
-        source: "Cooper et al. 2016",
-        only: None,
-        value: One(|s| s.mosaic().orientation.hexagon_direction.into()),
-    },
-];
-
-pub(super) const FOURIER: &[Metric] = &[
-    Metric {
-        name: "modal_spacing",
-        group: Fourier,
-        quantity: LENGTH,
-        edge: NotAffected,
-        definition: "Spacing of the triangular lattice whose ring of the power spectrum is where that of the points is, 2/(√3 frequency); empty for fewer than 20 points, in a polygon and without a ring.",
-        source: "Yellott 1983",
-        only: None,
-        value: One(|s| s.mosaic().modal.map(|m| m.spacing).into()),
-    },
-    Metric {
-        name: "modal_row_spacing",
-        group: Fourier,
-        quantity: LENGTH,
-        edge: NotAffected,
-        definition: "Modal spacing: 1/frequency of that ring, from row to row.",
-        source: "Yellott 1983",
-        only: None,
-        value: One(|s| s.mosaic().modal.map(|m| m.row_spacing).into()),
-    },
-    Metric {
-        name: "modal_power",
-        group: Fourier,
-        quantity: RATIO,
-        edge: NotAffected,
-        definition: "Power on that ring: 1 for independent points.",
-        source: "Yellott 1983",
-        only: None,
-        value: One(|s| s.mosaic().modal.map(|m| m.power).into()),
-    },
-    Metric {
-        name: "fourier_spacing",
-        group: Fourier,
-        quantity: LENGTH,
-        edge: NotAffected,
-        definition: "Spacing of the triangular lattice with the ring that cones leave in the spectrum of the image, in all directions, without looking for cones; empty without a ring.",
-        source: "Cooper, Aguirre & Morgan 2019, with another background and fit",
-        only: IMAGES,
-        value: One(|s| s.image().and_then(|r| r.fourier?.all).map(|f| f.spacing).into()),
-    },
-    Metric {
-        name: "fourier_spacing_row",
-        group: Fourier,
-        quantity: LENGTH,
-        edge: NotAffected,
-        definition: "Spacing of the triangular lattice with the ring that cones leave in the spectrum of the image, of waves within 45° of the y axis, without looking for cones; empty without a ring.",
-        source: "Cooper, Aguirre & Morgan 2019, with another background and fit",
-        only: IMAGES,
-        value: One(|s| s.image().and_then(|r| r.fourier?.row).map(|f| f.spacing).into()),
-    },
-    Metric {
-        name: "fourier_spacing_cell",
-        group: Fourier,
-        quantity: LENGTH,
-        edge: NotAffected,
-        definition: "Spacing of the triangular lattice with the ring that cones leave in the spectrum of the image, of waves within 45° of the x axis, without looking for cones; empty without a ring.",
-        source: "Cooper, Aguirre & Morgan 2019, with another background and fit",
-        only: IMAGES,
-        value: One(|s| s.image().and_then(|r| r.fourier?.cell).map(|f| f.spacing).into()),
-    },
-    Metric {
-        name: "fourier_confidence",
-        group: Fourier,
-        quantity: SHARE,
-        edge: NotAffected,
-        definition: "Share of the variance of the profile in all directions about its background that the ring explains, less what it explains of noise by three standard deviations: 0 of noise.",
-        source: "Cooper, Aguirre & Morgan 2019, with another background and fit",
-        only: IMAGES,
-        value: One(|s| s.image().and_then(|r| r.fourier?.all).map(|f| f.confidence).into()),
-    },
+    metric(
+        Orientation,
+        Plain,
+        column(
+            "nn_axes",
+            "count",
+            "Interior points whose nearest neighbour has a direction (does not coincide with them).",
+        )
+        .edge(Interior)
+        .of(|s| s.stats().orientation.axes.into()),
+    ),
+    metric(
+        Orientation,
+        Plain,
+        column(
+            "nn_axis_resultant",
+            "0–1",
+            "Length of the mean of exp(2iθ), θ the directions of nearest neighbours: 0 if they are \
+                spread evenly, 1 if parallel; by chance about .9/√nn_axes.",
+        )
+        .edge(Interior)
+        .source("Mardia & Jupp 2000")
+        .of(|s| s.stats().orientation.resultant.into()),
+    ),
+    metric(
+        Orientation,
+        Plain,
+        column(
+            "nn_axis_deg",
+            "degrees, counter-clockwise from the x axis",
+            "Mean axis of the nearest neighbours, 0–180; empty where the resultant is 0.",
+        )
+        .edge(Interior)
+        .source("Mardia & Jupp 2000")
+        .of(|s| s.stats().orientation.direction.into()),
+    ),
+    metric(
+        Orientation,
+        Plain,
+        column(
+            "nn_axis_p",
+            "0–1",
+            "Chance of such a resultant where all directions are alike (Rayleigh's test; points \
+                linked as nearest neighbours count as one); empty for fewer than 10 of these \
+                groups.",
+        )
+        .edge(Interior)
+        .source("Mardia & Jupp 2000")
+        .of(|s| s.stats().orientation.p_value.into()),
+    ),
+    metric(
+        Orientation,
+        Plain,
+        column(
+            "anisotropy",
+            "ratio",
+            "Longer over shorter half axis of the ellipse with the second moments of the ways to \
+                Delaunay neighbours, mean over bound cells: 1 for none, the stretch of a stretched \
+                triangular lattice; empty without bound cells.",
+        )
+        .edge(Bound)
+        .source("Curcio & Sloan 1992; Cooper et al. 2016")
+        .of(|s| s.stats().orientation.ellipse.map(|e| e.anisotropy).into()),
+    ),
+    metric(
+        Orientation,
+        Plain,
+        column(
+            "anisotropy_axis_deg",
+            "degrees, counter-clockwise from the x axis",
+            "Direction of its longer half axis, 0–180; empty where both are equal.",
+        )
+        .edge(Bound)
+        .source("Curcio & Sloan 1992; Cooper et al. 2016")
+        .of(|s| s.stats().orientation.ellipse.and_then(|e| e.direction).into()),
+    ),
+    metric(
+        Orientation,
+        Length,
+        column(
+            "neighbour_ellipse_major",
+            "",
+            "Its longer half axis, √2 × the root mean square along it: the spacing of a triangular \
+                lattice.",
+        )
+        .edge(Bound)
+        .source("Curcio & Sloan 1992; Cooper et al. 2016")
+        .of(|s| s.stats().orientation.ellipse.map(|e| e.major).into()),
+    ),
+    metric(
+        Orientation,
+        Length,
+        column("neighbour_ellipse_minor", "", "Its shorter half axis.")
+            .edge(Bound)
+            .source("Curcio & Sloan 1992; Cooper et al. 2016")
+            .of(|s| s.stats().orientation.ellipse.map(|e| e.minor).into()),
+    ),
+    metric(
+        Orientation,
+        Plain,
+        column(
+            "hexagon_axis_deg",
+            "degrees, counter-clockwise from the x axis",
+            "Phase of the mean ψ6 over 6, 0–60: direction of a neighbour in a regular mosaic; \
+                psi6_global says how far the hexagons agree.",
+        )
+        .edge(Bound)
+        .source("Cooper et al. 2016")
+        .of(|s| s.stats().orientation.hexagon_direction.into()),
+    ),
 ];

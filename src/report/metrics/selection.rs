@@ -1,20 +1,25 @@
+use super::names::canonical;
 use super::summary::columns;
 use super::{Metric, MetricGroup, SummaryKind, metrics};
+use crate::sample::samplers;
 use std::str::FromStr;
 
-/// Which metrics a summary has: all, or those of some groups or names. The file, the number of cones and the warnings are
-/// always there.
+/// Which metrics a summary has: all, or those of some groups or names. The file, the number of cones and
+/// the warnings are always there.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct MetricSelection {
-    /// Groups, metrics or columns; empty: all.
+    /// Groups, metrics or columns by their present names; empty: all.
     wanted: Vec<String>,
 }
 
-/// What no summary is without.
+/// Columns that no summary is without.
 const ALWAYS: [&str; 4] = ["file", "unit", "n", "warnings"];
 
+/// Both kinds of summaries.
+const KINDS: [SummaryKind; 2] = [SummaryKind::Images, SummaryKind::Coordinates];
+
 impl MetricSelection {
-    /// Whether anything was chosen.
+    /// Whether all metrics are wanted.
     pub fn is_all(&self) -> bool {
         self.wanted.is_empty()
     }
@@ -28,37 +33,46 @@ impl MetricSelection {
 
     /// Whether a column of a metric is in the summary.
     pub(super) fn has(&self, metric: &Metric, column: &str) -> bool {
-        self.is_all() || ALWAYS.contains(&metric.name) || self.names(metric, column)
+        self.is_all() || ALWAYS.contains(&metric.column.words.name) || self.names(metric, column)
     }
 
-    /// Whether it was asked for.
+    /// Whether a column was asked for, by its group, its metric or its own name.
     pub(super) fn names(&self, metric: &Metric, column: &str) -> bool {
-        self.wanted.iter().any(|w| *w == metric.group.name() || *w == metric.name || *w == column)
+        let names = [metric.group.name(), metric.column.words.name, column];
+        self.wanted.iter().any(|w| names.contains(&w.as_str()))
     }
+
+    /// Whether a column was asked for by its own name.
+    pub(super) fn names_column(&self, column: &str) -> bool {
+        self.wanted.iter().any(|w| w == column)
+    }
+}
+
+/// Whether a word names a group, a metric or a column, of any sampler too.
+fn is_known(word: &str) -> bool {
+    let every: Vec<String> = samplers().iter().map(|s| s.name().to_owned()).collect();
+    let names = |m: &'static Metric, kind| {
+        m.column.words.name == word || columns(m, kind, &every).any(|column| column.name == word)
+    };
+    MetricGroup::ALL.iter().any(|group| group.name() == word)
+        || KINDS.iter().any(|&kind| metrics().filter(|m| m.is_of(kind)).any(|m| names(m, kind)))
 }
 
 impl FromStr for MetricSelection {
     type Err = String;
 
-    /// Groups, metrics or columns, separated by commas; `all`.
+    /// Reads groups, metrics or columns, separated by commas, or `all`. Names of earlier versions count as
+    /// those that took their place.
     fn from_str(text: &str) -> Result<Self, String> {
-        let wanted: Vec<String> =
-            text.split(',').map(|part| part.trim().to_owned()).filter(|part| !part.is_empty()).collect();
+        let parts = text.split(',').map(str::trim).filter(|part| !part.is_empty());
+        let wanted: Vec<String> = parts.map(|part| canonical(part).into_owned()).collect();
         if wanted.is_empty() {
             return Err("no metric is named: give groups or names, separated by commas".into());
         }
         if wanted.iter().any(|w| w == "all") {
             return Ok(Self::default());
         }
-        let known = |w: &str| {
-            MetricGroup::ALL.iter().any(|g| g.name() == w)
-                || [SummaryKind::Images, SummaryKind::Coordinates].into_iter().any(|kind| {
-                    metrics()
-                        .filter(|m| m.is_of(kind))
-                        .any(|m| m.name == w || columns(m, kind, &[]).any(|c| c.name == w))
-                })
-        };
-        match wanted.iter().find(|w| !known(w)) {
+        match wanted.iter().find(|w| !is_known(w)) {
             None => Ok(Self { wanted }),
             Some(unknown) => {
                 let groups: Vec<&str> = MetricGroup::ALL.iter().map(|g| g.name()).collect();
@@ -68,5 +82,28 @@ impl FromStr for MetricSelection {
                 ))
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::Summary;
+
+    #[test]
+    fn columns_of_samplers_and_names_of_earlier_versions_can_be_chosen() {
+        let header = |kind, wanted: &str| {
+            let samplers = ["bnot".to_owned(), "dart-throwing".to_owned()];
+            Summary::new(kind, &wanted.parse().unwrap(), &samplers, &[]).header()
+        };
+        let images = header(SummaryKind::Images, "l_infinity_bnot,l_infinity_dart_throwing");
+        assert!(images.contains(&"l_infinity_bnot".to_owned()), "{images:?}");
+        assert!(images.contains(&"l_infinity_dart_throwing".to_owned()), "{images:?}");
+        for kind in KINDS {
+            let old = header(kind, "spacing_um,nn_mean");
+            assert_eq!(old.iter().filter(|name| name.starts_with("spacing")).count(), 1, "{old:?}");
+            assert!(old.contains(&"spacing_density_um".to_owned()) && old.contains(&"nn_mean_px".to_owned()));
+        }
+        assert!("l_infinity_bnott".parse::<MetricSelection>().is_err());
     }
 }

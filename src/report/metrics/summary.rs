@@ -1,59 +1,56 @@
-use super::metric::Value;
 use super::unit::Unit;
 use super::{Metric, MetricSelection, Quantity, Subject, SummaryKind, metrics};
-use crate::report::Cell;
+use crate::report::tables::{Value, sheet};
+use crate::report::{Cell, ReportError};
 
 /// A column of a summary.
 pub(super) struct Column {
     pub name: String,
     pub metric: &'static Metric,
     pub unit: Unit,
-    sampler: Option<String>,
+    /// Empty where the column is not one per sampler.
+    sampler: String,
 }
 
-/// The columns of a metric.
+/// Returns the columns of a metric: one per sampler, or one per unit.
 pub(super) fn columns<'a>(
     metric: &'static Metric,
     kind: SummaryKind,
     samplers: &'a [String],
 ) -> Box<dyn Iterator<Item = Column> + 'a> {
-    if let Value::PerSampler(_) = metric.value {
+    if let Value::PerSampler(_) = metric.column.value {
         return Box::new(samplers.iter().map(move |sampler| Column {
-            name: metric.name.replace("SAMPLER", &sampler.replace('-', "_")),
+            name: metric.column.name_for(sampler),
             metric,
             unit: Unit::Coordinates,
-            sampler: Some(sampler.clone()),
+            sampler: sampler.clone(),
         }));
     }
-    let units = match metric.quantity {
-        Quantity::Plain(_) => &Unit::ALL[..1],
-        _ => &Unit::ALL[..],
-    };
-    Box::new(units.iter().map(move |&unit| Column {
-        name: format!("{}{}", metric.name, unit.suffix(metric.quantity, kind)),
+    Box::new(Unit::all(metric.quantity, kind).map(move |unit| Column {
+        name: format!("{}{}", metric.column.words.name, unit.suffix(metric.quantity)),
         metric,
         unit,
-        sampler: None,
+        sampler: String::new(),
     }))
 }
 
 impl Column {
     fn cell(&self, subject: &Subject) -> Cell {
-        let value = match (self.metric.value, &self.sampler) {
-            (Value::One(of), _) => of(subject),
-            (Value::PerSampler(of), Some(sampler)) => of(subject, sampler),
-            (Value::PerSampler(_), None) => Cell::Missing,
-        };
+        let value = self.metric.column.cell(subject, &self.sampler);
         self.unit.convert(value, self.metric.quantity, subject.mosaic())
     }
 
-    fn words(&self, kind: SummaryKind) -> String {
-        match self.metric.quantity {
-            Quantity::Plain("text" | "count" | "ratio" | "0–1") => self.name.clone(),
-            quantity => match self.unit.words(quantity, kind) {
-                "column “unit”" => format!("{} (unit)", self.name),
-                words => format!("{} ({words})", self.name),
-            },
+    /// Returns the unit in words.
+    pub fn unit_words(&self) -> &'static str {
+        self.unit.words(self.metric.quantity, self.metric.column.words.unit)
+    }
+
+    /// Returns its name with its unit.
+    fn heading(&self) -> String {
+        match (self.metric.quantity, self.unit_words()) {
+            (Quantity::Plain, "text" | "count" | "ratio" | "0–1") => self.name.clone(),
+            (_, "column “unit”") => format!("{} (unit)", self.name),
+            (_, unit) => format!("{} ({unit})", self.name),
         }
     }
 }
@@ -97,6 +94,15 @@ impl Summary {
         self.columns.iter().map(|c| c.cell(subject)).chain((0..self.labels.len()).map(label)).collect()
     }
 
+    /// Returns `summary.csv`, one row per subject.
+    ///
+    /// # Errors
+    /// If it cannot be written as CSV.
+    pub fn csv<'a>(&self, subjects: impl IntoIterator<Item = Subject<'a>>) -> Result<Vec<u8>, ReportError> {
+        let rows: Vec<Vec<Cell>> = subjects.into_iter().map(|subject| self.row(&subject)).collect();
+        sheet(&self.header(), &rows)
+    }
+
     /// A row as a JSON object: numbers in full, `null` where there is none.
     ///
     /// # Errors
@@ -115,9 +121,8 @@ impl Summary {
                 Cell::Count(n) => Some(n as f64),
                 Cell::Text(_) | Cell::Missing => None,
             };
-            let unit = column.unit.words(column.metric.quantity, self.kind);
             let values: Vec<Option<f64>> = subjects.iter().map(number).collect();
-            values.iter().any(Option::is_some).then(|| (column.name.clone(), unit, values))
+            values.iter().any(Option::is_some).then(|| (column.name.clone(), column.unit_words(), values))
         };
         self.columns.iter().filter_map(of).collect()
     }
@@ -131,10 +136,15 @@ impl Summary {
             .columns
             .iter()
             .filter(|c| c.name == "file" || self.selection.names(c.metric, &c.name))
+            // beside a column in the unit of the coordinates, one in px is for files
+            .filter(|c| {
+                let twice = self.kind == SummaryKind::Coordinates && c.unit == Unit::Pixels;
+                !twice || self.selection.names_column(&c.name)
+            })
             // a column without any number says nothing
             .filter(|c| subjects.iter().any(|s| c.cell(s) != Cell::Missing))
             .collect();
-        let header = asked.iter().map(|c| c.words(self.kind)).collect();
+        let header = asked.iter().map(|c| c.heading()).collect();
         let rows = subjects.iter().map(|s| asked.iter().map(|c| c.cell(s).readable()).collect()).collect();
         Some((header, rows))
     }

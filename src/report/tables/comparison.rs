@@ -1,101 +1,181 @@
-use super::{OutputTable, column};
+use super::EdgeRule::{All, Own};
+use super::{Row, Table, column};
+use crate::report::{CoordinatesRecord, FindingRecord, VerdictRecord};
+use crate::stats::{Deviation, Moments};
+
+/// What simulations of a sampler say of the mosaic of a file.
+#[derive(Clone, Copy, Debug)]
+pub struct VerdictRow<'a> {
+    /// The file, as given.
+    pub file: &'a str,
+    /// The verdict.
+    pub verdict: &'a VerdictRecord,
+}
+
+impl Row for VerdictRow<'static> {
+    type Of<'a> = VerdictRow<'a>;
+}
 
 /// Simulated tests.
-pub static VERDICTS: OutputTable = OutputTable {
+pub static VERDICTS: Table<VerdictRow> = Table {
     file: "verdicts.csv",
     commands: "compare, run --verdict",
-    about: "A row a mosaic and sampler: simulations of the sampler at the mosaic's own number of points and window.",
+    about: "One row per mosaic and sampler: simulations of the sampler at the mosaic's own number \
+            of points and window.",
     columns: &[
-        column("file", "text", "The file, as given."),
-        column("sampler", "text", "The sampler."),
-        column("verdict", "text", "as: the mosaic could be a realisation of it; differs."),
-        column(
-            "p_envelope",
-            "0–1",
-            "p-value of the global envelope test of g (extreme rank length; Myllymäki et al. 2017).",
-        ),
+        column("file", "text", "The file, as given.").of(|v| v.file.into()),
+        column("sampler", "text", "The sampler.").of(|v| v.verdict.sampler.as_str().into()),
+        column("verdict", "text", "as: the mosaic could be a realisation of it; differs.")
+            .of(|v| if v.verdict.alike { "as" } else { "differs" }.into()),
+        column("p_envelope", "0–1", "p-value of the global envelope test of g (extreme rank length).")
+            .edge(Own)
+            .source("Myllymäki et al. 2017")
+            .of(|v| v.verdict.p_envelope.into()),
         column(
             "outside_r_in_spacings",
             "spacings",
             "Stretches of r, from–to, at which g is outside the envelope.",
-        ),
-        column("l_infinity", "ratio", "Greatest difference of g and the mean of the simulations."),
-        column("p_l_infinity", "0–1", "p-value of it: the mosaic's rank among the simulations."),
+        )
+        .of(|v| v.verdict.outside_words().as_str().into()),
+        column("l_infinity", "ratio", "Greatest difference of g and the mean of the simulations.")
+            .edge(Own)
+            .source("Lanaro et al. 2020")
+            .of(|v| v.verdict.l_infinity.into()),
+        column("p_l_infinity", "0–1", "p-value of it: the mosaic's rank among the simulations.")
+            .edge(Own)
+            .of(|v| v.verdict.p_l_infinity.into()),
         column(
             "l_infinity_usual",
             "ratio",
             "Median of it for one simulation against the mean of all other curves.",
-        ),
-        column("l_infinity_95_percent", "ratio", "What 95 % of the simulations stay within."),
-        column("ri_mean", "ratio", "Mean regularity index of the simulations (all points, n − 1)."),
-        column("ri_sd", "ratio", "Its standard deviation over the simulations."),
-        column("simulations", "count", "Number of simulations."),
-        column("points_min", "count", "Fewest points of a simulation."),
-        column("points_max", "count", "Most points of a simulation."),
+        )
+        .edge(Own)
+        .of(|v| v.verdict.l_infinity_usual.into()),
+        column("l_infinity_95_percent", "ratio", "What 95 % of the simulations stay within.")
+            .edge(Own)
+            .of(|v| v.verdict.l_infinity_most.into()),
+        column("ri_mean", "ratio", "Mean regularity index of the simulations (all points, n − 1).")
+            .edge(All)
+            .of(|v| v.verdict.ri_mean.into()),
+        column("ri_sd", "ratio", "Its standard deviation over the simulations.")
+            .edge(All)
+            .of(|v| v.verdict.ri_sd.into()),
+        column("simulations", "count", "Number of simulations.").of(|v| v.verdict.simulations.into()),
+        column("points_min", "count", "Fewest points of a simulation.").of(|v| v.verdict.points.0.into()),
+        column("points_max", "count", "Most points of a simulation.").of(|v| v.verdict.points.1.into()),
     ],
 };
 
-/// Envelopes of g.
-pub static ENVELOPE: OutputTable = OutputTable {
-    file: "NAME.envelope.csv",
-    commands: "compare, run --verdict (images/NAME/envelope.csv)",
-    about: "A row a distance; three columns a sampler.",
-    columns: &[
-        column("r", "spacings", "Middle of the bin, in hexagonal spacings."),
-        column("g", "ratio", "Pair correlation function of the mosaic."),
-        column("mean_SAMPLER", "ratio", "Mean of the simulations."),
-        column("low_SAMPLER", "ratio", "Lower edge of the global envelope."),
-        column("high_SAMPLER", "ratio", "Upper edge of the global envelope."),
-    ],
-};
+impl Row for CoordinatesRecord {
+    type Of<'a> = &'a Self;
+}
 
-/// Nearest neighbours by both divisors.
-pub static REGULARITY: OutputTable = OutputTable {
+/// Returns the nearest-neighbour distances of a mosaic by the divisor wanted.
+fn nearest(record: &CoordinatesRecord, divisor: Deviation) -> Moments {
+    let stats = &record.mosaic.stats;
+    stats.nearest.with_divisor(stats.deviation, divisor)
+}
+
+/// Returns a length of a mosaic in µm.
+fn in_um(record: &CoordinatesRecord, length: Option<f64>) -> Option<f64> {
+    length.zip(record.mosaic.um_per_unit).map(|(length, um)| length * um)
+}
+
+/// Nearest-neighbour distances by both divisors, as in Table 1 of Lanaro et al. 2020.
+pub static REGULARITY: Table<CoordinatesRecord> = Table {
     file: "regularity.csv",
     commands: "compare",
-    about: "A row a file: distances to the nearest neighbour of all points, nothing done about the border (Wässle & Riemann 1978).",
+    about: "One row per file: distances to the nearest neighbour of all points, nothing done about \
+            the border.",
     columns: &[
-        column("file", "text", "The file, as given."),
-        column("unit", "text", "Unit of the coordinates (px, um, unit)."),
-        column("nn_mean", "unit", "Mean distance."),
-        column("nn_sd_population", "unit", "Standard deviation (n), as in the tables of Lanaro et al. 2020."),
-        column("ri_population", "ratio", "Mean over that."),
-        column("nn_sd_sample", "unit", "Standard deviation (n − 1)."),
-        column("ri_sample", "ratio", "Mean over that."),
-        column("n", "count", "Points."),
+        column("file", "text", "The file, as given.").of(|r| r.file.as_str().into()),
+        column("unit", "text", "Unit of the coordinates (px, um, unit).")
+            .of(|r| r.mosaic.unit.symbol().into()),
+        column("nn_mean", "unit", "Mean distance.")
+            .edge(All)
+            .source("Wässle & Riemann 1978")
+            .of(|r| r.mosaic.stats.nearest.mean.into()),
+        column(
+            "nn_sd_population",
+            "unit",
+            "Standard deviation (n) of these distances, as in the tables of Lanaro et al. 2020.",
+        )
+        .edge(All)
+        .source("Wässle & Riemann 1978")
+        .of(|r| nearest(r, Deviation::Population).sd.into()),
+        column("ri_population", "ratio", "nn_mean / nn_sd_population.")
+            .edge(All)
+            .source("Wässle & Riemann 1978")
+            .of(|r| nearest(r, Deviation::Population).ri.into()),
+        column("nn_sd_sample", "unit", "Standard deviation (n − 1) of these distances.")
+            .edge(All)
+            .source("Wässle & Riemann 1978")
+            .of(|r| nearest(r, Deviation::Sample).sd.into()),
+        column("ri_sample", "ratio", "nn_mean / nn_sd_sample.")
+            .edge(All)
+            .source("Wässle & Riemann 1978")
+            .of(|r| nearest(r, Deviation::Sample).ri.into()),
+        column("n", "count", "Points.").of(|r| r.mosaic.stats.nearest.n.into()),
+        column("nn_mean_um", "µm", "nn_mean in µm; empty without a scale.")
+            .edge(All)
+            .source("Wässle & Riemann 1978")
+            .of(|r| in_um(r, r.mosaic.stats.nearest.mean).into()),
+        column("nn_sd_population_um", "µm", "nn_sd_population in µm; empty without a scale.")
+            .edge(All)
+            .source("Wässle & Riemann 1978")
+            .of(|r| in_um(r, nearest(r, Deviation::Population).sd).into()),
+        column("nn_sd_sample_um", "µm", "nn_sd_sample in µm; empty without a scale.")
+            .edge(All)
+            .source("Wässle & Riemann 1978")
+            .of(|r| in_um(r, nearest(r, Deviation::Sample).sd).into()),
     ],
 };
 
 /// Distances to samplers.
-pub static L_INFINITY: OutputTable = OutputTable {
+pub static L_INFINITY: Table<CoordinatesRecord> = Table {
     file: "l_infinity.csv",
     commands: "compare",
-    about: "A row a file.",
+    about: "One row per file.",
     columns: &[
-        column("file", "text", "The file, as given."),
+        column("file", "text", "The file, as given.").of(|r| r.file.as_str().into()),
         column(
             "SAMPLER",
             "ratio",
-            "Greatest difference of the pair correlation functions of the mosaic and of the sampler (Lanaro et al. 2020); a column a sampler.",
-        ),
-        column("closest_sampler", "text", "The sampler of the least."),
-        column("n", "count", "Points."),
-        column("ri", "ratio", "Regularity index of all points."),
-        column("sd_kind", "text", "Its divisor: sample (n − 1) or population (n)."),
-        column("warnings", "text", "What a reader of the numbers should know."),
+            "Greatest difference of the pair correlation functions of the mosaic and of the \
+                sampler, one column per sampler.",
+        )
+        .edge(Own)
+        .source("Lanaro et al. 2020")
+        .per_sampler(|r, sampler| r.mosaic.distance_to(sampler).into()),
+        column("closest_sampler", "text", "The sampler of the least.")
+            .of(|r| r.mosaic.closest_sampler().into()),
+        column("n", "count", "Points.").of(|r| r.mosaic.n.into()),
+        column("ri", "ratio", "Regularity index of all points.")
+            .edge(All)
+            .of(|r| r.mosaic.stats.nearest.ri.into()),
+        column("sd_kind", "text", "Its divisor: sample (n − 1) or population (n).")
+            .of(|r| r.mosaic.stats.deviation.name().into()),
+        column("warnings", "text", "What a reader of the numbers should know.")
+            .of(|r| r.warnings.join("; ").as_str().into()),
     ],
 };
 
-/// Regularity against distance.
-pub static FINDING: OutputTable = OutputTable {
+impl Row for FindingRecord {
+    type Of<'a> = &'a Self;
+}
+
+/// Correlation of regularity with the distance to samplers.
+pub static FINDING: Table<FindingRecord> = Table {
     file: "finding.csv",
     commands: "compare",
-    about: "A row a sampler: how regularity and distance to it hang together over the mosaics.",
+    about: "One row per sampler: how regularity and distance to it hang together over the mosaics.",
     columns: &[
-        column("sampler", "text", "The sampler."),
-        column("mosaics", "count", "Mosaics with both."),
-        column("spearman_rho_of_ri_and_l_infinity", "−1–1", "Rank correlation (Spearman 1904)."),
-        column("p_value", "0–1", "Two-sided p-value of it."),
-        column("in_words", "text", "The same in words."),
+        column("sampler", "text", "The sampler.").of(|f| f.sampler.as_str().into()),
+        column("mosaics", "count", "Mosaics with both.").of(|f| f.mosaics.into()),
+        column("spearman_rho_of_ri_and_l_infinity", "−1–1", "Rank correlation.")
+            .source("Spearman 1904")
+            .of(|f| f.correlation.map(|c| c.rho).into()),
+        column("p_value", "0–1", "Two-sided p-value of it.").of(|f| f.correlation.map(|c| c.p_value).into()),
+        column("in_words", "text", "The correlation in words.").of(|f| f.words().as_str().into()),
     ],
 };

@@ -1,114 +1,204 @@
-use super::{OutputTable, column};
+use super::EdgeRule::{All, Own};
+use super::{Row, Table, column};
+use crate::report::ReportError;
+use crate::stats::{DensityRecovery, Functions, PowerSpectrum};
 
-const R: &str = "Distance.";
+/// A distance at which functions are given, each by its name.
+#[derive(Clone, Copy, Debug)]
+pub struct FunctionsRow<'a> {
+    index: usize,
+    series: &'a [(&'static str, Vec<f64>)],
+}
 
-/// Pair correlation.
-pub static PCF: OutputTable = OutputTable {
-    file: "NAME.pcf.csv",
-    commands: "measure, compare, run (images/NAME/pcf.csv)",
-    about: "A row a distance; no rows where the function is not defined. Edge rule as chosen by --edge, by default division by the \
-            set covariance of the window (Lanaro et al. 2020).",
-    columns: &[
-        column("r", "spacings", "Middle of the bin, in hexagonal spacings of the mosaic's density."),
-        column(
-            "g",
-            "ratio",
-            "Pair correlation function: pairs at this distance over those of independent points.",
-        ),
-        column(
-            "g_inhomogeneous",
-            "ratio",
-            "The same for a density that varies (Baddeley et al. 2000); only where the trend is significant.",
-        ),
-        column(
-            "g_locally_scaled",
-            "ratio",
-            "The same with distances in local spacings (Hahn et al. 2003); only where the trend is significant.",
-        ),
-        column(
-            "k_inhomogeneous",
-            "spacings²",
-            "K for a density that varies (Baddeley et al. 2000); only where the trend is significant.",
-        ),
-        column(
-            "g_SAMPLER",
-            "ratio",
-            "Mean g of samples of as many points in the same window; one column a sampler compared with.",
-        ),
-    ],
-};
+impl Row for FunctionsRow<'static> {
+    type Of<'a> = FunctionsRow<'a>;
+}
+
+impl FunctionsRow<'_> {
+    fn get(&self, name: &str) -> Option<f64> {
+        let (_, values) = self.series.iter().find(|(n, _)| *n == name)?;
+        values.get(self.index).copied()
+    }
+}
 
 /// Functions of distance by spatstat's names.
-pub static FUNCTIONS: OutputTable = OutputTable {
+pub static FUNCTIONS: Table<FunctionsRow> = Table {
     file: "NAME.functions.csv",
     commands: "measure --functions",
-    about: "A row a distance. Edge rules in the names, as in spatstat (Baddeley, Rubak & Turner 2015): none: nothing is done; rs or border: \
-            reduced sample (points at least r from the border); km: Kaplan–Meier; han: Hanisch; trans: translation; iso: isotropic; \
+    about: "One row per distance. Edge rules in the names, as in spatstat (Baddeley, Rubak & \
+            Turner 2015): none: nothing is done; rs or border: reduced sample (points at least r \
+            from the border); km: Kaplan–Meier; han: Hanisch; trans: translation; iso: isotropic; \
             theo: independent points. A cell is empty where the function is not defined.",
     columns: &[
-        column("r", "unit", R),
-        column("G_none", "0–1", "Share of points whose nearest neighbour is at most r away."),
-        column("G_rs", "0–1", "The same."),
-        column("G_km", "0–1", "The same."),
-        column("G_han", "0–1", "The same."),
-        column("G_theo", "0–1", "1 − exp(−π r² density)."),
-        column("F_none", "0–1", "Share of the window (128 × 128 places) that is at most r from a point."),
-        column("F_rs", "0–1", "The same."),
-        column("F_km", "0–1", "The same."),
-        column("F_han", "0–1", "The same (Chiu & Stoyan 1998)."),
+        column("r", "unit", "Distance.").by_name(|f, name| f.get(name).into()),
+        column("G_none", "0–1", "Share of points whose nearest neighbour is at most r away.")
+            .edge(All)
+            .by_name(|f, name| f.get(name).into()),
+        column("G_rs", "0–1", "G_none by the reduced sample rule.")
+            .edge(Own)
+            .by_name(|f, name| f.get(name).into()),
+        column("G_km", "0–1", "G_none by the Kaplan–Meier rule.")
+            .edge(Own)
+            .by_name(|f, name| f.get(name).into()),
+        column("G_han", "0–1", "G_none by the Hanisch rule.").edge(Own).by_name(|f, name| f.get(name).into()),
+        column("G_theo", "0–1", "1 − exp(−π r² density).").by_name(|f, name| f.get(name).into()),
+        column("F_none", "0–1", "Share of the window (128 × 128 places) that is at most r from a point.")
+            .edge(All)
+            .by_name(|f, name| f.get(name).into()),
+        column("F_rs", "0–1", "F_none by the reduced sample rule.")
+            .edge(Own)
+            .by_name(|f, name| f.get(name).into()),
+        column("F_km", "0–1", "F_none by the Kaplan–Meier rule.")
+            .edge(Own)
+            .by_name(|f, name| f.get(name).into()),
+        column("F_han", "0–1", "F_none by the Hanisch rule (Chiu & Stoyan 1998).")
+            .edge(Own)
+            .by_name(|f, name| f.get(name).into()),
         column(
             "J_none",
             "ratio",
             "(1 − G)/(1 − F) (van Lieshout & Baddeley 1996): above 1 for regular patterns.",
-        ),
-        column("J_rs", "ratio", "The same."),
-        column("J_km", "ratio", "The same."),
-        column("J_han", "ratio", "The same."),
+        )
+        .edge(All)
+        .by_name(|f, name| f.get(name).into()),
+        column("J_rs", "ratio", "J_none by the reduced sample rule.")
+            .edge(Own)
+            .by_name(|f, name| f.get(name).into()),
+        column("J_km", "ratio", "J_none by the Kaplan–Meier rule.")
+            .edge(Own)
+            .by_name(|f, name| f.get(name).into()),
+        column("J_han", "ratio", "J_none by the Hanisch rule.")
+            .edge(Own)
+            .by_name(|f, name| f.get(name).into()),
         column(
             "K_none",
             "unit²",
             "Mean number of further points within r of a point, over density (Ripley 1976).",
-        ),
-        column("K_border", "unit²", "The same."),
-        column("K_iso", "unit²", "The same."),
-        column("K_trans", "unit²", "The same."),
-        column("K_theo", "unit²", "π r²."),
-        column("L_none", "unit", "√(K/π) (Besag 1977)."),
-        column("L_border", "unit", "The same."),
-        column("L_iso", "unit", "The same."),
-        column("L_trans", "unit", "The same."),
+        )
+        .edge(All)
+        .by_name(|f, name| f.get(name).into()),
+        column("K_border", "unit²", "K_none by the reduced sample rule.")
+            .edge(Own)
+            .by_name(|f, name| f.get(name).into()),
+        column("K_iso", "unit²", "K_none by the isotropic rule.")
+            .edge(Own)
+            .by_name(|f, name| f.get(name).into()),
+        column("K_trans", "unit²", "K_none by the translation rule.")
+            .edge(Own)
+            .by_name(|f, name| f.get(name).into()),
+        column("K_theo", "unit²", "π r².").by_name(|f, name| f.get(name).into()),
+        column("L_none", "unit", "√(K/π) (Besag 1977).").edge(All).by_name(|f, name| f.get(name).into()),
+        column("L_border", "unit", "L_none by the reduced sample rule.")
+            .edge(Own)
+            .by_name(|f, name| f.get(name).into()),
+        column("L_iso", "unit", "L_none by the isotropic rule.")
+            .edge(Own)
+            .by_name(|f, name| f.get(name).into()),
+        column("L_trans", "unit", "L_none by the translation rule.")
+            .edge(Own)
+            .by_name(|f, name| f.get(name).into()),
         column(
             "pcf_trans_divr",
             "ratio",
-            "Pair correlation by an Epanechnikov kernel of half-width .15/√density, divided by 2πr (pcf.ppp of spatstat).",
-        ),
-        column("pcf_iso_divr", "ratio", "The same."),
-        column("pcf_trans_divd", "ratio", "The same, each pair divided by its own distance (Guan 2007)."),
-        column("pcf_iso_divd", "ratio", "The same."),
+            "Pair correlation by an Epanechnikov kernel of half-width .15/√density, divided by 2πr \
+                (pcf.ppp of spatstat).",
+        )
+        .edge(Own)
+        .by_name(|f, name| f.get(name).into()),
+        column("pcf_iso_divr", "ratio", "pcf_trans_divr by the isotropic rule.")
+            .edge(Own)
+            .by_name(|f, name| f.get(name).into()),
+        column(
+            "pcf_trans_divd",
+            "ratio",
+            "pcf_trans_divr with each pair divided by its own distance (Guan 2007).",
+        )
+        .edge(Own)
+        .by_name(|f, name| f.get(name).into()),
+        column("pcf_iso_divd", "ratio", "pcf_trans_divd by the isotropic rule.")
+            .edge(Own)
+            .by_name(|f, name| f.get(name).into()),
     ],
 };
+
+/// Returns `NAME.functions.csv`.
+///
+/// # Errors
+/// If it cannot be written as CSV.
+pub fn functions_csv(functions: &Functions) -> Result<Vec<u8>, ReportError> {
+    let series = functions.columns();
+    FUNCTIONS.csv((0..functions.r.len()).map(|index| FunctionsRow { index, series: &series }))
+}
+
+/// An annulus about the average point.
+#[derive(Clone, Copy, Debug)]
+pub struct AnnulusRow {
+    r: f64,
+    density: f64,
+    mean_density: f64,
+}
+
+impl Row for AnnulusRow {
+    type Of<'a> = Self;
+}
 
 /// Density around the average point.
-pub static DENSITY_RECOVERY: OutputTable = OutputTable {
+pub static DENSITY_RECOVERY: Table<AnnulusRow> = Table {
     file: "NAME.density_recovery.csv",
     commands: "measure --functions",
-    about: "A row an annulus about the average point (Rodieck 1991); no rows for fewer than two points. What the annuli cover beyond the \
-            window is made up for.",
+    about: "One row per annulus about the average point (Rodieck 1991); no rows for fewer than two \
+            points. What the annuli cover beyond the window is made up for.",
     columns: &[
-        column("r", "unit", "Middle of the annulus."),
-        column("density", "1/unit²", "Points per area in the annulus."),
-        column("relative_density", "ratio", "That over the mean density."),
+        column("r", "unit", "Middle of the annulus.").of(|a| a.r.into()),
+        column("density", "1/unit²", "Points per area in the annulus.").edge(Own).of(|a| a.density.into()),
+        column("relative_density", "ratio", "That over the mean density.")
+            .edge(Own)
+            .of(|a| (a.density / a.mean_density).into()),
     ],
 };
 
+/// Returns `NAME.density_recovery.csv`; without rows where there is no profile.
+///
+/// # Errors
+/// If it cannot be written as CSV.
+pub fn density_recovery_csv(profile: Option<&DensityRecovery>) -> Result<Vec<u8>, ReportError> {
+    let rows = profile.into_iter().flat_map(|p| {
+        let annulus = |(&r, &density)| AnnulusRow { r, density, mean_density: p.mean_density };
+        p.r.iter().zip(&p.density).map(annulus)
+    });
+    DENSITY_RECOVERY.csv(rows)
+}
+
+/// A ring of frequencies.
+#[derive(Clone, Copy, Debug)]
+pub struct FrequencyRow<'a> {
+    index: usize,
+    spectrum: &'a PowerSpectrum,
+}
+
+impl Row for FrequencyRow<'static> {
+    type Of<'a> = FrequencyRow<'a>;
+}
+
 /// Power spectrum of points.
-pub static SPECTRUM: OutputTable = OutputTable {
+pub static SPECTRUM: Table<FrequencyRow> = Table {
     file: "NAME.spectrum.csv",
     commands: "measure --spectrum",
-    about: "A row a ring of frequencies (Ulichney 1987; Lanaro et al. 2020).",
+    about: "One row per ring of frequencies (Ulichney 1987; Lanaro et al. 2020).",
     columns: &[
-        column("frequency", "√density", "Middle of the ring, in cycles per 1/√density."),
-        column("power", "ratio", "Mean power: 1 for independent points."),
-        column("anisotropy_db", "dB", "Variance of the power over its squared mean: 0 without direction."),
+        column("frequency", "√density", "Middle of the ring, in cycles per 1/√density.")
+            .of(|f| f.spectrum.frequency.get(f.index).copied().into()),
+        column("power", "ratio", "Mean power: 1 for independent points.")
+            .of(|f| f.spectrum.power.get(f.index).copied().into()),
+        column("anisotropy_db", "dB", "Variance of the power over its squared mean: 0 without direction.")
+            .of(|f| f.spectrum.anisotropy_db.get(f.index).copied().into()),
     ],
 };
+
+/// Returns `NAME.spectrum.csv`.
+///
+/// # Errors
+/// If it cannot be written as CSV.
+pub fn spectrum_csv(spectrum: &PowerSpectrum) -> Result<Vec<u8>, ReportError> {
+    SPECTRUM.csv((0..spectrum.power.len()).map(|index| FrequencyRow { index, spectrum }))
+}

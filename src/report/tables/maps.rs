@@ -1,113 +1,187 @@
-use super::{OutputTable, column};
+use super::EdgeRule::Bound;
+use super::{Row, Table, column};
+use crate::detect::FourierMap;
+use crate::geometry::Point;
+use crate::mosaic::Mosaic;
+use crate::report::ReportError;
+use crate::stats::{LocalValues, Maps, ProfileRow};
 
-/// Local values.
-pub static MAPS: OutputTable = OutputTable {
+/// A cone and the mosaic around it.
+#[derive(Clone, Copy, Debug)]
+pub struct MapRow {
+    at: Point,
+    local: LocalValues,
+    um_per_unit: Option<f64>,
+}
+
+impl Row for MapRow {
+    type Of<'a> = Self;
+}
+
+/// Returns a length in µm.
+fn length(value: Option<f64>, um_per_unit: Option<f64>) -> Option<f64> {
+    value.zip(um_per_unit).map(|(length, um)| length * um)
+}
+
+/// Returns a density per squared unit in cones/mm².
+fn per_mm2(density: Option<f64>, um_per_unit: Option<f64>) -> Option<f64> {
+    density.zip(um_per_unit).map(|(d, um)| d * 1e6 / (um * um))
+}
+
+/// Local values of a mosaic.
+pub static MAPS: Table<MapRow> = Table {
     file: "NAME.maps.csv",
     commands: "measure --maps, run --maps (images/NAME/maps.csv)",
-    about: "A row a cone. Values are taken over the bound Voronoi cells that lie wholly in a square window about it; empty where there \
-            are none, in µm or mm² without a scale.",
+    about: "One row per cone. Values are taken over the bound Voronoi cells that lie wholly in a \
+            square window about it; empty where there are none.",
     columns: &[
-        column("x", "unit", "Its place."),
-        column("y", "unit", "Its place."),
-        column("side", "unit", "Side of the window."),
-        column("bound", "count", "Bound cells in it."),
+        column("x", "unit", "x of the cone.").of(|m| m.at.x.into()),
+        column("y", "unit", "y of the cone.").of(|m| m.at.y.into()),
+        column("side", "unit", "Side of the window.").of(|m| m.local.side.into()),
+        column("bound", "count", "Bound cells in it.").edge(Bound).of(|m| m.local.bound.into()),
         column(
             "flag",
             "text",
-            "Empty; edge: the window reaches beyond the mosaic; few: the mosaic has not the cells asked for.",
-        ),
-        column("density", "1/unit²", "Cells over their total area."),
-        column("icd", "unit", "Mean distance to the Delaunay neighbours."),
-        column("nnd", "unit", "Mean distance to the nearest neighbour."),
-        column("ri", "ratio", "Regularity index of these: mean over standard deviation."),
-        column("psi6", "0–1", "Mean |ψ6|."),
-        column("six_sided_percent", "%", "Cells with six sides."),
-        column("density_per_mm2", "1/mm²", "Cells over their total area."),
-        column("icd_um", "µm", "Mean distance to the Delaunay neighbours."),
-        column("nnd_um", "µm", "Mean distance to the nearest neighbour."),
+            "Empty; edge: the window reaches beyond the mosaic; few: the mosaic has not the cells \
+                asked for.",
+        )
+        .of(|m| m.local.flag.name().into()),
+        column("density", "1/unit²", "Cells over their total area.")
+            .edge(Bound)
+            .of(|m| m.local.density.into()),
+        column("icd", "unit", "Mean distance to the Delaunay neighbours.")
+            .edge(Bound)
+            .of(|m| m.local.inter_cell.into()),
+        column("nnd", "unit", "Mean distance to the nearest neighbour.")
+            .edge(Bound)
+            .of(|m| m.local.nearest.into()),
+        column("ri", "ratio", "Regularity index of these: mean over standard deviation.")
+            .edge(Bound)
+            .of(|m| m.local.nearest_ri.into()),
+        column("psi6", "0–1", "Mean |ψ6|.").edge(Bound).of(|m| m.local.psi6.into()),
+        column("six_sided_percent", "%", "Cells with six sides.")
+            .edge(Bound)
+            .of(|m| m.local.six_sided_percent.into()),
+        column("density_per_mm2", "1/mm²", "density in cones/mm²; empty without a scale.")
+            .edge(Bound)
+            .of(|m| per_mm2(m.local.density, m.um_per_unit).into()),
+        column("icd_um", "µm", "icd in µm; empty without a scale.")
+            .edge(Bound)
+            .of(|m| length(m.local.inter_cell, m.um_per_unit).into()),
+        column("nnd_um", "µm", "nnd in µm; empty without a scale.")
+            .edge(Bound)
+            .of(|m| length(m.local.nearest, m.um_per_unit).into()),
     ],
 };
 
-/// By distance from the centroid of density.
-pub static PROFILES: OutputTable = OutputTable {
+/// Returns `NAME.maps.csv`.
+///
+/// # Errors
+/// If it cannot be written as CSV.
+pub fn maps_csv(mosaic: &Mosaic, maps: &Maps) -> Result<Vec<u8>, ReportError> {
+    let um_per_unit = mosaic.micrometres_per_unit();
+    let row = |(&at, &local)| MapRow { at, local, um_per_unit };
+    MAPS.csv(mosaic.points().iter().zip(&maps.local).map(row))
+}
+
+/// A distance from the cone density centroid, in one direction or all around.
+#[derive(Clone, Copy, Debug)]
+pub struct DistanceRow {
+    profile: ProfileRow,
+    um_per_unit: Option<f64>,
+}
+
+impl Row for DistanceRow {
+    type Of<'a> = Self;
+}
+
+/// Profiles of density and spacing by distance from the centroid of density.
+pub static PROFILES: Table<DistanceRow> = Table {
     file: "NAME.profiles.csv",
     commands: "measure --maps, run --maps (images/NAME/profiles.csv)",
-    about: "A row a distance from the cone density centroid, in rings (bound cells whose cones lie in them) and along four meridians \
-            (the maps).",
+    about: "One row per distance from the cone density centroid, in rings (bound cells whose cones \
+            lie in them) and along four meridians (the maps).",
     columns: &[
-        column("along", "text", "ring, or right, down, left, up."),
-        column("r", "unit", "Distance; of a ring the middle of its width."),
-        column("bound", "count", "Bound cells of the ring."),
-        column("share", "0–1", "Share of the circle through the middle of the ring that lies in the window."),
-        column("density", "1/unit²", "Of a ring its bound cells over their area; on a meridian the map."),
-        column("spacing", "unit", "Hexagonal spacing of that density."),
-        column("icd", "unit", "Mean distance to the Delaunay neighbours."),
-        column("nnd", "unit", "Mean distance to the nearest neighbour."),
-        column("r_um", "µm", "Distance; of a ring the middle of its width."),
-        column(
-            "density_per_mm2",
-            "1/mm²",
-            "Of a ring its bound cells over their area; on a meridian the map.",
-        ),
-        column("spacing_um", "µm", "Hexagonal spacing of that density."),
+        column("along", "text", "ring, or right, down, left, up.").of(|d| d.profile.along.name().into()),
+        column("r", "unit", "Distance; of a ring the middle of its width.").of(|d| d.profile.r.into()),
+        column("bound", "count", "Bound cells of the ring.").edge(Bound).of(|d| d.profile.bound.into()),
+        column("share", "0–1", "Share of the circle through the middle of the ring that lies in the window.")
+            .of(|d| d.profile.share.into()),
+        column("density", "1/unit²", "Of a ring its bound cells over their area; on a meridian the map.")
+            .edge(Bound)
+            .of(|d| d.profile.density.into()),
+        column("spacing", "unit", "Hexagonal spacing of that density.")
+            .edge(Bound)
+            .of(|d| d.profile.spacing.into()),
+        column("icd", "unit", "Mean distance to the Delaunay neighbours.")
+            .edge(Bound)
+            .of(|d| d.profile.inter_cell.into()),
+        column("nnd", "unit", "Mean distance to the nearest neighbour.")
+            .edge(Bound)
+            .of(|d| d.profile.nearest.into()),
+        column("r_um", "µm", "r in µm; empty without a scale.")
+            .of(|d| length(Some(d.profile.r), d.um_per_unit).into()),
+        column("density_per_mm2", "1/mm²", "density in cones/mm²; empty without a scale.")
+            .edge(Bound)
+            .of(|d| per_mm2(d.profile.density, d.um_per_unit).into()),
+        column("spacing_um", "µm", "spacing in µm; empty without a scale.")
+            .edge(Bound)
+            .of(|d| length(d.profile.spacing, d.um_per_unit).into()),
     ],
 };
 
-/// Spacing by spectra.
-pub static FOURIER_MAP: OutputTable = OutputTable {
+/// Returns `NAME.profiles.csv`.
+///
+/// # Errors
+/// If it cannot be written as CSV.
+pub fn profiles_csv(mosaic: &Mosaic, maps: &Maps) -> Result<Vec<u8>, ReportError> {
+    let um_per_unit = mosaic.micrometres_per_unit();
+    PROFILES.csv(maps.profile.iter().map(|&profile| DistanceRow { profile, um_per_unit }))
+}
+
+/// The spacing at a place of the image, by the spectrum of tiles.
+#[derive(Clone, Copy, Debug)]
+pub struct FourierRow {
+    at: Point,
+    spacing: f64,
+    confidence: f64,
+    um_per_px: Option<f64>,
+}
+
+impl Row for FourierRow {
+    type Of<'a> = Self;
+}
+
+/// Spacing by the spectra of tiles.
+pub static FOURIER_MAP: Table<FourierRow> = Table {
     file: "fourier_map.csv",
     commands: "run --maps (images/NAME/fourier_map.csv)",
-    about: "A row a place of the image: the ring of the spectrum of overlapping tiles (after Cooper et al. 2019); no rows where the \
-            image has none.",
+    about: "One row per place of the image: the ring of the spectrum of overlapping tiles (after \
+            Cooper et al. 2019); no rows where the image has none.",
     columns: &[
-        column("x_px", "px", "To the right from the centre of the first pixel."),
-        column("y_px", "px", "Down from the centre of the first pixel."),
-        column("spacing_px", "px", "Distance of neighbours by the ring."),
-        column("spacing_um", "µm", "The same; empty without a scale."),
-        column("confidence", "0–1", "How clearly the ring stands out of the spectrum's background."),
+        column("x_px", "px", "To the right from the centre of the first pixel.").of(|f| f.at.x.into()),
+        column("y_px", "px", "Down from the centre of the first pixel.").of(|f| f.at.y.into()),
+        column("spacing_px", "px", "Distance of neighbours by the ring.").of(|f| f.spacing.into()),
+        column("spacing_um", "µm", "spacing_px in µm; empty without a scale.")
+            .of(|f| length(Some(f.spacing), f.um_per_px).into()),
+        column("confidence", "0–1", "How clearly the ring stands out of the spectrum's background.")
+            .of(|f| f.confidence.into()),
     ],
 };
 
-/// Read off the maps.
-pub static LANDMARKS: OutputTable = OutputTable {
-    file: "landmarks.csv",
-    commands: "measure --maps, run --maps",
-    about: "A row a file: what its density map says. Only windows that lie in the mosaic count.",
-    columns: &[
-        column("file", "text", "The file, as given."),
-        column("unit", "text", "Unit of the coordinates (px, um, unit): “unit” below."),
-        column("um_per_unit", "µm", "Micrometres of retina per unit; empty if not known."),
-        column("local_window", "text", "The window around each cone: so many bound cells, or its side."),
-        column("n", "count", "Cones."),
-        column("n_whole", "count", "Cones whose window lies in the mosaic: the map is made of these."),
-        column("pcd", "1/unit²", "Peak cone density: the greatest value of the map."),
-        column("pcd_per_mm2", "1/mm²", "Peak cone density: the greatest value of the map."),
-        column("pcd_x", "unit", "Where it is."),
-        column("pcd_y", "unit", "Where it is."),
-        column(
-            "cdc_x",
-            "unit",
-            "Cone density centroid: of the region of at least isodensity_share of the peak, weighted by density (Reiniger et al. 2021).",
-        ),
-        column("cdc_y", "unit", "Cone density centroid."),
-        column("cdc_density", "1/unit²", "The map there."),
-        column("cdc_density_per_mm2", "1/mm²", "The map there."),
-        column("isodensity_share", "0–1", "Share of the peak that bounds the region."),
-        column("isodensity_area", "unit²", "Area of the region."),
-        column("isodensity_area_mm2", "mm²", "Area of the region."),
-        column("ellipse_x", "unit", "Centre of the ellipse fitted to the contour of the region."),
-        column("ellipse_y", "unit", "Centre of that ellipse."),
-        column("ellipse_semi_major", "unit", "Its longer half axis."),
-        column("ellipse_semi_minor", "unit", "Its shorter half axis."),
-        column(
-            "ellipse_degrees",
-            "degrees",
-            "Direction of its longer axis, 0–180° from +x towards +y (down in a picture).",
-        ),
-        column(
-            "note",
-            "text",
-            "Why there is no map or region, or that the region is cut by the edge of the map.",
-        ),
-    ],
-};
+/// Returns `fourier_map.csv`; without rows where the image has no ring.
+///
+/// # Errors
+/// If it cannot be written as CSV.
+pub fn fourier_map_csv(map: Option<&FourierMap>, um_per_px: Option<f64>) -> Result<Vec<u8>, ReportError> {
+    let rows = map.into_iter().flat_map(|map| {
+        let places = map.y.iter().flat_map(|&y| map.x.iter().map(move |&x| Point::new(x, y)));
+        places.map(move |at| FourierRow {
+            at,
+            spacing: map.spacing.at(at),
+            confidence: map.confidence_at(at),
+            um_per_px,
+        })
+    });
+    FOURIER_MAP.csv(rows)
+}

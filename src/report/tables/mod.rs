@@ -1,66 +1,54 @@
-//! The columns of every table that is written beside `summary.csv`: what each is and in which unit. Their headers and the
-//! data dictionary come from here, those of series that the program makes as it goes are held to it by tests.
+//! Every table that is written as CSV beside `summary.csv`: its columns, and for each of them name, unit,
+//! edge rule, definition, source and value. Header, rows and the data dictionary come from one list.
+//!
+//! A new column is one [`column`] in the list of its table.
 
 mod agreement;
-mod batch;
+mod column;
 mod comparison;
+mod correlation;
+mod failures;
 mod functions;
+mod groups;
+mod landmarks;
 mod maps;
+mod paper;
 mod points;
+mod rois;
+mod table;
+#[cfg(test)]
+mod tests;
 mod validation;
 
-pub use agreement::{AGREEMENT, DIFFERENCES, UNPAIRED};
-pub use batch::{FAILURES, GROUPS, ROIS};
-pub use comparison::{ENVELOPE, FINDING, L_INFINITY, REGULARITY, VERDICTS};
-pub use functions::{DENSITY_RECOVERY, FUNCTIONS, PCF, SPECTRUM};
-pub use maps::{FOURIER_MAP, LANDMARKS, MAPS, PROFILES};
-pub use points::{DETECTIONS, POINTS};
-pub use validation::{COMPARISON, FROC, RELIABILITY, SUBJECT_GROUPS, VALIDATION};
+pub use agreement::{AGREEMENT, AgreementRow, DIFFERENCES, DifferenceRow, UNPAIRED, UnpairedRow};
+pub use column::{Column, ColumnWords, EdgeRule, Part, Row, Value, column};
+pub use comparison::{FINDING, L_INFINITY, REGULARITY, VERDICTS, VerdictRow};
+pub use correlation::{ENVELOPE, EnvelopeRow, PCF, PcfRow, envelope_csv, pcf_csv};
+pub use failures::{FAILURES, Failure};
+pub use functions::{
+    AnnulusRow, DENSITY_RECOVERY, FUNCTIONS, FrequencyRow, FunctionsRow, SPECTRUM, density_recovery_csv,
+    functions_csv, spectrum_csv,
+};
+pub use groups::{GROUPS, GroupMember, GroupRow, groups_csv};
+pub use landmarks::LANDMARKS;
+pub use maps::{
+    DistanceRow, FOURIER_MAP, FourierRow, MAPS, MapRow, PROFILES, fourier_map_csv, maps_csv, profiles_csv,
+};
+pub use paper::{
+    BandwidthRow, CurveRow, PAPER_BANDWIDTHS, PAPER_PCF, PAPER_SPECTRA, PAPER_TABLE_1, PAPER_TABLE_2,
+    PAPER_TRIANGLE, PaperDistance, SamplerCurve, TriangleRow, curves_csv,
+};
+pub use points::{DETECTIONS, DetectedCone, POINTS, PointRow, points_csv};
+pub use rois::{ROIS, RoiRow, rois_csv};
+pub(super) use table::sheet;
+pub use table::{Described, Layout, Table, TableWords};
+pub use validation::{
+    COMPARISON, FROC, RELIABILITY, SUBJECT_GROUPS, VALIDATION, ValidationRow, VersusRow, froc_csv,
+    validation_csv,
+};
 
-/// A table beside the summary.
-pub struct OutputTable {
-    /// Name of the file; `NAME` stands for that of an image or file of coordinates.
-    pub file: &'static str,
-    /// Which commands write it.
-    pub commands: &'static str,
-    /// What a row is, the edge rule, whose definition it is.
-    pub about: &'static str,
-    /// Its columns. In names, `SAMPLER` stands for that of each sampler.
-    pub columns: &'static [TableColumn],
-}
-
-/// A column of a table.
-pub struct TableColumn {
-    /// As in the header.
-    pub name: &'static str,
-    /// Its unit; “unit” is that of the coordinates.
-    pub unit: &'static str,
-    /// What it is; when it is not defined.
-    pub definition: &'static str,
-}
-
-const fn column(name: &'static str, unit: &'static str, definition: &'static str) -> TableColumn {
-    TableColumn { name, unit, definition }
-}
-
-impl OutputTable {
-    /// Names of the columns, those of `SAMPLER` once a sampler.
-    pub fn header_of(&self, samplers: &[String]) -> Vec<String> {
-        let names = |c: &TableColumn| match c.name.contains("SAMPLER") {
-            true => samplers.iter().map(|s| c.name.replace("SAMPLER", s)).collect(),
-            false => vec![c.name.to_owned()],
-        };
-        self.columns.iter().flat_map(names).collect()
-    }
-
-    /// Names of the columns.
-    pub fn header(&self) -> Vec<String> {
-        self.columns.iter().map(|c| c.name.to_owned()).collect()
-    }
-}
-
-/// All of them, in the order in which a user meets them.
-pub static TABLES: [&OutputTable; 26] = [
+/// All tables, in the order in which a user meets them.
+pub static TABLES: [&dyn Described; 32] = [
     &DETECTIONS,
     &PCF,
     &POINTS,
@@ -87,4 +75,10 @@ pub static TABLES: [&OutputTable; 26] = [
     &AGREEMENT,
     &DIFFERENCES,
     &UNPAIRED,
+    &PAPER_TABLE_1,
+    &PAPER_TABLE_2,
+    &PAPER_TRIANGLE,
+    &PAPER_BANDWIDTHS,
+    &PAPER_PCF,
+    &PAPER_SPECTRA,
 ];

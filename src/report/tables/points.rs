@@ -1,55 +1,130 @@
-use super::{OutputTable, column};
+use super::EdgeRule::{All, Bound};
+use super::{Part, Row, Table, column};
+use crate::geometry::Point;
+use crate::mosaic::Mosaic;
+use crate::report::ReportError;
+use crate::stats::{Cell as VoronoiCell, Measures};
 
-/// Cones that the detector found.
-pub static DETECTIONS: OutputTable = OutputTable {
+/// A cone that the detector found.
+#[derive(Clone, Copy, Debug)]
+pub struct DetectedCone {
+    /// Its centre, px.
+    pub centre: Point,
+    /// Probability that a person would mark it.
+    pub score: f64,
+    /// Micrometres per pixel, if known.
+    pub um_per_px: Option<f64>,
+}
+
+impl Row for DetectedCone {
+    type Of<'a> = Self;
+}
+
+/// Columns of detected cones. The files are written as coordinates, by
+/// [`write_points`](crate::mosaic::io::write_points), to which a test holds this.
+pub static DETECTIONS: Table<DetectedCone> = Table {
     file: "points.csv",
-    commands: "run (images/NAME/points.csv), detect (NAME.csv; NAME.rejected.csv: candidates that were rejected)",
-    about: "A row a cone, the best score first.",
+    commands: "run (images/NAME/points.csv), detect (NAME.csv; NAME.rejected.csv: candidates that \
+        were rejected)",
+    about: "One row per cone, the best score first.",
     columns: &[
-        column("x_px", "px", "To the right from the centre of the first pixel."),
-        column("y_px", "px", "Down from the centre of the first pixel."),
-        column("score", "0–1", "Probability that a person would mark it (cross-validated calibration)."),
-        column("x_um", "µm", "The same as x_px, on the retina; without a scale there is no such column."),
-        column("y_um", "µm", "The same as y_px, on the retina; without a scale there is no such column."),
+        column("x_px", "px", "To the right from the centre of the first pixel.").of(|d| d.centre.x.into()),
+        column("y_px", "px", "Down from the centre of the first pixel.").of(|d| d.centre.y.into()),
+        column("score", "0–1", "Probability that a person would mark it (cross-validated calibration).")
+            .of(|d| d.score.into()),
+        column("x_um", "µm", "x_px in µm of retina; without a scale there is no such column.")
+            .only(Part::Scaled)
+            .of(|d| d.um_per_px.map(|um| d.centre.x * um).into()),
+        column("y_um", "µm", "y_px in µm of retina; without a scale there is no such column.")
+            .only(Part::Scaled)
+            .of(|d| d.um_per_px.map(|um| d.centre.y * um).into()),
     ],
 };
 
-/// What every point of a mosaic is.
-pub static POINTS: OutputTable = OutputTable {
+/// A point of a mosaic, by its index.
+#[derive(Clone, Copy, Debug)]
+pub struct PointRow<'a> {
+    index: usize,
+    point: Point,
+    cell: VoronoiCell,
+    measures: &'a Measures,
+}
+
+impl Row for PointRow<'static> {
+    type Of<'a> = PointRow<'a>;
+}
+
+impl PointRow<'_> {
+    /// Returns the value of this point in a series.
+    fn of<T: Copy>(&self, series: &[T]) -> Option<T> {
+        series.get(self.index).copied()
+    }
+}
+
+/// Neighbours and Voronoi cell of every point of a mosaic.
+pub static POINTS: Table<PointRow> = Table {
     file: "NAME.points.csv",
     commands: "measure --functions",
-    about: "A row a point of the window, in the order of the file. A cell is empty where it is not defined: no neighbour, an infinite \
-            Voronoi cell, a point that coincides with an earlier one.",
+    about: "One row per point of the window, in the order of the file. A cell is empty where it is \
+            not defined: no neighbour, an infinite Voronoi cell, a point that coincides with an \
+            earlier one.",
     columns: &[
-        column("x", "unit", "Its place."),
-        column("y", "unit", "Its place."),
-        column("nndist", "unit", "Distance to the nearest neighbour."),
-        column("nnwhich", "row", "The nearest neighbour, rows counted from 1."),
-        column("bdist", "unit", "Distance to the border of the window; infinite on a torus."),
-        column("dirichlet_area", "unit²", "Area of the Voronoi cell within the window."),
-        column("cell_area", "unit²", "Area of the whole Voronoi cell; empty where it is infinite."),
-        column("sides", "count", "Sides of the Voronoi cell."),
-        column(
-            "bound",
-            "0 or 1",
-            "Whether the cell is finite with every vertex strictly inside the window (Cooper et al. 2016).",
-        ),
-        column("icd", "unit", "Mean distance to the Delaunay neighbours."),
-        column("furthest", "unit", "Distance to the furthest Delaunay neighbour."),
+        column("x", "unit", "x of the point.").of(|p| p.point.x.into()),
+        column("y", "unit", "y of the point.").of(|p| p.point.y.into()),
+        column("nndist", "unit", "Distance to the nearest neighbour.")
+            .edge(All)
+            .of(|p| p.of(&p.measures.neighbours.distances).into()),
+        column("nnwhich", "row", "The nearest neighbour, rows counted from 1.")
+            .edge(All)
+            .of(|p| p.of(&p.measures.neighbours.indices).map(|j| j + 1).into()),
+        column("bdist", "unit", "Distance to the border of the window; infinite on a torus.")
+            .of(|p| p.of(&p.measures.borders).into()),
+        column("dirichlet_area", "unit²", "Area of the Voronoi cell within the window.")
+            .of(|p| p.cell.clipped_area.into()),
+        column("cell_area", "unit²", "Area of the whole Voronoi cell; empty where it is infinite.")
+            .edge(All)
+            .of(|p| p.cell.area.into()),
+        column("sides", "count", "Sides of the Voronoi cell.").edge(All).of(|p| p.cell.sides.into()),
+        column("bound", "0 or 1", "Whether the cell is finite with every vertex strictly inside the window.")
+            .source("Cooper et al. 2016")
+            .of(|p| usize::from(p.cell.bound).into()),
+        column("icd", "unit", "Mean distance to the Delaunay neighbours.")
+            .edge(All)
+            .of(|p| p.cell.inter_cell.into()),
+        column("furthest", "unit", "Distance to the furthest Delaunay neighbour.")
+            .edge(All)
+            .of(|p| p.cell.furthest.into()),
         column(
             "psi6",
             "0–1",
-            "|ψ6|, modulus of the mean of exp(6iθ) over Delaunay neighbours: 1 in a triangular lattice.",
-        ),
+            "|ψ6|, modulus of the mean of exp(6iθ) over Delaunay neighbours: 1 in a triangular \
+                lattice.",
+        )
+        .edge(All)
+        .of(|p| p.cell.psi6.map(|[re, im]| re.hypot(im)).into()),
         column(
             "nn_direction_deg",
             "degrees",
-            "Direction of the nearest neighbour as an axis, 0–180°, counter-clockwise from the right as one sees the picture.",
-        ),
+            "Direction of the nearest neighbour as an axis, 0–180°, counter-clockwise from the \
+                right as one sees the picture.",
+        )
+        .edge(All)
+        .of(|p| p.of(&p.measures.orientation.nearest.degrees).flatten().into()),
         column(
             "hexagon_direction_deg",
             "degrees",
             "Direction of the hexagon of neighbours, 0–60° likewise: phase of ψ6 over 6.",
-        ),
+        )
+        .edge(Bound)
+        .of(|p| p.of(&p.measures.orientation.hexagons).flatten().into()),
     ],
 };
+
+/// Returns `NAME.points.csv` of a mosaic.
+///
+/// # Errors
+/// If it cannot be written as CSV.
+pub fn points_csv(mosaic: &Mosaic, measures: &Measures) -> Result<Vec<u8>, ReportError> {
+    let cells = mosaic.points().iter().zip(&measures.cells.cells).enumerate();
+    POINTS.csv(cells.map(|(index, (&point, &cell))| PointRow { index, point, cell, measures }))
+}

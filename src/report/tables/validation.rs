@@ -1,120 +1,239 @@
-use super::{OutputTable, column};
+use super::{Layout, Part, Row, Table, column};
+use crate::compare::{Difference, Froc, FrocPoint, GroupSummary, JudgedImage, ReliabilityBin, Score};
+use crate::report::{Cell, ReportError};
+
+/// Points of a curve that are written.
+const CURVE_POINTS: usize = 1000;
+
+/// The score of one image.
+#[derive(Clone, Debug)]
+pub struct ValidationRow {
+    /// The file of marks, as given.
+    pub file: String,
+    /// The image's name.
+    pub name: String,
+    /// The group it belongs to.
+    pub group: Option<String>,
+    /// Agreement of detections and marks.
+    pub score: Score,
+    /// Every detection judged, where they have scores, and what the program's own detector rejected.
+    pub judged: Option<JudgedImage>,
+    /// False alarms that the scores lead to expect outside the border, Σ (1 − score), if all are between 0
+    /// and 1.
+    pub expected_false_alarms: Option<f64>,
+    /// The other detections, if two are compared.
+    pub versus: Option<VersusRow>,
+}
+
+/// The score of other detections on the same image.
+#[derive(Clone, Debug)]
+pub struct VersusRow {
+    /// They against the marks.
+    pub score: Score,
+    /// Every one of them judged, where they have scores.
+    pub judged: Option<JudgedImage>,
+    /// The detections against them, taken as marks.
+    pub between: Score,
+}
+
+impl Row for ValidationRow {
+    type Of<'a> = &'a Self;
+}
+
+fn versus(row: &ValidationRow, value: fn(&Score) -> f64) -> Cell {
+    row.versus.as_ref().map(|v| value(&v.score)).into()
+}
 
 /// Detections against marks.
-pub static VALIDATION: OutputTable = OutputTable {
+pub static VALIDATION: Table<ValidationRow> = Table {
     file: "validation.csv",
     commands: "validate",
-    about: "A row an image. Pairs, misses and false alarms count outside a border of the image only (Cunefare et al. 2017); the columns \
-            from versus_dice on are there where two detectors or graders are compared.",
+    about: "One row per image. Pairs, misses and false alarms count outside a border of the image \
+            only (Cunefare et al. 2017); the columns from versus_dice on are there where two \
+            detectors or graders are compared.",
     columns: &[
-        column("file", "text", "The detections or image, as given."),
-        column("name", "text", "Name of the image."),
-        column("group", "text", "Its group; empty without groups."),
-        column("tp", "count", "Hits: marks with a detection."),
-        column("fn", "count", "Misses: marks without."),
-        column("fp", "count", "False alarms: detections without a mark."),
-        column("sensitivity", "0–1", "tp/(tp + fn)."),
-        column("fdr", "0–1", "False discovery rate, fp/(tp + fp)."),
-        column("precision", "0–1", "tp/(tp + fp)."),
-        column("dice", "0–1", "Dice coefficient or F1, 2 tp/(2 tp + fn + fp)."),
-        column("localisation_px", "px", "Median distance of pairs."),
-        column("localisation_um", "µm", "The same; empty without a scale."),
-        column("localisation_s", "spacings", "The same, in hexagonal spacings of the marks."),
-        column("offset_x_px", "px", "Mean way from mark to detection, to the right."),
-        column("offset_y_px", "px", "Mean way from mark to detection, down."),
-        column("marks_inside", "count", "Marks outside the border."),
-        column("detections_inside", "count", "Detections outside the border."),
-        column("density_ratio", "ratio", "Detections over marks."),
-        column("area_px2", "px²", "Area of the image without its border."),
-        column("um_per_px", "µm/px", "Scale; empty if not known."),
+        column("file", "text", "The detections or image, as given.").of(|r| r.file.as_str().into()),
+        column("name", "text", "Name of the image.").of(|r| r.name.as_str().into()),
+        column("group", "text", "Its group; empty without groups.").of(|r| r.group.as_deref().into()),
+        column("tp", "count", "Hits: marks with a detection.").of(|r| r.score.rates.tp.into()),
+        column("fn", "count", "Misses: marks without.").of(|r| r.score.rates.fn_.into()),
+        column("fp", "count", "False alarms: detections without a mark.").of(|r| r.score.rates.fp.into()),
+        column("sensitivity", "0–1", "tp/(tp + fn).").of(|r| r.score.rates.sensitivity.into()),
+        column("fdr", "0–1", "False discovery rate, fp/(tp + fp).").of(|r| r.score.rates.fdr.into()),
+        column("precision", "0–1", "tp/(tp + fp).").of(|r| r.score.rates.precision.into()),
+        column("dice", "0–1", "Dice coefficient or F1, 2 tp/(2 tp + fn + fp).")
+            .of(|r| r.score.rates.dice.into()),
+        column("localisation_px", "px", "Median distance of pairs.").of(|r| r.score.localisation_px.into()),
+        column("localisation_um", "µm", "localisation_px in µm; empty without a scale.")
+            .of(|r| r.score.localisation_um().into()),
+        column("localisation_s", "spacings", "localisation_px in hexagonal spacings of the marks.")
+            .of(|r| r.score.localisation_s.into()),
+        column("offset_x_px", "px", "Mean way from mark to detection, to the right.")
+            .of(|r| r.score.offset_px.map(|o| o[0]).into()),
+        column("offset_y_px", "px", "Mean way from mark to detection, down.")
+            .of(|r| r.score.offset_px.map(|o| o[1]).into()),
+        column("marks_inside", "count", "Marks outside the border.").of(|r| r.score.marks_inside.into()),
+        column("detections_inside", "count", "Detections outside the border.")
+            .of(|r| r.score.detections_inside.into()),
+        column("density_ratio", "ratio", "Detections over marks.").of(|r| r.score.density_ratio.into()),
+        column("area_px2", "px²", "Area of the image without its border.").of(|r| r.score.area_px.into()),
+        column("um_per_px", "µm/px", "Scale; empty if not known.").of(|r| r.score.um_per_px.into()),
         column(
             "expected_false_alarms",
             "count",
             "Sum of 1 − score over the detections; empty where the program did not find them.",
-        ),
-        column("n_marks", "count", "Marks, border included."),
-        column("n_detections", "count", "Detections, border included."),
-        column("limit_px", "px", "Greatest distance of a pair."),
-        column("assignment", "text", "Who got whom where several were near."),
-        column("versus_dice", "0–1", "Dice coefficient of the second."),
-        column("versus_sensitivity", "0–1", "Sensitivity of the second."),
-        column("versus_fdr", "0–1", "False discovery rate of the second."),
-        column("versus_detections_inside", "count", "Detections of the second."),
-        column("between_dice", "0–1", "Dice coefficient of the two against each other."),
+        )
+        .of(|r| r.expected_false_alarms.into()),
+        column("n_marks", "count", "Marks, border included.").of(|r| r.score.n_marks.into()),
+        column("n_detections", "count", "Detections, border included.").of(|r| r.score.n_detections.into()),
+        column("limit_px", "px", "Greatest distance of a pair.").of(|r| r.score.limit_px.into()),
+        column("assignment", "text", "Who got whom where several were near.")
+            .of(|r| r.score.assignment.name().into()),
+        column("versus_dice", "0–1", "Dice coefficient of the second.")
+            .only(Part::Versus)
+            .of(|r| versus(r, |s| s.rates.dice)),
+        column("versus_sensitivity", "0–1", "Sensitivity of the second.")
+            .only(Part::Versus)
+            .of(|r| versus(r, |s| s.rates.sensitivity)),
+        column("versus_fdr", "0–1", "False discovery rate of the second.")
+            .only(Part::Versus)
+            .of(|r| versus(r, |s| s.rates.fdr)),
+        column("versus_detections_inside", "count", "Detections of the second.")
+            .only(Part::Versus)
+            .of(|r| r.versus.as_ref().map(|v| v.score.detections_inside).into()),
+        column("between_dice", "0–1", "Dice coefficient of the two against each other.")
+            .only(Part::Versus)
+            .of(|r| r.versus.as_ref().map(|v| v.between.rates.dice).into()),
     ],
 };
 
-/// By subject.
-pub static SUBJECT_GROUPS: OutputTable = OutputTable {
+/// Returns `validation.csv`; `two`: two detectors or graders are compared.
+///
+/// # Errors
+/// If it cannot be written as CSV.
+pub fn validation_csv(rows: &[ValidationRow], two: bool) -> Result<Vec<u8>, ReportError> {
+    let parts: &[Part] = if two { &[Part::Versus] } else { &[] };
+    VALIDATION.csv_as(&Layout { samplers: &[], parts }, rows)
+}
+
+impl Row for GroupSummary {
+    type Of<'a> = &'a Self;
+}
+
+/// Scores by group.
+pub static SUBJECT_GROUPS: Table<GroupSummary> = Table {
     file: "groups.csv",
     commands: "validate --group-by",
-    about: "A row a group (subject).",
+    about: "One row per group (subject).",
     columns: &[
-        column("group", "text", "The group."),
-        column("images", "count", "Images."),
-        column("tp", "count", "Hits of all images."),
-        column("fn", "count", "Misses of all images."),
-        column("fp", "count", "False alarms of all images."),
-        column("sensitivity", "0–1", "Mean over images."),
-        column("fdr", "0–1", "Mean over images."),
-        column("precision", "0–1", "Mean over images."),
-        column("dice", "0–1", "Mean over images."),
-        column("dice_sd", "0–1", "Standard deviation (n − 1) over images."),
-        column("pooled_dice", "0–1", "Of the counts of all images together."),
-        column("localisation_px", "px", "Mean over images of the median distance of pairs."),
-        column("localisation_um", "µm", "The same; empty without a scale."),
-        column("localisation_s", "spacings", "The same, in hexagonal spacings."),
-        column("count_bias", "count", "Mean over images of detections less marks."),
-        column("density_percent_bias", "%", "Mean over images of that difference over the mean of the two."),
+        column("group", "text", "The group.").of(|g| g.group.as_str().into()),
+        column("images", "count", "Images.").of(|g| g.summary.images.into()),
+        column("tp", "count", "Hits of all images.").of(|g| g.summary.pooled.tp.into()),
+        column("fn", "count", "Misses of all images.").of(|g| g.summary.pooled.fn_.into()),
+        column("fp", "count", "False alarms of all images.").of(|g| g.summary.pooled.fp.into()),
+        column("sensitivity", "0–1", "Mean over images.").of(|g| g.summary.sensitivity.into()),
+        column("fdr", "0–1", "Mean over images.").of(|g| g.summary.fdr.into()),
+        column("precision", "0–1", "Mean over images.").of(|g| g.summary.precision.into()),
+        column("dice", "0–1", "Mean over images.").of(|g| g.summary.dice.into()),
+        column("dice_sd", "0–1", "Standard deviation (n − 1) over images.").of(|g| g.dice_sd.into()),
+        column("pooled_dice", "0–1", "Of the counts of all images together.")
+            .of(|g| g.summary.pooled.dice.into()),
+        column("localisation_px", "px", "Mean over images of the median distance of pairs.")
+            .of(|g| g.summary.localisation_px.into()),
+        column("localisation_um", "µm", "localisation_px in µm; empty without a scale.")
+            .of(|g| g.summary.localisation_um.into()),
+        column("localisation_s", "spacings", "localisation_px in hexagonal spacings of the marks.")
+            .of(|g| g.summary.localisation_s.into()),
+        column("count_bias", "count", "Mean over images of detections less marks.")
+            .of(|g| g.summary.count.map(|a| a.bias).into()),
+        column(
+            "density_percent_bias",
+            "%",
+            "Mean over images of detections less marks, in per cent of the mean of the two.",
+        )
+        .of(|g| g.summary.density_percent.map(|a| a.bias).into()),
     ],
 };
 
-/// Every threshold of the score.
-pub static FROC: OutputTable = OutputTable {
+impl Row for FrocPoint {
+    type Of<'a> = Self;
+}
+
+/// Rates at every threshold of the score.
+pub static FROC: Table<FrocPoint> = Table {
     file: "froc.csv",
     commands: "validate",
-    about: "A row a threshold of the score (Bunch et al. 1978).",
+    about: "One row per threshold of the score (Bunch et al. 1978).",
     columns: &[
-        column("threshold", "score", "Least score of the detections that count."),
-        column("sensitivity", "0–1", "Hits over marks, all images pooled."),
-        column("precision", "0–1", "Hits over detections, all images pooled."),
-        column("dice", "0–1", "Dice coefficient, all images pooled."),
-        column("mean_dice", "0–1", "Mean of the images' Dice coefficients."),
-        column("false_alarms_per_image", "count", "Mean over images."),
-        column("false_alarms_per_mm2", "1/mm²", "Per area of retina; empty unless all scales are known."),
-        column("false_alarms_per_100_marks", "count", "All images pooled."),
+        column("threshold", "score", "Least score of the detections that count.").of(|p| p.threshold.into()),
+        column("sensitivity", "0–1", "Hits over marks, all images pooled.").of(|p| p.sensitivity.into()),
+        column("precision", "0–1", "Hits over detections, all images pooled.").of(|p| p.precision.into()),
+        column("dice", "0–1", "Dice coefficient, all images pooled.").of(|p| p.dice.into()),
+        column("mean_dice", "0–1", "Mean of the images' Dice coefficients.").of(|p| p.mean_dice.into()),
+        column("false_alarms_per_image", "count", "Mean over images.")
+            .of(|p| p.false_alarms_per_image.into()),
+        column("false_alarms_per_mm2", "1/mm²", "Per area of retina; empty unless all scales are known.")
+            .of(|p| p.false_alarms_per_mm2.into()),
+        column("false_alarms_per_100_marks", "count", "All images pooled.")
+            .of(|p| p.false_alarms_per_100_marks.into()),
     ],
 };
 
-/// Whether scores are probabilities.
-pub static RELIABILITY: OutputTable = OutputTable {
+/// Returns `froc.csv`, thinned to 1000 thresholds.
+///
+/// # Errors
+/// If it cannot be written as CSV.
+pub fn froc_csv(froc: &Froc) -> Result<Vec<u8>, ReportError> {
+    FROC.csv(froc.thinned(CURVE_POINTS))
+}
+
+impl Row for ReliabilityBin {
+    type Of<'a> = &'a Self;
+}
+
+/// Reliability of scores as probabilities.
+pub static RELIABILITY: Table<ReliabilityBin> = Table {
     file: "reliability.csv",
     commands: "validate",
-    about: "A row a tenth of the range of scores.",
+    about: "One row per tenth of the range of scores.",
     columns: &[
-        column("score_from", "0–1", "Least score of the bin."),
-        column("score_to", "0–1", "Its upper end."),
-        column("n", "count", "Detections in it."),
-        column("mean_score", "0–1", "Their mean score."),
-        column("hits", "0–1", "Share of them that are hits."),
-        column("hits_low", "0–1", "Its 95 % interval (Wilson 1927), detections taken as independent."),
-        column("hits_high", "0–1", "Its 95 % interval."),
+        column("score_from", "0–1", "Least score of the bin.").of(|b| b.from.into()),
+        column("score_to", "0–1", "Its upper end.").of(|b| b.to.into()),
+        column("n", "count", "Detections in it.").of(|b| b.n.into()),
+        column("mean_score", "0–1", "Their mean score.").of(|b| b.mean_score.into()),
+        column("hits", "0–1", "Share of them that are hits.").of(|b| b.hits.into()),
+        column("hits_low", "0–1", "Lower end of the 95 % interval of hits, detections taken as independent.")
+            .source("Wilson 1927")
+            .of(|b| b.hits_interval.map(|i| i[0]).into()),
+        column("hits_high", "0–1", "Upper end of that interval.")
+            .source("Wilson 1927")
+            .of(|b| b.hits_interval.map(|i| i[1]).into()),
     ],
 };
 
-/// Two detectors or graders.
-pub static COMPARISON: OutputTable = OutputTable {
+impl Row for Difference {
+    type Of<'a> = &'a Self;
+}
+
+/// Paired differences of two detectors or graders.
+pub static COMPARISON: Table<Difference> = Table {
     file: "comparison.csv",
     commands: "validate --versus",
-    about: "A row a measure: the same images by two detectors or graders.",
+    about: "One row per measure: the same images by two detectors or graders.",
     columns: &[
-        column("measure", "text", "What is compared."),
-        column("images", "count", "Images for which both have a value."),
-        column("first", "of the measure", "Mean over images of the first."),
-        column("second", "of the measure", "Mean over images of the second."),
-        column("difference", "of the measure", "Mean of first − second of the same image."),
-        column("low", "of the measure", "Its 95 % interval (BCa bootstrap; Efron 1987)."),
-        column("high", "of the measure", "Its 95 % interval."),
-        column("p", "0–1", "p-value of the paired sign-flip test that the mean difference is zero."),
+        column("measure", "text", "What is compared.").of(|d| d.measure.into()),
+        column("images", "count", "Images for which both have a value.").of(|d| d.images.into()),
+        column("first", "of the measure", "Mean over images of the first.").of(|d| d.first.into()),
+        column("second", "of the measure", "Mean over images of the second.").of(|d| d.second.into()),
+        column("difference", "of the measure", "Mean of first − second of the same image.")
+            .of(|d| d.difference.into()),
+        column("low", "of the measure", "Lower end of the 95 % interval of difference (BCa bootstrap).")
+            .source("Efron 1987")
+            .of(|d| d.interval.map(|i| i[0]).into()),
+        column("high", "of the measure", "Upper end of that interval.")
+            .source("Efron 1987")
+            .of(|d| d.interval.map(|i| i[1]).into()),
+        column("p", "0–1", "p-value of the paired sign-flip test that the mean difference is zero.")
+            .of(|d| d.p.into()),
     ],
 };

@@ -67,7 +67,8 @@ pub fn maps(mosaic: &Mosaic, measures: &Measures, options: &MapOptions) -> Resul
     options.validate()?;
     let (points, window) = (mosaic.points(), mosaic.window());
     let (cells, neighbours) = (&measures.cells, &measures.neighbours);
-    let local = local::local_values(points, window, cells, neighbours, options.window, measures.deviation);
+    let local =
+        local::local_values(points, window, cells, neighbours, options.window, measures.summary.deviation);
     let surface = Surface::new(points, window);
     let map = |value: fn(&LocalValues) -> Option<f64>| -> Vec<Option<f64>> {
         local.iter().map(|v| if v.flag == LocalFlag::Whole { value(v) } else { None }).collect()

@@ -1,0 +1,87 @@
+use super::MetricGroup::Detection;
+use super::Quantity::Plain;
+use super::{Metric, metric};
+use crate::report::tables::{Part, column};
+
+pub(super) const DETECTION: &[Metric] = &[
+    metric(
+        Detection,
+        Plain,
+        column("detector", "text", "Filters that found the cones: classical or learned.")
+            .only(Part::Images)
+            .of(|s| s.image().map(|r| r.detection.detector.name()).into()),
+    ),
+    metric(
+        Detection,
+        Plain,
+        column(
+            "modality_confidence",
+            "0–1",
+            "Probability that the modality is the true one; 1 if it was given.",
+        )
+        .only(Part::Images)
+        .of(|s| s.image().map(|r| r.detection.modality_confidence).into()),
+    ),
+    metric(
+        Detection,
+        Plain,
+        column("polarity", "text", "Which way round the contrast was taken to run.")
+            .only(Part::Images)
+            .of(|s| s.image().map(|r| r.detection.polarity.name()).into()),
+    ),
+    metric(
+        Detection,
+        Plain,
+        column(
+            "expected_false_alarms",
+            "count",
+            "How many of the cones are expected to be none: sum of 1 − score.",
+        )
+        .only(Part::Images)
+        .of(|s| s.image().map(|r| r.detection.expected_false_alarms).into()),
+    ),
+    metric(
+        Detection,
+        Plain,
+        column(
+            "expected_misses",
+            "count",
+            "How many cones are expected among the candidates that were rejected: sum of their \
+                scores.",
+        )
+        .only(Part::Images)
+        .of(|s| s.image().map(|r| r.detection.expected_misses).into()),
+    ),
+    metric(
+        Detection,
+        Plain,
+        column("expected_error_rate", "0–1", "Both of these over the cones found.")
+            .only(Part::Images)
+            .of(|s| s.image().map(|r| r.detection.expected_error_rate()).into()),
+    ),
+    metric(
+        Detection,
+        Plain,
+        column(
+            "spacing_confidence",
+            "0–1",
+            "Probability that the spacing the detector worked with is within 15 % of the true one.",
+        )
+        .only(Part::Images)
+        .of(|s| s.image().map(|r| r.detection.spacing_confidence).into()),
+    ),
+    metric(
+        Detection,
+        Plain,
+        column("spacing_min_px", "px", "Closest spacing the detector worked with, from place to place.")
+            .only(Part::Images)
+            .of(|s| s.image().map(|r| r.detection.spacing_range_px[0]).into()),
+    ),
+    metric(
+        Detection,
+        Plain,
+        column("spacing_max_px", "px", "Widest spacing the detector worked with, from place to place.")
+            .only(Part::Images)
+            .of(|s| s.image().map(|r| r.detection.spacing_range_px[1]).into()),
+    ),
+];

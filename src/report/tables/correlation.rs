@@ -1,0 +1,163 @@
+use super::EdgeRule::Own;
+use super::{Layout, Part, Row, Table, column};
+use crate::compare::{ReferenceCurve, SamplerVerdict};
+use crate::report::ReportError;
+use crate::stats::{Inhomogeneous, Measures, Pcf};
+
+/// A distance at which pair correlation functions are given.
+#[derive(Clone, Copy, Debug)]
+pub struct PcfRow<'a> {
+    index: usize,
+    pcf: &'a Pcf,
+    varying: Option<&'a Inhomogeneous>,
+    curves: &'a [ReferenceCurve],
+}
+
+impl Row for PcfRow<'static> {
+    type Of<'a> = PcfRow<'a>;
+}
+
+impl<'a> PcfRow<'a> {
+    fn varying(&self, series: fn(&Inhomogeneous) -> &Vec<f64>) -> Option<f64> {
+        self.varying.and_then(|found| series(found).get(self.index).copied())
+    }
+
+    fn of_sampler(&self, sampler: &str) -> Option<f64> {
+        let curve = self.curves.iter().find(|c| c.sampler == sampler)?;
+        curve.pcf.g.get(self.index).copied()
+    }
+}
+
+/// Pair correlation functions.
+pub static PCF: Table<PcfRow> = Table {
+    file: "NAME.pcf.csv",
+    commands: "measure, compare, run (images/NAME/pcf.csv)",
+    about: "One row per distance; no rows where the function is not defined. Edge rule as chosen \
+            by --edge, by default division by the set covariance of the window (Lanaro et al. \
+            2020).",
+    columns: &[
+        column(
+            "r",
+            "spacings",
+            "Left edge of the bin, in hexagonal spacings of the mosaic's density; g is its mean \
+                over the bin.",
+        )
+        .of(|p| p.pcf.r.get(p.index).copied().into()),
+        column(
+            "g",
+            "ratio",
+            "Pair correlation function: pairs at this distance over those of independent points.",
+        )
+        .edge(Own)
+        .of(|p| p.pcf.g.get(p.index).copied().into()),
+        column(
+            "g_inhomogeneous",
+            "ratio",
+            "The same for a density that varies, only where the trend is \
+                significant.",
+        )
+        .edge(Own)
+        .source("Baddeley et al. 2000")
+        .only(Part::Varying)
+        .of(|p| p.varying(|f| &f.g).into()),
+        column(
+            "g_locally_scaled",
+            "ratio",
+            "The same with distances in local spacings, only where the trend is \
+                significant.",
+        )
+        .edge(Own)
+        .source("Hahn et al. 2003")
+        .only(Part::Varying)
+        .of(|p| p.varying(|f| &f.g_scaled).into()),
+        column(
+            "k_inhomogeneous",
+            "spacings²",
+            "K for a density that varies, only where the trend is \
+                significant.",
+        )
+        .edge(Own)
+        .source("Baddeley et al. 2000")
+        .only(Part::Varying)
+        .of(|p| p.varying(|f| &f.k).into()),
+        column(
+            "g_SAMPLER",
+            "ratio",
+            "Mean g of samples of as many points in the same window; one column per sampler \
+                compared with.",
+        )
+        .edge(Own)
+        .per_sampler(|p, sampler| p.of_sampler(sampler).into()),
+    ],
+};
+
+/// Returns `NAME.pcf.csv` of a mosaic beside the mean curves of samplers; without rows where the function
+/// is not defined.
+///
+/// # Errors
+/// If it cannot be written as CSV.
+pub fn pcf_csv(measures: &Measures, curves: &[ReferenceCurve]) -> Result<Vec<u8>, ReportError> {
+    let samplers: Vec<String> = curves.iter().map(|c| c.sampler.clone()).collect();
+    let varying = measures.inhomogeneous.as_ref();
+    let parts = varying.map(|_| Part::Varying);
+    let rows = measures
+        .pcf
+        .iter()
+        .flat_map(|pcf| (0..pcf.r.len()).map(move |index| PcfRow { index, pcf, varying, curves }));
+    PCF.csv_as(&Layout { samplers: &samplers, parts: parts.as_slice() }, rows)
+}
+
+/// A distance at which a mosaic's pair correlation function and envelopes are given.
+#[derive(Clone, Copy, Debug)]
+pub struct EnvelopeRow<'a> {
+    index: usize,
+    pcf: &'a Pcf,
+    verdicts: &'a [SamplerVerdict],
+}
+
+impl Row for EnvelopeRow<'static> {
+    type Of<'a> = EnvelopeRow<'a>;
+}
+
+impl EnvelopeRow<'_> {
+    fn of_sampler(&self, sampler: &str, series: fn(&SamplerVerdict) -> &Vec<f64>) -> Option<f64> {
+        let verdict = self.verdicts.iter().find(|v| v.sampler == sampler)?;
+        series(verdict).get(self.index).copied()
+    }
+}
+
+/// Global envelopes of the pair correlation function.
+pub static ENVELOPE: Table<EnvelopeRow> = Table {
+    file: "NAME.envelope.csv",
+    commands: "compare, run --verdict (images/NAME/envelope.csv)",
+    about: "One row per distance; three columns per sampler.",
+    columns: &[
+        column("r", "spacings", "Left edge of the bin, in hexagonal spacings of the mosaic's density.")
+            .of(|e| e.pcf.r.get(e.index).copied().into()),
+        column("g", "ratio", "Pair correlation function of the mosaic.")
+            .edge(Own)
+            .of(|e| e.pcf.g.get(e.index).copied().into()),
+        column("mean_SAMPLER", "ratio", "Mean of the simulations.")
+            .edge(Own)
+            .per_sampler(|e, sampler| e.of_sampler(sampler, |v| &v.envelope.mean).into()),
+        column("low_SAMPLER", "ratio", "Lower edge of the global envelope.")
+            .edge(Own)
+            .per_sampler(|e, sampler| e.of_sampler(sampler, |v| &v.envelope.low).into()),
+        column("high_SAMPLER", "ratio", "Upper edge of the global envelope.")
+            .edge(Own)
+            .per_sampler(|e, sampler| e.of_sampler(sampler, |v| &v.envelope.high).into()),
+    ],
+};
+
+/// Returns `NAME.envelope.csv` of a mosaic; without rows where its function is not defined.
+///
+/// # Errors
+/// If it cannot be written as CSV.
+pub fn envelope_csv(measures: &Measures, verdicts: &[SamplerVerdict]) -> Result<Vec<u8>, ReportError> {
+    let samplers: Vec<String> = verdicts.iter().map(|v| v.sampler.clone()).collect();
+    let rows = measures
+        .pcf
+        .iter()
+        .flat_map(|pcf| (0..pcf.r.len()).map(move |index| EnvelopeRow { index, pcf, verdicts }));
+    ENVELOPE.csv_as(&Layout { samplers: &samplers, parts: &[] }, rows)
+}
