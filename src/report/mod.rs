@@ -2,29 +2,21 @@
 
 mod cell;
 mod csv;
-mod document;
 mod error;
 mod figure;
 mod finding;
-mod grey;
-mod ink;
 mod landmarks;
 mod metrics;
-mod overlay;
 mod page;
 mod paper;
-mod paper_page;
+mod picture;
 mod record;
-mod spectrum;
-mod table;
 pub mod tables;
-mod validation;
-mod validation_page;
+mod text;
 mod verdict;
 
 pub use cell::Cell;
 pub use csv::write_csv;
-pub use document::{Document, Headline, Section};
 pub use error::ReportError;
 pub use figure::{
     AgreementLine, AgreementPanel, Curve, EnvelopePanel, FrocLine, MosaicFigure, ReferenceLine,
@@ -37,17 +29,19 @@ pub use metrics::{
     EdgeRule, Metric, MetricGroup, MetricSelection, Quantity, Subject, Summary, SummaryKind, dictionary,
     dictionary_table, dictionary_text, metrics,
 };
-pub use overlay::{MarkKind, OverlayMark, encode_png, overlay, overlay_with_border};
-pub use page::{expected_errors, page};
+pub use page::{
+    Document, Headline, ScoredImage, Section, ValidationPage, expected_errors, page, validation_page,
+};
 pub use paper::PaperResults;
+pub use picture::{
+    MarkKind, OverlayMark, PowerScale, encode_png, overlay, overlay_with_border, spectrum_png,
+};
 pub use record::{
     CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord, OrientationRecord, RecoveryRecord,
     SamplerDistance, by_need,
 };
-pub use spectrum::{PowerScale, spectrum_png};
-pub use table::{counted, significant, table};
-pub use validation::{
-    TextTable, accuracy_table, agreement_table, comparison_table, group_table, threshold_table,
+pub use text::{
+    TextTable, accuracy_table, agreement_table, comparison_table, counted, group_table, significant, table,
+    threshold_table,
 };
-pub use validation_page::{ScoredImage, ValidationPage, validation_page};
 pub use verdict::VerdictRecord;

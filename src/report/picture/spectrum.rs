@@ -1,5 +1,5 @@
-use super::ReportError;
 use super::grey::png;
+use crate::report::ReportError;
 use crate::stats::PowerSpectrum;
 use image::ExtendedColorType;
 

@@ -1,4 +1,4 @@
-use super::{significant, table};
+use super::table::{significant, table};
 use crate::compare::{
     Agreement, Difference, Froc, GroupSummary, Interval, MeanOverGroups, Reliability, Summary,
 };
