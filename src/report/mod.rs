@@ -1,6 +1,7 @@
 //! Tables and figures. Does not know how the numbers were made.
 
 mod cell;
+mod convert;
 mod csv;
 mod error;
 mod figure;
@@ -16,25 +17,26 @@ mod text;
 mod verdict;
 
 pub use cell::Cell;
+pub use convert::{FigureFormat, convert};
 pub use csv::write_csv;
 pub use error::ReportError;
 pub use figure::{
     AgreementLine, AgreementPanel, Curve, EnvelopePanel, FrocLine, MosaicFigure, ReferenceLine,
     ReliabilityFigure, SamplerPanel, agreement_figure, envelope_figure, froc_figure, maps_figure,
-    mosaic_figure, reliability_figure, samplers_figure,
+    mosaic_figure, reliability_figure, samplers_figure, spectrum_figure, spectrum_png,
 };
 pub use finding::FindingRecord;
 pub use landmarks::LandmarkRecord;
 pub use metrics::{
-    EdgeRule, Metric, MetricGroup, MetricSelection, Quantity, Subject, Summary, SummaryKind, dictionary,
-    dictionary_table, dictionary_text, metrics,
+    EdgeRule, Metric, MetricGroup, MetricSelection, Quantity, Subject, Summary, SummaryKind, column_in_words,
+    dictionary, dictionary_table, dictionary_text, metrics,
 };
 pub use page::{
     Document, Headline, ScoredImage, Section, ValidationPage, expected_errors, page, validation_page,
 };
 pub use paper::PaperResults;
 pub use picture::{
-    MarkKind, OverlayMark, PowerScale, encode_png, overlay, overlay_with_border, spectrum_png,
+    MarkKind, OverlayMark, PowerScale, encode_png, overlay, overlay_with_border, spectrum_plane,
 };
 pub use record::{
     CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord, OrientationRecord, RecoveryRecord,

@@ -10,11 +10,13 @@ mod order;
 mod selection;
 mod summary;
 mod unit;
+mod words;
 
 pub use dictionary::{dictionary, dictionary_table, dictionary_text};
 pub use metric::{EdgeRule, Metric, MetricGroup, Quantity, Subject, SummaryKind};
 pub use selection::MetricSelection;
 pub use summary::Summary;
+pub use words::column_in_words;
 
 /// All metrics, in the order of the columns.
 pub fn metrics() -> impl Iterator<Item = &'static Metric> {

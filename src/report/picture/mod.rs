@@ -8,4 +8,5 @@ mod spectrum;
 pub(super) use grey::{png, stretched};
 pub(super) use ink::Shape;
 pub use overlay::{MarkKind, OverlayMark, encode_png, overlay, overlay_with_border};
-pub use spectrum::{PowerScale, spectrum_png};
+pub(super) use spectrum::{Plane, plane};
+pub use spectrum::{PowerScale, spectrum_plane};
