@@ -1,8 +1,9 @@
-use super::BatchError;
 use super::outputs::OutputFolder;
 use super::readings::{Readings, chosen_columns};
-use crate::compare::{Agreement, Intraclass, agreement, intraclass};
-use crate::report::{AgreementLine, AgreementPanel, Cell, agreement_figure, tables};
+use super::{BatchError, Grouping};
+use crate::compare::{ClusteredAgreement, Intraclass, agreement_of_clusters, clusters, intraclass};
+use crate::report::{AgreementLine, AgreementPanel, Cell, agreement_figure, column_in_words, tables};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// How two graders agree in one column.
@@ -15,8 +16,8 @@ pub struct ColumnAgreement {
     /// Of every image that both have: its name and both values.
     pub pairs: Vec<(String, [f64; 2])>,
     /// Bias and limits of agreement.
-    pub agreement: Agreement,
-    /// Intraclass correlation of the two.
+    pub agreement: ClusteredAgreement,
+    /// Intraclass correlation of the two; its interval takes images as independent.
     pub intraclass: Option<Intraclass>,
 }
 
@@ -29,6 +30,25 @@ pub struct AgreementOutcome {
     pub overall: Vec<(String, Intraclass)>,
     /// Images that not all graders have, and those who lack them.
     pub unpaired: Vec<(String, String)>,
+    /// Whether images were grouped, so that those of a group do not count as independent.
+    pub grouped: bool,
+}
+
+impl AgreementOutcome {
+    /// Returns what a reader of the numbers must know of their intervals, in words.
+    pub fn method(&self) -> String {
+        let Some(first) = self.columns.first() else { return String::new() };
+        let (images, groups) = (first.agreement.agreement.n, first.agreement.clusters);
+        if !self.grouped {
+            return "Intervals take images as independent: if subjects have several, say which belong together."
+                .to_owned();
+        }
+        format!(
+            "{images} images of {groups} groups: bias and limits of agreement respect that images of a group err alike \
+             (Bland & Altman 2007; intervals of the limits: Zou 2013). Intervals of intraclass correlations are left out: \
+             they would take images as independent."
+        )
+    }
 }
 
 /// What figures show, the first of each row that there is.
@@ -41,12 +61,15 @@ const SHOWN: [&[&str]; 2] =
 /// Writes `agreement.csv` (one row a column and pair of graders; with more than two a row over all), `differences.csv` (one row an
 /// image), `unpaired.csv` (images that somebody lacks) and `agreement.svg`.
 ///
+/// With `grouping`, images of a group (those of a subject) do not count as independent.
+///
 /// # Errors
-/// If there are fewer than two tables, one cannot be read or has no column that names images, an image stands in it twice, a column
+/// If an image has no group, or there are fewer than two tables, one cannot be read or has no column that names images, an image stands in it twice, a column
 /// asked for is missing, nothing can be paired, or `out` cannot be written to.
 pub fn agree_files(
     files: &[PathBuf],
     columns: &[String],
+    grouping: Option<&Grouping>,
     out: &Path,
 ) -> Result<AgreementOutcome, BatchError> {
     if files.len() < 2 {
@@ -65,6 +88,7 @@ pub fn agree_files(
     let mut items: Vec<&String> = readings.iter().flat_map(|r| r.items.keys()).collect();
     items.sort_unstable();
     items.dedup();
+    let groups = groups_of(&items, grouping)?;
     let unpaired: Vec<(String, String)> = items
         .iter()
         .filter_map(|item| {
@@ -83,7 +107,11 @@ pub fn agree_files(
                 };
                 let pairs: Vec<(String, [f64; 2])> = items.iter().filter_map(both).collect();
                 let differences: Vec<f64> = pairs.iter().map(|(_, [a, b])| a - b).collect();
-                let Some(agreement) = agreement(&differences) else { continue };
+                let of_pairs: Vec<Option<&str>> =
+                    pairs.iter().map(|(item, _)| groups.get(item.as_str()).map(String::as_str)).collect();
+                let Some(agreement) = agreement_of_clusters(&differences, &clusters(&of_pairs)) else {
+                    continue;
+                };
                 let rows: Vec<Vec<f64>> = pairs.iter().map(|(_, values)| values.to_vec()).collect();
                 found.push(ColumnAgreement {
                     column: column.clone(),
@@ -108,19 +136,31 @@ pub fn agree_files(
             labels.join(" and ")
         )));
     }
-    let outcome = AgreementOutcome { columns: found, overall, unpaired };
+    let outcome = AgreementOutcome { columns: found, overall, unpaired, grouped: grouping.is_some() };
     write(&out, &outcome)?;
     Ok(outcome)
+}
+
+/// Returns the group of every image, by its name; empty without a rule.
+fn groups_of<'a>(
+    items: &[&'a String],
+    grouping: Option<&Grouping>,
+) -> Result<BTreeMap<&'a str, String>, BatchError> {
+    let Some(grouping) = grouping else { return Ok(BTreeMap::new()) };
+    let group = |item: &&'a String| Ok((item.as_str(), grouping.group_of(item).map_err(BatchError::Tables)?));
+    items.iter().map(group).collect()
 }
 
 fn interval(i: Option<[f64; 2]>) -> [Cell; 2] {
     [i.map(|i| i[0]).into(), i.map(|i| i[1]).into()]
 }
 
-fn reliability(icc: Option<&Intraclass>) -> Vec<Cell> {
+fn reliability(icc: Option<&Intraclass>, grouped: bool) -> Vec<Cell> {
     let of = |value: fn(&Intraclass) -> Option<f64>| Cell::from(icc.and_then(value));
-    let [agreement_low, agreement_high] = interval(icc.and_then(|i| i.agreement_interval));
-    let [consistency_low, consistency_high] = interval(icc.and_then(|i| i.consistency_interval));
+    // these intervals would take the images of a group as independent
+    let known = icc.filter(|_| !grouped);
+    let [agreement_low, agreement_high] = interval(known.and_then(|i| i.agreement_interval));
+    let [consistency_low, consistency_high] = interval(known.and_then(|i| i.consistency_interval));
     vec![
         of(|i| i.agreement),
         agreement_low,
@@ -142,25 +182,27 @@ fn write(out: &OutputFolder, outcome: &AgreementOutcome) -> Result<(), BatchErro
             c.column.as_str().into(),
             c.graders[0].as_str().into(),
             c.graders[1].as_str().into(),
-            c.agreement.n.into(),
+            c.agreement.agreement.n.into(),
             mean(0).into(),
             mean(1).into(),
-            c.agreement.bias.into(),
+            c.agreement.agreement.bias.into(),
         ];
-        row.extend(interval(c.agreement.bias_interval()));
-        row.push(c.agreement.sd.into());
-        let (limits, intervals) = (c.agreement.limits, c.agreement.limit_intervals());
+        row.extend(interval(c.agreement.bias_interval));
+        row.push(c.agreement.agreement.sd.into());
+        let (limits, intervals) = (c.agreement.agreement.limits, c.agreement.limit_intervals);
         for k in 0..2 {
             row.push(limits.map(|l| l[k]).into());
             row.extend(interval(intervals.map(|i| i[k])));
         }
-        row.extend(reliability(c.intraclass.as_ref()));
+        row.extend(reliability(c.intraclass.as_ref(), outcome.grouped));
+        row.push(c.agreement.clusters.into());
         rows.push(row);
     }
     for (column, icc) in &outcome.overall {
         let mut row: Vec<Cell> = vec![column.as_str().into(), "all".into(), "all".into(), icc.items.into()];
         row.extend((0..12).map(|_| Cell::Missing));
-        row.extend(reliability(Some(icc)));
+        row.extend(reliability(Some(icc), outcome.grouped));
+        row.push(Cell::Missing);
         rows.push(row);
     }
     out.write_described(&tables::AGREEMENT, &rows)?;
@@ -197,26 +239,38 @@ fn figure(outcome: &AgreementOutcome) -> String {
     }
     let points: Vec<Vec<(f64, f64)>> =
         shown.iter().map(|c| c.pairs.iter().map(|(_, [a, b])| ((a + b) / 2., a - b)).collect()).collect();
-    let labels: Vec<[String; 2]> =
-        shown.iter().map(|c| [format!("mean {}", c.column), format!("difference of {}", c.column)]).collect();
+    let labels: Vec<[String; 2]> = shown
+        .iter()
+        .map(|c| {
+            let (quantity, unit) = column_in_words(&c.column);
+            let [mean, difference] = ["mean", "difference"].map(|of| format!("{of} of {quantity}"));
+            [mean, difference].map(|label| if unit.is_empty() { label } else { format!("{label} ({unit})") })
+        })
+        .collect();
     let panels: Vec<AgreementPanel> = shown
         .iter()
         .zip(&points)
         .zip(&labels)
         .map(|((c, pairs), [mean, difference])| {
             let line = |value: f64, interval| AgreementLine { value, interval };
-            let intervals = c.agreement.limit_intervals();
+            let (found, intervals) = (&c.agreement.agreement, c.agreement.limit_intervals);
             AgreementPanel {
                 mean_label: mean,
                 difference_label: difference,
                 pairs,
-                bias: Some(line(c.agreement.bias, c.agreement.bias_interval())),
-                limits: c
-                    .agreement
+                bias: Some(line(found.bias, c.agreement.bias_interval)),
+                limits: found
                     .limits
                     .map(|l| [line(l[0], intervals.map(|i| i[0])), line(l[1], intervals.map(|i| i[1]))]),
             }
         })
         .collect();
-    agreement_figure(&format!("{} − {}", first.graders[0], first.graders[1]), &panels)
+    let graders = format!("{} − {}", first.graders[0], first.graders[1]);
+    let title = if outcome.grouped {
+        let clusters = first.agreement.clusters;
+        format!("{graders}; limits of agreement by {clusters} groups of images")
+    } else {
+        graders
+    };
+    agreement_figure(&title, &panels)
 }

@@ -145,6 +145,7 @@ pub(super) fn differences(out: &OutputFolder, differences: &[Difference]) -> Res
                 d.interval.map(|i| i[0]).into(),
                 d.interval.map(|i| i[1]).into(),
                 d.p.into(),
+                d.least_p.into(),
             ]
         })
         .collect();

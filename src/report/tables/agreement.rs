@@ -16,7 +16,11 @@ pub static AGREEMENT: OutputTable = OutputTable {
         column("difference", "of the column", "Bias: mean of first − second."),
         column("difference_low", "of the column", "Its 95 % interval (t)."),
         column("difference_high", "of the column", "Its 95 % interval (t)."),
-        column("sd", "of the column", "Standard deviation (n − 1) of the differences."),
+        column(
+            "sd",
+            "of the column",
+            "Standard deviation (n − 1) of the differences; of both components of their variance with groups.",
+        ),
         column("limit_low", "of the column", "Lower limit of agreement, bias − 1.96 SD."),
         column("limit_low_from", "of the column", "Its 95 % interval."),
         column("limit_low_to", "of the column", "Its 95 % interval."),
@@ -40,6 +44,11 @@ pub static AGREEMENT: OutputTable = OutputTable {
             "Of two measurements of one image 95 % differ by less: 1.96 √2 within_sd.",
         ),
         column("within_cv_percent", "%", "within_sd over the mean; empty where that is 0."),
+        column(
+            "groups",
+            "count",
+            "Groups of images that count as independent: with --group-by fewer than images. Then the limits are those for repeated measurements (Bland & Altman 2007), their intervals by Zou (2013), and intervals of ICC are left out.",
+        ),
     ],
 };
 
