@@ -113,9 +113,24 @@ fn axes_say_in_words_what_is_compared_and_in_which_unit() {
     place.write("one.csv", FIRST);
     place.write("two.csv", SECOND);
     place.ok(&["agree", "one.csv", "two.csv", "--out", "out"]);
+    assert_eq!(place.names("out"), ["agreement.csv", "agreement.svg", "differences.csv", "unpaired.csv"]);
     let figure = place.read("out/agreement.svg");
     for words in ["mean of nearest-neighbour distance (µm)", "difference of nearest-neighbour distance (µm)"]
     {
         assert!(figure.contains(words), "{words}");
     }
+}
+
+#[test]
+fn figures_come_as_pdf_and_png_too() {
+    let place = Place::new();
+    place.write("one.csv", FIRST);
+    place.write("two.csv", SECOND);
+    place.ok(&["agree", "one.csv", "two.csv", "--figures", "pdf,png", "--out", "out"]);
+    for (file, start) in [("svg", &b"<svg"[..]), ("pdf", b"%PDF"), ("png", b"\x89PNG")] {
+        let bytes = std::fs::read(place.path(&format!("out/agreement.{file}"))).unwrap();
+        assert!(bytes.starts_with(start), "{file}");
+    }
+    let error = place.refused(&["agree", "one.csv", "two.csv", "--figures", "eps", "--out", "out"]);
+    assert!(error.contains("svg, pdf or png"), "{error}");
 }

@@ -1,10 +1,24 @@
+use super::figures::write_figure;
 use super::outputs::OutputFolder;
 use super::readings::{Readings, chosen_columns};
 use super::{BatchError, Grouping};
 use crate::compare::{ClusteredAgreement, Intraclass, agreement_of_clusters, clusters, intraclass};
-use crate::report::{AgreementLine, AgreementPanel, Cell, agreement_figure, column_in_words, tables};
+use crate::report::{
+    AgreementLine, AgreementPanel, Cell, FigureFormat, agreement_figure, column_in_words, tables,
+};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+/// How graders are held against each other.
+#[derive(Clone, Debug, Default)]
+pub struct AgreementOptions {
+    /// Columns to compare; empty: all that hold numbers in every table.
+    pub columns: Vec<String>,
+    /// Images of a group (those of a subject) do not count as independent.
+    pub grouping: Option<Grouping>,
+    /// Formats of the figure besides SVG.
+    pub figures: Vec<FigureFormat>,
+}
 
 /// How two graders agree in one column.
 #[derive(Clone, Debug)]
@@ -56,20 +70,17 @@ const SHOWN: [&[&str]; 2] =
     [&["density_per_mm2", "density_per_px2", "density", "n"], &["nn_mean_um", "nn_mean_px", "nn_mean", "ri"]];
 
 /// Holds the numbers of graders, sessions or programs against each other, image by image: paired differences, limits of agreement and
-/// intraclass correlation of every column of numbers that all of them have, or of `columns`.
+/// intraclass correlation of every column of numbers that all of them have, or of those asked for.
 ///
 /// Writes `agreement.csv` (one row a column and pair of graders; with more than two a row over all), `differences.csv` (one row an
 /// image), `unpaired.csv` (images that somebody lacks) and `agreement.svg`.
-///
-/// With `grouping`, images of a group (those of a subject) do not count as independent.
 ///
 /// # Errors
 /// If an image has no group, or there are fewer than two tables, one cannot be read or has no column that names images, an image stands in it twice, a column
 /// asked for is missing, nothing can be paired, or `out` cannot be written to.
 pub fn agree_files(
     files: &[PathBuf],
-    columns: &[String],
-    grouping: Option<&Grouping>,
+    options: &AgreementOptions,
     out: &Path,
 ) -> Result<AgreementOutcome, BatchError> {
     if files.len() < 2 {
@@ -83,12 +94,12 @@ pub fn agree_files(
             readings[k].label = files[k].display().to_string();
         }
     }
-    let chosen = chosen_columns(&readings, columns)?;
+    let chosen = chosen_columns(&readings, &options.columns)?;
     let out = OutputFolder::create(out)?;
     let mut items: Vec<&String> = readings.iter().flat_map(|r| r.items.keys()).collect();
     items.sort_unstable();
     items.dedup();
-    let groups = groups_of(&items, grouping)?;
+    let groups = groups_of(&items, options.grouping.as_ref())?;
     let unpaired: Vec<(String, String)> = items
         .iter()
         .filter_map(|item| {
@@ -136,8 +147,8 @@ pub fn agree_files(
             labels.join(" and ")
         )));
     }
-    let outcome = AgreementOutcome { columns: found, overall, unpaired, grouped: grouping.is_some() };
-    write(&out, &outcome)?;
+    let outcome = AgreementOutcome { columns: found, overall, unpaired, grouped: options.grouping.is_some() };
+    write(&out, &outcome, &options.figures)?;
     Ok(outcome)
 }
 
@@ -174,7 +185,7 @@ fn reliability(icc: Option<&Intraclass>, grouped: bool) -> Vec<Cell> {
     ]
 }
 
-fn write(out: &OutputFolder, outcome: &AgreementOutcome) -> Result<(), BatchError> {
+fn write(out: &OutputFolder, outcome: &AgreementOutcome, figures: &[FigureFormat]) -> Result<(), BatchError> {
     let mut rows: Vec<Vec<Cell>> = Vec::new();
     for c in &outcome.columns {
         let mean = |k: usize| c.pairs.iter().map(|(_, v)| v[k]).sum::<f64>() / c.pairs.len() as f64;
@@ -222,7 +233,7 @@ fn write(out: &OutputFolder, outcome: &AgreementOutcome) -> Result<(), BatchErro
         .map(|(item, lacking)| vec![item.as_str().into(), lacking.as_str().into()])
         .collect();
     out.write_described(&tables::UNPAIRED, &rows)?;
-    out.write("agreement.svg", figure(outcome).as_bytes())
+    write_figure(out, "agreement", &figure(outcome), figures)
 }
 
 /// Bland–Altman plots of the first two graders.

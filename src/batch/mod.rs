@@ -8,6 +8,7 @@ mod crop;
 mod detection;
 mod error;
 mod failures;
+mod figures;
 mod image_figure;
 mod image_window;
 mod inputs;
@@ -28,7 +29,7 @@ mod validation;
 mod verdicts;
 mod work;
 
-pub use agreement::{AgreementOutcome, ColumnAgreement, agree_files};
+pub use agreement::{AgreementOptions, AgreementOutcome, ColumnAgreement, agree_files};
 pub use comparison::{CompareOptions, compare_files};
 pub use coordinates::{CoordinatesOptions, CoordinatesOutcome, measure_files};
 pub use crop::Crop;

@@ -2,9 +2,9 @@ use super::common::Common;
 use super::{Done, short_table};
 use anyhow::Result;
 use clap::Args;
-use conemosaic::batch::{AgreementOutcome, Grouping, agree_files};
+use conemosaic::batch::{AgreementOptions, AgreementOutcome, Grouping, agree_files};
 use conemosaic::mosaic::io::GroupTable;
-use conemosaic::report::{Cell, counted};
+use conemosaic::report::{Cell, FigureFormat, counted};
 use std::path::PathBuf;
 
 /// Holds graders, sessions or programs against each other: paired differences, limits of agreement, intraclass correlation
@@ -27,7 +27,7 @@ Writes to agreed/:
                    then limits are those for repeated measurements (Bland & Altman 2007), with intervals by Zou (2013)
   differences.csv  one row an image, column and pair
   unpaired.csv     images that a grader lacks
-  agreement.svg    Bland–Altman plots of density and nearest-neighbour distance, or of the first two columns")]
+  agreement.svg    (.pdf, .png: --figures) Bland–Altman plots of density and nearest-neighbour distance, or of the first two columns")]
 pub struct Agree {
     /// Tables of each: summary.csv, a folder that holds one, or any CSV with a column name or file
     #[arg(required = true, num_args = 2..)]
@@ -42,6 +42,9 @@ pub struct Agree {
     /// The same by a CSV of name,group; a name may be the beginning of many
     #[arg(long, value_name = "FILE", group = "grouping")]
     group_table: Option<PathBuf>,
+    /// Formats of the figure, separated by commas: svg (always), pdf, png (300 dpi)
+    #[arg(long, value_name = "F,…", value_delimiter = ',', default_value = "svg")]
+    figures: Vec<FigureFormat>,
     /// Folder for the results
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
@@ -54,7 +57,8 @@ impl Agree {
             Some(path) => Some(Grouping::Table(GroupTable::read(path)?)),
             None => self.group_by,
         };
-        let outcome = agree_files(&self.tables, &columns, grouping.as_ref(), &self.out)?;
+        let options = AgreementOptions { columns, grouping, figures: self.figures };
+        let outcome = agree_files(&self.tables, &options, &self.out)?;
         common.say(&words(&outcome));
         common.say(&outcome.method());
         if !outcome.unpaired.is_empty() {

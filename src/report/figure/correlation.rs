@@ -6,8 +6,8 @@ use super::{Curve, MosaicFigure, ReferenceLine};
 const COLOURS: [&str; 6] = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00"];
 /// Dashes tell lines apart in grey, and beyond the sixth where colours repeat.
 const DASHES: [Option<&str>; 3] = [None, Some("5 1.6"), Some("1.6 1.2")];
-/// Colours of the nearest samplers, nearest first: dark enough for text.
-const NEAREST: [&str; 3] = ["#0072B2", "#D55E00", "#009E73"];
+/// So many samplers are drawn: the nearest.
+const NEAREST: usize = 3;
 /// Independent points are the scale on which the others are read, in grey.
 const SCALE: &str = "uniform";
 const GREY: &str = "#767676";
@@ -60,14 +60,21 @@ fn lines<'a>(figure: &MosaicFigure<'a>, mosaic: Curve<'a>) -> Vec<Line<'a>> {
         colour,
         width: SAMPLER_WIDTH,
     };
-    let mut others: Vec<_> = figure.references.iter().filter(|l| l.name != SCALE).collect();
+    let mut others: Vec<_> = figure.references.iter().filter(|l| l.name != SCALE).enumerate().collect();
     // samplers without a distance come behind those that have one
-    others.sort_by(|a, b| {
+    others.sort_by(|(_, a), (_, b)| {
         let of = |l: &ReferenceLine| l.l_infinity.unwrap_or(f64::INFINITY);
         of(a).total_cmp(&of(b))
     });
     let scale = figure.references.iter().filter(|l| l.name == SCALE).map(|l| line(l, GREY));
-    let nearest = others.into_iter().zip(NEAREST).map(|(l, colour)| line(l, colour));
+    // a sampler has the same colour in the figures of all mosaics, unless one that is nearer has it
+    let mut free = COLOURS.to_vec();
+    let nearest = others.into_iter().take(NEAREST).map(|(k, l)| {
+        let wanted = COLOURS[k % COLOURS.len()];
+        let at = free.iter().position(|c| *c == wanted).unwrap_or(0);
+        line(l, free.remove(at))
+    });
+    let nearest: Vec<_> = nearest.collect();
     let own = Line { name: "mosaic", l_infinity: None, curve: mosaic, colour: INK, width: MOSAIC_WIDTH };
     scale.chain(nearest).chain([own]).collect()
 }
@@ -197,9 +204,9 @@ mod tests {
         let shown: Vec<_> = drawn.iter().map(|l| (l.text(), l.colour)).collect();
         let expected = [
             ("uniform, ℓ∞ 0.90", GREY),
-            ("bridson, ℓ∞ 0.10", NEAREST[0]),
-            ("bnot, ℓ∞ 0.20", NEAREST[1]),
-            ("triangular, ℓ∞ 0.40", NEAREST[2]),
+            ("bridson, ℓ∞ 0.10", COLOURS[3]),
+            ("bnot, ℓ∞ 0.20", COLOURS[1]),
+            ("triangular, ℓ∞ 0.40", COLOURS[4]),
             ("mosaic", INK),
         ];
         assert_eq!(shown, expected.map(|(text, colour)| (text.to_owned(), colour)));

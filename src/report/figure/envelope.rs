@@ -28,7 +28,7 @@ const SWATCH: f64 = 18.;
 pub struct EnvelopePanel<'a> {
     /// Its name.
     pub name: &'a str,
-    /// Above the panel, behind the name: the p-value.
+    /// Above the panel, behind the name: the p-value, “p = 0.3”.
     pub note: &'a str,
     /// Mean of the simulations.
     pub mean: &'a [f64],
@@ -69,7 +69,7 @@ pub fn envelope_figure(title: &str, mosaic: Curve, panels: &[EnvelopePanel]) -> 
             width: PANEL.0,
             height: PANEL.1,
         };
-        let heading = format!("{}  {}", panel.name, panel.note);
+        let heading = format!("{}, {}", panel.name, panel.note);
         canvas.text(area.x, area.y - 7., &heading, Style::Axis, Anchor::Start);
         draw(&mut canvas, area, Ranges { x, y: (0., highest) }, mosaic, panel);
     }
@@ -135,7 +135,7 @@ mod tests {
             envelope_figure("a", Curve { r: &r, g }, panels).unwrap().to_uppercase()
         };
         let inside = drawn(&mean, &[panel; 4]);
-        assert_eq!(inside.matches("BNOT  P = 0.3").count(), 4);
+        assert_eq!(inside.matches("BNOT, P = 0.3").count(), 4);
         // the key knows all colours, once each
         let times = |svg: &str, colour: &str| svg.matches(&colour.to_uppercase()).count();
         assert_eq!((times(&inside, OUTSIDE), times(&inside, BAND)), (1, 5));

@@ -1,4 +1,4 @@
-use super::skeleton::{breakable, in_url, skeleton};
+use super::skeleton::{breakable, in_url, shared_start, skeleton};
 use crate::report::{
     Cell, DetectionRecord, ImageRecord, LandmarkRecord, MosaicRecord, by_need, counted, significant,
 };
@@ -53,6 +53,7 @@ fn failed(failures: &[(&str, &str)]) -> Markup {
 fn warned(records: &[ImageRecord]) -> Markup {
     let order: Vec<usize> =
         by_need(records).into_iter().filter(|&k| !records[k].warnings.is_empty()).collect();
+    let shared = shared_start(records.iter().map(|r| r.name.as_str()));
     let count: usize = order.iter().map(|&k| records[k].warnings.len()).sum();
     html! {
         @if count > 0 {
@@ -61,7 +62,7 @@ fn warned(records: &[ImageRecord]) -> Markup {
                     "⚠ " (counted(count, "warning")) ", on " (order.len()) " of " (counted(records.len(), "image"))
                 }
                 ul { @for k in order { li {
-                    a href=(format!("#i{k}")) { (breakable(&records[k].name)) } ": "
+                    a href=(format!("#i{k}")) { (breakable(&records[k].name, shared)) } ": "
                     (records[k].warnings.join("; "))
                 } } }
             }
@@ -105,6 +106,7 @@ fn length(px: Option<f64>, um_per_px: Option<f64>, scaled: bool) -> String {
 
 fn overview(records: &[ImageRecord], scaled: bool) -> Markup {
     let (length_unit, density_unit) = if scaled { ("µm (px)", "per mm²") } else { ("px", "per px²") };
+    let shared = shared_start(records.iter().map(|r| r.name.as_str()));
     let compared = records.iter().any(|r| !r.mosaic.l_infinity.is_empty());
     html! {
         table {
@@ -118,12 +120,12 @@ fn overview(records: &[ImageRecord], scaled: bool) -> Markup {
                 th { "expected" br; "errors" }
                 @if compared { th.word { "closest to" } th { "ℓ∞" } }
             } }
-            tbody { @for k in by_need(records) { (row(k, &records[k], scaled, compared)) } }
+            tbody { @for k in by_need(records) { (row(k, &records[k], shared, scaled, compared)) } }
         }
     }
 }
 
-fn row(k: usize, record: &ImageRecord, scaled: bool, compared: bool) -> Markup {
+fn row(k: usize, record: &ImageRecord, shared: usize, scaled: bool, compared: bool) -> Markup {
     let m = &record.mosaic;
     let um = m.um_per_unit;
     let shown = if scaled { um } else { Some(1.) };
@@ -131,7 +133,7 @@ fn row(k: usize, record: &ImageRecord, scaled: bool, compared: bool) -> Markup {
     let nearest = |value: Option<f64>, digits| number(value.zip(shown).map(|(v, um)| v * um), digits);
     html! { tr {
         td title=(record.file) {
-            a href=(format!("#i{k}")) { (breakable(&record.name)) }
+            a href=(format!("#i{k}")) { (breakable(&record.name, shared)) }
             @if !record.warnings.is_empty() {
                 span.warning title=(record.warnings.join("; ")) { " ⚠" (record.warnings.len()) }
             }

@@ -12,18 +12,19 @@ body { font: 15px/1.5 system-ui, sans-serif; max-width: 1320px; margin: 2rem aut
 h1 { font-size: 1.5rem; margin-bottom: .2rem; } h2 { font-size: 1.1rem; margin: 2.6rem 0 .4rem; overflow-wrap: anywhere; }
 p, li, summary { max-width: 56rem; overflow-wrap: anywhere; } p.lead { margin-top: 0; opacity: .75; }
 .scroll { overflow-x: auto; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .85rem; }
+table { border-collapse: separate; border-spacing: 0; font-variant-numeric: tabular-nums; font-size: .85rem; }
 th, td { padding: .3rem .55rem; border-bottom: 1px solid var(--line); text-align: right; white-space: nowrap; }
 th { vertical-align: bottom; white-space: normal; } th small { display: block; font-weight: normal; opacity: .75; white-space: nowrap; }
 th:first-child, td:first-child, .word { text-align: left; }
 th:first-child, td:first-child { position: sticky; left: 0; background: Canvas; }
 td:first-child { white-space: normal; overflow-wrap: anywhere; min-width: 8rem; max-width: 19rem; }
 tbody tr:hover td { background-image: linear-gradient(var(--soft), var(--soft)); }
-.warning { color: var(--warn); }
+.warning { color: var(--warn); } .dots { display: none; }
 figure { margin: .6rem 0; overflow-x: auto; } img { width: 100%; max-width: 1060px; background: #fff; border-radius: 4px; }
 nav { display: flex; flex-wrap: wrap; gap: .2rem 1rem; font-size: .9rem; }
 @media (max-width: 640px) {
-  body { margin: 1rem auto; padding: 0 .8rem; } td:first-child { min-width: 7rem; max-width: 9rem; }
+  body { margin: 1rem auto; padding: 0 .8rem; } td:first-child { min-width: 6.5rem; max-width: 9rem; }
+  .same { display: none; } .dots { display: inline; }
   figure img { min-width: 680px; } nav a { padding: .3rem 0; }
 }
 @media print { section { break-inside: avoid; } nav { display: none; } figure, .scroll { overflow: visible; } }
@@ -53,12 +54,35 @@ pub(super) fn skeleton(title: &str, style: &str, body: &Markup) -> String {
     .into_string()
 }
 
+/// Places in a name where a line may break.
+const BREAKS: [char; 3] = ['_', '-', '.'];
+
 /// Returns a name in which a line may break behind every underscore, hyphen and full stop: names of images differ
-/// at their ends, so that no part of them may be cut.
-pub(super) fn breakable(name: &str) -> Markup {
+/// at their ends, so that these may not be cut. On narrow screens the middle of its first `shared` bytes, which all names
+/// have in common, makes way for an ellipsis.
+pub(super) fn breakable(name: &str, shared: usize) -> Markup {
+    let parts = |text: &str| html! { @for part in text.split_inclusive(BREAKS) { (part) wbr; } };
+    let common = name.get(..shared).unwrap_or_default();
+    let first = common.split_inclusive(BREAKS).next().map_or(0, str::len);
+    let (head, rest) = name.split_at(first);
+    let (same, tail) = rest.split_at(common.len() - first);
     html! {
-        @for part in name.split_inclusive(['_', '-', '.']) { (part) wbr; }
+        (parts(head))
+        @if !same.is_empty() { span.dots { "…" } span.same { (parts(same)) } }
+        (parts(tail))
     }
+}
+
+/// Returns how many bytes all names begin with alike, up to the last place where a line may break; 0 for a single name.
+pub(super) fn shared_start<'a>(names: impl IntoIterator<Item = &'a str>) -> usize {
+    let mut names = names.into_iter();
+    let Some(first) = names.next() else { return 0 };
+    let alike = |a: &str, b: &str| {
+        let same = a.char_indices().zip(b.chars()).find(|((_, a), b)| a != b);
+        same.map_or(a.len().min(b.len()), |((at, _), _)| at)
+    };
+    let shared = names.map(|name| alike(first, name)).min().unwrap_or(0);
+    first.get(..shared).and_then(|start| start.rfind(BREAKS)).map_or(0, |at| at + 1)
 }
 
 /// Returns a file name as part of a URL.
@@ -92,7 +116,12 @@ mod tests {
 
     #[test]
     fn long_names_may_break_but_keep_every_letter() {
-        let name = breakable("AD_10253-790nm.png").into_string();
+        let name = breakable("AD_10253-790nm.png", 0).into_string();
         assert_eq!(name, "AD_<wbr>10253-<wbr>790nm.<wbr>png<wbr>");
+        let names = ["AD_10253-790nm_1", "AD_10253-790nm_2", "AD_10253-79"];
+        assert_eq!((shared_start(names), shared_start(["é_1", "é_2"]), shared_start(["a_b"])), (9, 3, 0));
+        let name = breakable(names[0], 9).into_string();
+        let middle = "<span class=\"dots\">…</span><span class=\"same\">10253-<wbr></span>";
+        assert_eq!(name, format!("AD_<wbr>{middle}790nm_<wbr>1<wbr>"));
     }
 }
