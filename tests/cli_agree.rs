@@ -102,3 +102,63 @@ fn tables_that_cannot_be_compared_are_refused_with_a_remedy() {
         assert!(error.contains(words), "{second}: {error}");
     }
 }
+
+/// Three eyes of three images each: an eye's images err alike.
+const FIRST: &str =
+    "name,nn_mean_um\nA_1,10\nA_2,12\nA_3,14\nB_1,20\nB_2,22\nB_3,24\nC_1,30\nC_2,32\nC_3,34\n";
+const SECOND: &str =
+    "name,nn_mean_um\nA_1,9\nA_2,11\nA_3,13\nB_1,22\nB_2,24\nB_3,26\nC_1,25\nC_2,27\nC_3,29\n";
+
+#[test]
+fn images_of_one_subject_do_not_count_as_independent() {
+    let place = Place::new();
+    place.write("one.csv", FIRST);
+    place.write("two.csv", SECOND);
+    let alone = place.ok(&["agree", "one.csv", "two.csv", "--out", "alone"]);
+    assert!(alone.stdout.contains("take images as independent"), "{}", alone.stdout);
+    let grouped = place.ok(&["agree", "one.csv", "two.csv", "--group-by", "prefix:1", "--out", "grouped"]);
+    assert!(grouped.stdout.contains("9 images of 3 groups"), "{}", grouped.stdout);
+    let [alone, grouped] =
+        ["alone", "grouped"].map(|out| place.table(&format!("{out}/agreement.csv")).remove(0));
+    // differences 1, −2 and 5 of the three eyes: bias 4/3 either way
+    for row in [&alone, &grouped] {
+        assert!((number(row, "difference") - 4. / 3.).abs() < 1e-12);
+    }
+    assert_eq!((number(&alone, "groups"), number(&grouped, "groups")), (9., 3.));
+    let width = |row: &std::collections::BTreeMap<String, String>| {
+        number(row, "difference_high") - number(row, "difference_low")
+    };
+    // t(2) √(1/3) over t(8) √(1/9) of the same deviation but for its divisor
+    assert!(width(&grouped) > 3. * width(&alone), "{} {}", width(&grouped), width(&alone));
+    assert!(grouped["icc_agreement_low"].is_empty() && !alone["icc_agreement_low"].is_empty());
+    let error = place.refused(&["agree", "one.csv", "two.csv", "--group-by", "X", "--out", "out"]);
+    assert!(error.contains("A_1"), "{error}");
+}
+
+#[test]
+fn axes_say_in_words_what_is_compared_and_in_which_unit() {
+    let place = Place::new();
+    place.write("one.csv", FIRST);
+    place.write("two.csv", SECOND);
+    place.ok(&["agree", "one.csv", "two.csv", "--out", "out"]);
+    assert_eq!(place.names("out"), ["agreement.csv", "agreement.svg", "differences.csv", "unpaired.csv"]);
+    let figure = place.read("out/agreement.svg");
+    for words in ["mean of nearest-neighbour distance (µm)", "difference of nearest-neighbour distance (µm)"]
+    {
+        assert!(figure.contains(words), "{words}");
+    }
+}
+
+#[test]
+fn figures_come_as_pdf_and_png_too() {
+    let place = Place::new();
+    place.write("one.csv", FIRST);
+    place.write("two.csv", SECOND);
+    place.ok(&["agree", "one.csv", "two.csv", "--figures", "pdf,png", "--out", "out"]);
+    for (file, start) in [("svg", &b"<svg"[..]), ("pdf", b"%PDF"), ("png", b"\x89PNG")] {
+        let bytes = std::fs::read(place.path(&format!("out/agreement.{file}"))).unwrap();
+        assert!(bytes.starts_with(start), "{file}");
+    }
+    let error = place.refused(&["agree", "one.csv", "two.csv", "--figures", "eps", "--out", "out"]);
+    assert!(error.contains("svg, pdf or png"), "{error}");
+}

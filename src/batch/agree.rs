@@ -1,10 +1,22 @@
-use super::BatchError;
 use super::input::{Readings, chosen_columns};
-use super::output::{OutputFolder, ResultFolder};
-use crate::compare::{Agreement, Intraclass, agreement, intraclass};
+use super::output::{OutputFolder, ResultFolder, write_figure};
+use super::{BatchError, Grouping};
+use crate::compare::{ClusteredAgreement, Intraclass, agreement_of_clusters, clusters, intraclass};
 use crate::report::tables::{AGREEMENT, AgreementRow, DIFFERENCES, DifferenceRow, UNPAIRED, UnpairedRow};
-use crate::report::{AgreementLine, AgreementPanel, agreement_figure};
+use crate::report::{AgreementLine, AgreementPanel, FigureFormat, agreement_figure, column_in_words};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+/// How graders are held against each other.
+#[derive(Clone, Debug, Default)]
+pub struct AgreementOptions {
+    /// Columns to compare; empty: all that hold numbers in every table.
+    pub columns: Vec<String>,
+    /// Images of a group (those of a subject) do not count as independent.
+    pub grouping: Option<Grouping>,
+    /// Formats of the figure besides SVG.
+    pub figures: Vec<FigureFormat>,
+}
 
 /// How two graders agree in one column.
 #[derive(Clone, Debug)]
@@ -16,8 +28,8 @@ pub struct ColumnAgreement {
     /// Of every image that both have: its name and both values.
     pub pairs: Vec<(String, [f64; 2])>,
     /// Bias and limits of agreement.
-    pub agreement: Agreement,
-    /// Intraclass correlation of the two.
+    pub agreement: ClusteredAgreement,
+    /// Intraclass correlation of the two; its interval takes images as independent.
     pub intraclass: Option<Intraclass>,
 }
 
@@ -30,6 +42,25 @@ pub struct AgreementOutcome {
     pub overall: Vec<(String, Intraclass)>,
     /// Images that not all graders have, and those who lack them.
     pub unpaired: Vec<(String, String)>,
+    /// Whether images were grouped, so that those of a group do not count as independent.
+    pub grouped: bool,
+}
+
+impl AgreementOutcome {
+    /// Returns what a reader of the numbers must know of their intervals, in words.
+    pub fn method(&self) -> String {
+        let Some(first) = self.columns.first() else { return String::new() };
+        let (images, groups) = (first.agreement.agreement.n, first.agreement.clusters);
+        if !self.grouped {
+            return "Intervals take images as independent: if subjects have several, say which belong together."
+                .to_owned();
+        }
+        format!(
+            "{images} images of {groups} groups: bias and limits of agreement respect that images of a group err alike \
+             (Bland & Altman 2007; intervals of the limits: Zou 2013). Intervals of intraclass correlations are left out: \
+             they would take images as independent."
+        )
+    }
 }
 
 /// What figures show, the first of each row that there is.
@@ -37,17 +68,17 @@ const SHOWN: [&[&str]; 2] =
     [&["density_per_mm2", "density_per_px2", "density", "n"], &["nn_mean_um", "nn_mean_px", "nn_mean", "ri"]];
 
 /// Holds the numbers of graders, sessions or programs against each other, image by image: paired differences, limits of agreement and
-/// intraclass correlation of every column of numbers that all of them have, or of `columns`.
+/// intraclass correlation of every column of numbers that all of them have, or of those asked for.
 ///
 /// Writes `agreement.csv` (one row a column and pair of graders; with more than two a row over all), `differences.csv` (one row an
 /// image), `unpaired.csv` (images that somebody lacks) and `agreement.svg`.
 ///
 /// # Errors
-/// If there are fewer than two tables, one cannot be read or has no column that names images, an image stands in it twice, a column
+/// If an image has no group, or there are fewer than two tables, one cannot be read or has no column that names images, an image stands in it twice, a column
 /// asked for is missing, nothing can be paired, or `out` cannot be written to.
 pub fn agree_files(
     files: &[PathBuf],
-    columns: &[String],
+    options: &AgreementOptions,
     out: &Path,
 ) -> Result<AgreementOutcome, BatchError> {
     if files.len() < 2 {
@@ -61,11 +92,12 @@ pub fn agree_files(
             readings[k].label = files[k].display().to_string();
         }
     }
-    let chosen = chosen_columns(&readings, columns)?;
+    let chosen = chosen_columns(&readings, &options.columns)?;
     let out = ResultFolder::open(out)?;
     let mut items: Vec<&String> = readings.iter().flat_map(|r| r.items.keys()).collect();
     items.sort_unstable();
     items.dedup();
+    let groups = groups_of(&items, options.grouping.as_ref())?;
     let unpaired: Vec<(String, String)> = items
         .iter()
         .filter_map(|item| {
@@ -85,7 +117,11 @@ pub fn agree_files(
                 };
                 let pairs: Vec<(String, [f64; 2])> = items.iter().filter_map(both).collect();
                 let differences: Vec<f64> = pairs.iter().map(|(_, [a, b])| a - b).collect();
-                let Some(agreement) = agreement(&differences) else { continue };
+                let of_pairs: Vec<Option<&str>> =
+                    pairs.iter().map(|(item, _)| groups.get(item.as_str()).map(String::as_str)).collect();
+                let Some(agreement) = agreement_of_clusters(&differences, &clusters(&of_pairs)) else {
+                    continue;
+                };
                 let rows: Vec<Vec<f64>> = pairs.iter().map(|(_, values)| values.to_vec()).collect();
                 found.push(ColumnAgreement {
                     column: column.name.clone(),
@@ -111,23 +147,34 @@ pub fn agree_files(
             labels.join(" and ")
         )));
     }
-    let outcome = AgreementOutcome { columns: found, overall, unpaired };
-    write(&out, &outcome)?;
+    let outcome = AgreementOutcome { columns: found, overall, unpaired, grouped: options.grouping.is_some() };
+    write(&out, &outcome, &options.figures)?;
     out.close(0)?;
     Ok(outcome)
 }
 
-fn write(out: &OutputFolder, outcome: &AgreementOutcome) -> Result<(), BatchError> {
+/// Returns the group of every image, by its name; empty without a rule.
+fn groups_of<'a>(
+    items: &[&'a String],
+    grouping: Option<&Grouping>,
+) -> Result<BTreeMap<&'a str, String>, BatchError> {
+    let Some(grouping) = grouping else { return Ok(BTreeMap::new()) };
+    let group = |item: &&'a String| Ok((item.as_str(), grouping.group_of(item).map_err(BatchError::Tables)?));
+    items.iter().map(group).collect()
+}
+
+fn write(out: &OutputFolder, outcome: &AgreementOutcome, figures: &[FigureFormat]) -> Result<(), BatchError> {
     let means = |c: &ColumnAgreement| -> [f64; 2] {
         [0, 1].map(|k| c.pairs.iter().map(|(_, v)| v[k]).sum::<f64>() / c.pairs.len() as f64)
     };
     let pairs = outcome.columns.iter().map(|c| AgreementRow {
         column: &c.column,
         graders: c.graders.each_ref().map(String::as_str),
-        n: c.agreement.n,
+        n: c.agreement.agreement.n,
         means: Some(means(c)),
         agreement: Some(c.agreement),
         intraclass: c.intraclass,
+        grouped: outcome.grouped,
     });
     let overall = outcome.overall.iter().map(|(column, icc)| AgreementRow {
         column,
@@ -136,6 +183,7 @@ fn write(out: &OutputFolder, outcome: &AgreementOutcome) -> Result<(), BatchErro
         means: None,
         agreement: None,
         intraclass: Some(*icc),
+        grouped: outcome.grouped,
     });
     out.write(AGREEMENT.file, &AGREEMENT.csv(pairs.chain(overall))?)?;
     let differences = outcome.columns.iter().flat_map(|c| {
@@ -149,7 +197,7 @@ fn write(out: &OutputFolder, outcome: &AgreementOutcome) -> Result<(), BatchErro
     out.write(DIFFERENCES.file, &DIFFERENCES.csv(differences)?)?;
     let unpaired = outcome.unpaired.iter().map(|(image, missing_from)| UnpairedRow { image, missing_from });
     out.write(UNPAIRED.file, &UNPAIRED.csv(unpaired)?)?;
-    out.write("agreement.svg", figure(outcome).as_bytes())
+    write_figure(out, "agreement", &figure(outcome), figures)
 }
 
 /// Bland–Altman plots of the first two graders.
@@ -166,26 +214,38 @@ fn figure(outcome: &AgreementOutcome) -> String {
     }
     let points: Vec<Vec<(f64, f64)>> =
         shown.iter().map(|c| c.pairs.iter().map(|(_, [a, b])| ((a + b) / 2., a - b)).collect()).collect();
-    let labels: Vec<[String; 2]> =
-        shown.iter().map(|c| [format!("mean {}", c.column), format!("difference of {}", c.column)]).collect();
+    let labels: Vec<[String; 2]> = shown
+        .iter()
+        .map(|c| {
+            let (quantity, unit) = column_in_words(&c.column);
+            let [mean, difference] = ["mean", "difference"].map(|of| format!("{of} of {quantity}"));
+            [mean, difference].map(|label| if unit.is_empty() { label } else { format!("{label} ({unit})") })
+        })
+        .collect();
     let panels: Vec<AgreementPanel> = shown
         .iter()
         .zip(&points)
         .zip(&labels)
         .map(|((c, pairs), [mean, difference])| {
             let line = |value: f64, interval| AgreementLine { value, interval };
-            let intervals = c.agreement.limit_intervals();
+            let (found, intervals) = (&c.agreement.agreement, c.agreement.limit_intervals);
             AgreementPanel {
                 mean_label: mean,
                 difference_label: difference,
                 pairs,
-                bias: Some(line(c.agreement.bias, c.agreement.bias_interval())),
-                limits: c
-                    .agreement
+                bias: Some(line(found.bias, c.agreement.bias_interval)),
+                limits: found
                     .limits
                     .map(|l| [line(l[0], intervals.map(|i| i[0])), line(l[1], intervals.map(|i| i[1]))]),
             }
         })
         .collect();
-    agreement_figure(&format!("{} − {}", first.graders[0], first.graders[1]), &panels)
+    let graders = format!("{} − {}", first.graders[0], first.graders[1]);
+    let title = if outcome.grouped {
+        let clusters = first.agreement.clusters;
+        format!("{graders}; limits of agreement by {clusters} groups of images")
+    } else {
+        graders
+    };
+    agreement_figure(&title, &panels)
 }

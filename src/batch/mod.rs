@@ -17,7 +17,7 @@ mod run;
 mod validate;
 mod window;
 
-pub use agree::{AgreementOutcome, ColumnAgreement, agree_files};
+pub use agree::{AgreementOptions, AgreementOutcome, ColumnAgreement, agree_files};
 pub use analysis::{MapRequest, MapWindow, Plan, RoiRequest, RoiSource};
 pub use detect::{DetectionExtras, DetectionOutcome, detect_files};
 pub use error::BatchError;

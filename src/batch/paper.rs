@@ -8,7 +8,7 @@ use crate::compare::{CompareError, draw, l_infinity, mean_curve, of_sampler};
 use crate::geometry::Window;
 use crate::report::tables::{BandwidthRow, FINDING, PAPER_PCF, PAPER_SPECTRA, SamplerCurve, curves_csv};
 use crate::report::{
-    Curve, FindingRecord, PaperResults, PowerScale, SamplerPanel, counted, samplers_figure, spectrum_png,
+    Curve, FindingRecord, PaperResults, PowerScale, SamplerPanel, counted, samplers_figure, spectrum_plane,
 };
 use crate::sample::{Sampler, as_reference, sampler};
 use crate::stats::{Pcf, PowerSpectrum, SpectrumOptions, spectrum};
@@ -218,7 +218,7 @@ fn named<'a>(curves: impl Iterator<Item = (&'a str, &'a Vec<f64>, &'a Vec<f64>)>
 fn figure(all: &Everything, results: &PaperResults) -> Result<String, BatchError> {
     let mut pictures = BTreeMap::new();
     for (name, spectrum) in &all.spectra {
-        pictures.insert(*name, spectrum_png(spectrum, PowerScale::Linear)?);
+        pictures.insert(*name, spectrum_plane(spectrum, PowerScale::Linear)?);
     }
     let panels: Vec<SamplerPanel> = FIGURE_1_SAMPLERS
         .iter()

@@ -1,4 +1,4 @@
-use super::{Interval, Score, bootstrap, mean, sign_flip_test};
+use super::{Interval, Score, bootstrap, least_p, mean, sign_flip_test};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 
@@ -19,6 +19,8 @@ pub struct Difference {
     pub interval: Option<Interval>,
     /// p-value of the paired sign-flip permutation test that the mean difference is zero.
     pub p: Option<f64>,
+    /// The least p-value that the test can give for as many groups as differ at all (images, where there are no groups).
+    pub least_p: f64,
 }
 
 type Measure = (&'static str, fn(&Score) -> Option<f64>);
@@ -71,6 +73,8 @@ fn difference(
     let all: Vec<usize> = (0..pairs.len()).collect();
     let by_difference = |indexes: &[usize]| vec![of(indexes, |(a, b)| a - b)];
     let differences: Vec<f64> = pairs.iter().map(|pair| pair.map_or(0., |(a, b)| a - b)).collect();
+    let differ = |c: &&Vec<usize>| c.iter().any(|&i| differences.get(i).is_some_and(|d| *d != 0.));
+    let differing = clusters.iter().filter(differ).count();
     Some(Difference {
         measure,
         images: pairs.iter().flatten().count(),
@@ -79,5 +83,6 @@ fn difference(
         difference: of(&all, |(a, b)| a - b)?,
         interval: bootstrap(clusters, resamples, rng, by_difference).pop().flatten(),
         p: sign_flip_test(&differences, clusters, rng),
+        least_p: least_p(differing),
     })
 }

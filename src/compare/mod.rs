@@ -3,6 +3,7 @@
 mod agreement;
 mod assignment;
 mod bootstrap;
+mod clustered;
 mod comparison;
 mod curves;
 mod froc;
@@ -21,6 +22,7 @@ mod verdict;
 
 pub use agreement::{Agreement, agreement};
 pub use bootstrap::{Interval, RESAMPLES, bootstrap};
+pub use clustered::{ClusteredAgreement, agreement_of_clusters};
 pub use comparison::{Difference, compare_scores};
 pub use curves::mean_curve;
 pub(crate) use curves::{curve, draw, of_sampler};
@@ -31,7 +33,7 @@ pub use l_infinity::{CompareError, l_infinity};
 pub use matching::{Assignment, MatchError, MatchOptions, Matching, Pair, match_points};
 pub use reference::{ReferenceCurve, References};
 pub use reliability::{Reliability, ReliabilityBin, reliability};
-pub use sign_flip::sign_flip_test;
+pub use sign_flip::{least_p, sign_flip_test};
 pub use subjects::{SubjectMean, mean_over_subjects};
 pub use summary::{Summary, intervals, summarise};
 pub use validation::{Rates, Score, validate};

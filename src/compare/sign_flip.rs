@@ -38,6 +38,16 @@ pub fn sign_flip_test(differences: &[f64], clusters: &[Vec<usize>], rng: &mut Ch
     Some((1 + far) as f64 / (1 + DRAWN) as f64)
 }
 
+/// Returns the least p-value that [`sign_flip_test`] can give for so many clusters whose differences are not all zero:
+/// of the 2ⁿ choices of signs two are as far as the one observed. Below 6 clusters it is above .05, whatever the data.
+pub fn least_p(clusters: usize) -> f64 {
+    match i32::try_from(clusters) {
+        Ok(0) => 1.,
+        Ok(n) if clusters <= MOST_EXACT => 2. / 2f64.powi(n),
+        _ => 1. / (1 + DRAWN) as f64,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -55,7 +65,9 @@ mod tests {
     fn differences_of_one_sign_have_the_least_p_value_there_is() {
         for n in 1..=10 {
             let differences: Vec<f64> = (1..=n).map(f64::from).collect();
-            assert_eq!(p(&differences, &singles(differences.len())), 2. / 2f64.powi(n));
+            let clusters = singles(differences.len());
+            assert_eq!(p(&differences, &clusters), 2. / 2f64.powi(n));
+            assert_eq!(least_p(clusters.len()), 2. / 2f64.powi(n));
         }
     }
 
@@ -91,6 +103,9 @@ mod tests {
         // two more that hardly matter make it draw
         let more: Vec<f64> = differences.iter().copied().chain([1e-6, -1e-6]).collect();
         assert!((p(&more, &singles(17)) - exact).abs() < 0.01, "{exact}");
+        let alike = vec![1.; 20];
+        assert_eq!(p(&alike, &singles(20)), least_p(20));
+        assert_eq!((least_p(0), least_p(17)), (1., 2e-5));
         assert_eq!(sign_flip_test(&[], &[], &mut ChaCha8Rng::seed_from_u64(1)), None);
     }
 }

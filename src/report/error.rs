@@ -1,3 +1,4 @@
+use super::FigureFormat;
 use thiserror::Error;
 
 /// A table or a figure that could not be made.
@@ -32,6 +33,14 @@ pub enum ReportError {
         height: u32,
         /// What the encoder says.
         source: ::image::ImageError,
+    },
+    /// A figure that could not be turned into another format.
+    #[error("could not write a figure as {format}: {reason}")]
+    Convert {
+        /// The format asked for.
+        format: FigureFormat,
+        /// What stood in the way.
+        reason: String,
     },
     /// Rows that could not be written as CSV.
     #[error("could not write CSV: {0}")]

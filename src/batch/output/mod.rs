@@ -3,6 +3,7 @@
 
 mod ending;
 mod failures;
+mod figures;
 mod folder;
 mod for_each;
 mod ledger;
@@ -15,6 +16,7 @@ pub use ledger::Leftovers;
 pub use progress::{Progress, Silent};
 
 pub(super) use failures::write_failures;
+pub(super) use figures::write_figure;
 pub(super) use folder::OutputFolder;
 pub(super) use for_each::{Worked, for_each};
 pub(super) use ledger::{MARKER, Standing, hex};

@@ -129,6 +129,14 @@ impl Analysis {
                     .into(),
             );
         }
+        let least = self.comparison.iter().flat_map(|c| &c.differences).map(|d| d.least_p).fold(0., f64::max);
+        if least > 0.05 {
+            notes.push(format!(
+                "p of the comparison cannot fall below {least:.3}, however much the two differ: {} are too few for the \
+                 sign-flip test. Six that differ can have p = .03; until then read the intervals",
+                if self.groups.is_empty() { "so few images" } else { "so few groups" }
+            ));
+        }
         let unscored = rows.iter().filter(|r| r.judged.is_none()).count();
         if unscored > 0 && unscored < rows.len() {
             notes.push(format!(

@@ -121,6 +121,18 @@ impl Canvas {
     }
 
     pub(super) fn text(&mut self, x: f64, y: f64, text: &str, style: Style, anchor: Anchor) {
+        self.coloured_text(x, y, text, style, anchor, INK);
+    }
+
+    pub(super) fn coloured_text(
+        &mut self,
+        x: f64,
+        y: f64,
+        text: &str,
+        style: Style,
+        anchor: Anchor,
+        colour: &str,
+    ) {
         self.scene.add(Primitive::Text {
             x,
             y,
@@ -129,7 +141,8 @@ impl Canvas {
             anchor: anchor.into(),
             rotate: None,
             bold: style == Style::Letter,
-            color: None,
+            // black is what the page writes in
+            color: (colour != INK).then(|| colour.into()),
         });
     }
 

@@ -1,29 +1,85 @@
-use super::canvas::{Anchor, Area, Canvas, FRAME, INK, Ranges, Style, headroom, round_above, text_width};
-use super::{Curve, MosaicFigure};
+use super::canvas::{Area, Canvas, FRAME, INK, Ranges, headroom, round_above};
+use super::labels::{self, Label};
+use super::{Curve, MosaicFigure, ReferenceLine};
 
 /// Okabe & Ito (2008), told apart by colour-blind readers; black is the mosaic's, their yellow is too pale for a line.
 const COLOURS: [&str; 6] = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00"];
 /// Dashes tell lines apart in grey, and beyond the sixth where colours repeat.
 const DASHES: [Option<&str>; 3] = [None, Some("5 1.6"), Some("1.6 1.2")];
+/// So many samplers are drawn: the nearest.
+const NEAREST: usize = 3;
+/// Independent points are the scale on which the others are read, in grey.
+const SCALE: &str = "uniform";
+const GREY: &str = "#767676";
 const SAMPLER_WIDTH: f64 = 1.1;
 const MOSAIC_WIDTH: f64 = 2.2;
 /// No sampler stretches the axis beyond this multiple of the mosaic's highest value, or of the floor if that is lower.
 const SPIKE_FACTOR: f64 = 1.5;
 const SPIKE_FLOOR: f64 = 3.;
-const LINE: f64 = 11.;
-const SWATCH: f64 = 15.;
+/// Labels begin so far right of the peaks that they belong to, in spacings: beyond the flank of the widest.
+const BESIDE_PEAK: f64 = 0.3;
+/// A curve that stays below this has no peak to be labelled at: it is labelled where the labels begin.
+const FLAT: f64 = 1.15;
 
 pub(super) fn style(index: usize) -> (&'static str, Option<&'static str>) {
     (COLOURS[index % COLOURS.len()], DASHES[(index + index / COLOURS.len()) % DASHES.len()])
 }
 
-/// A line of the legend, from left to right.
-struct Entry<'a> {
+/// A curve of the panel.
+struct Line<'a> {
     name: &'a str,
-    value: String,
+    l_infinity: Option<f64>,
+    curve: Curve<'a>,
+    colour: &'static str,
+    width: f64,
 }
 
-/// The mosaic's PCF over the samplers', with the l-infinity to each.
+impl Line<'_> {
+    /// “bnot, ℓ∞ 0.31”.
+    fn text(&self) -> String {
+        match self.l_infinity {
+            Some(distance) => format!("{}, ℓ∞ {distance:.2}", self.name),
+            None => self.name.to_owned(),
+        }
+    }
+
+    /// The highest point between two distances, if it is below `g_max`, else where the curve is cut.
+    fn peak(&self, from: f64, to: f64, g_max: f64) -> Option<(f64, f64)> {
+        let within = finite(self.curve).filter(|p| p.0 >= from && p.0 <= to);
+        within.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(r, g)| (r, g.min(g_max)))
+    }
+}
+
+/// Returns the curves to draw, the mosaic's last: of the samplers the three nearest to the mosaic, and independent
+/// points for scale. More would hide each other; all distances are in the tables.
+fn lines<'a>(figure: &MosaicFigure<'a>, mosaic: Curve<'a>) -> Vec<Line<'a>> {
+    let line = |l: &ReferenceLine<'a>, colour| Line {
+        name: l.name,
+        l_infinity: l.l_infinity,
+        curve: Curve { r: l.r, g: l.g },
+        colour,
+        width: SAMPLER_WIDTH,
+    };
+    let mut others: Vec<_> = figure.references.iter().filter(|l| l.name != SCALE).enumerate().collect();
+    // samplers without a distance come behind those that have one
+    others.sort_by(|(_, a), (_, b)| {
+        let of = |l: &ReferenceLine| l.l_infinity.unwrap_or(f64::INFINITY);
+        of(a).total_cmp(&of(b))
+    });
+    let scale = figure.references.iter().filter(|l| l.name == SCALE).map(|l| line(l, GREY));
+    // a sampler has the same colour in the figures of all mosaics, unless one that is nearer has it
+    let mut free = COLOURS.to_vec();
+    let nearest = others.into_iter().take(NEAREST).map(|(k, l)| {
+        let wanted = COLOURS[k % COLOURS.len()];
+        let at = free.iter().position(|c| *c == wanted).unwrap_or(0);
+        line(l, free.remove(at))
+    });
+    let nearest: Vec<_> = nearest.collect();
+    let own = Line { name: "mosaic", l_infinity: None, curve: mosaic, colour: INK, width: MOSAIC_WIDTH };
+    scale.chain(nearest).chain([own]).collect()
+}
+
+/// Draws the mosaic's PCF over those of the nearest samplers, every curve labelled with its name and ℓ∞.
 pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
     let Some(mosaic) = figure.pcf.filter(|curve| finite(*curve).next().is_some()) else {
         let sentence = match figure.points.len() {
@@ -34,33 +90,30 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
         canvas.sentence(area, sentence);
         return;
     };
-    let references: Vec<Curve> = figure.references.iter().map(|l| Curve { r: l.r, g: l.g }).collect();
-    let curves = || references.iter().copied().chain([mosaic]);
+    let lines = lines(figure, mosaic);
     let x = (0., axis_end(finite(mosaic).map(|p| p.0).fold(0., f64::max)));
     // A sampler's spike (few points, r beyond the window) may not flatten the mosaic's own curve.
     let tallest = finite(mosaic).map(|p| p.1).fold(SPIKE_FLOOR, f64::max) * SPIKE_FACTOR;
-    let highest = |from: f64, to: f64| {
-        let within = curves().flat_map(finite).filter(|p| p.0 >= from && p.0 <= to);
-        within.map(|p| p.1).fold(1., f64::max).min(tallest)
-    };
+    let peak_of = |line: &Line| line.peak(x.0, x.1, tallest);
+    let peak = lines.iter().filter_map(peak_of).map(|p| p.1).fold(1., f64::max);
 
-    let with_distances = figure.references.iter().any(|l| l.l_infinity.is_some());
-    let head = Entry { name: "mosaic", value: if with_distances { "ℓ∞" } else { "" }.to_owned() };
-    let samplers = figure
-        .references
-        .iter()
-        .map(|l| Entry { name: l.name, value: l.l_infinity.map_or_else(String::new, |d| format!("{d:.2}")) });
-    let entries: Vec<Entry> = [head].into_iter().chain(samplers).collect();
-    let width_of = |text: &str| text_width(text, Style::Note);
-    let names = entries.iter().map(|e| width_of(e.name)).fold(0., f64::max);
-    let values = entries.iter().map(|e| width_of(&e.value)).fold(0., f64::max);
-    let width = SWATCH + 4. + names + if with_distances { 6. + values } else { 0. };
-    let height = entries.len() as f64 * LINE + 3.;
-    let covered = (width + 5.) / area.width * x.1;
-    let peak = highest(0., x.1);
-    let top = |under: f64| headroom(peak, under, height, area.height);
-    let (left, right) = (top(highest(0., covered)), top(highest(x.1 - covered, x.1)));
-    let y_max = left.min(right);
+    let texts = |place: &dyn Fn(f64, f64) -> (f64, f64), beside: f64| -> Vec<Label> {
+        lines
+            .iter()
+            .filter_map(|line| {
+                let (r, g) = peak_of(line)?;
+                let target = if g < FLAT { line.peak(beside - 0.1, beside, tallest)? } else { (r, g) };
+                Some(Label { text: line.text(), target: place(target.0, target.1), colour: line.colour })
+            })
+            .collect()
+    };
+    // Labels begin right of all peaks, and left enough to end within the plot.
+    let wide = labels::width(&texts(&|r, g| (r, g), x.1)) / area.width * x.1;
+    let peaks = lines.iter().filter_map(peak_of).filter(|p| p.1 >= FLAT).map(|p| p.0).fold(0.7, f64::max);
+    let beside = (peaks + BESIDE_PEAK).min(x.1 - wide).max(0.1);
+    let under = lines.iter().filter_map(|l| l.peak(beside, beside + wide, tallest));
+    let under = under.map(|p| p.1).fold(1., f64::max);
+    let y_max = headroom(peak, under, labels::height(lines.len()), area.height);
 
     let place = canvas.axes(
         area,
@@ -69,27 +122,14 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
         round_above(y_max / 5.),
     );
     canvas.line(place(x.0, 1.), place(x.1, 1.), FRAME, 0.6);
-    for (index, curve) in references.iter().enumerate() {
-        let (colour, dash) = style(index);
-        for run in runs(*curve, x.1, y_max) {
-            canvas.polyline(run.iter().map(|p| place(p.0, p.1)).collect(), colour, SAMPLER_WIDTH, dash);
+    for line in &lines {
+        for run in runs(line.curve, x.1, y_max) {
+            let points = run.iter().map(|p| place(p.0, p.1)).collect();
+            canvas.polyline(points, line.colour, line.width, None);
         }
     }
-    for run in runs(mosaic, x.1, y_max) {
-        canvas.polyline(run.iter().map(|p| place(p.0, p.1)).collect(), INK, MOSAIC_WIDTH, None);
-    }
-
-    let start = if right <= left { area.right() - width } else { area.x + 5. };
-    for (i, entry) in entries.iter().enumerate() {
-        let y = area.y + 7. + i as f64 * LINE;
-        let (colour, dash, thickness) = match i.checked_sub(1) {
-            None => (INK, None, MOSAIC_WIDTH),
-            Some(index) => (style(index).0, style(index).1, SAMPLER_WIDTH + 0.3),
-        };
-        canvas.polyline(vec![(start, y - 3.), (start + SWATCH, y - 3.)], colour, thickness, dash);
-        canvas.text(start + SWATCH + 4., y, entry.name, Style::Note, Anchor::Start);
-        canvas.text(start + width, y, &entry.value, Style::Note, Anchor::End);
-    }
+    let (left, floor) = place(beside, under);
+    labels::draw(canvas, area, left, floor, texts(&place, beside));
 }
 
 fn finite(curve: Curve<'_>) -> impl Iterator<Item = (f64, f64)> {
@@ -137,11 +177,58 @@ fn cut(from: (f64, f64), to: (f64, f64), g_max: f64) -> Option<((f64, f64), (f64
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Window;
+    use crate::mosaic::LengthUnit;
     use std::collections::HashSet;
 
     #[test]
     fn eighteen_samplers_look_different() {
         assert_eq!((0..18).map(style).collect::<HashSet<_>>().len(), 18);
+    }
+
+    #[test]
+    fn the_three_nearest_samplers_are_drawn_and_independent_points_in_grey() {
+        let r = [0.5, 1., 1.5];
+        let curve = Curve { r: &r, g: &[0., 2., 1.] };
+        let reference = |name, l_infinity| ReferenceLine { name, r: &r, g: &[0., 1.5, 1.], l_infinity };
+        let references = [
+            reference("pink", Some(3.)),
+            reference("bnot", Some(0.2)),
+            reference("uniform", Some(0.9)),
+            reference("jittered", None),
+            reference("bridson", Some(0.1)),
+            reference("triangular", Some(0.4)),
+        ];
+        let window = Window::unit_square();
+        let drawn = lines(&MosaicFigure { references: &references, ..empty(&window) }, curve);
+        let shown: Vec<_> = drawn.iter().map(|l| (l.text(), l.colour)).collect();
+        let expected = [
+            ("uniform, ℓ∞ 0.90", GREY),
+            ("bridson, ℓ∞ 0.10", COLOURS[3]),
+            ("bnot, ℓ∞ 0.20", COLOURS[1]),
+            ("triangular, ℓ∞ 0.40", COLOURS[4]),
+            ("mosaic", INK),
+        ];
+        assert_eq!(shown, expected.map(|(text, colour)| (text.to_owned(), colour)));
+    }
+
+    fn empty(window: &Window) -> MosaicFigure<'_> {
+        MosaicFigure {
+            title: "",
+            picture: None,
+            points: &[],
+            window,
+            unit: LengthUnit::Unit,
+            um_per_unit: None,
+            nn: &[],
+            nn_mean: None,
+            nn_sd: None,
+            ri: None,
+            histogram_edges: &[],
+            histogram_counts: &[],
+            pcf: None,
+            references: &[],
+        }
     }
 
     #[test]

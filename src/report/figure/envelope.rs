@@ -1,11 +1,11 @@
-use super::canvas::{self, Anchor, Area, Canvas, FRAME, INK, Ranges, Style, round_above};
+use super::canvas::{self, Anchor, Area, Canvas, FRAME, INK, Ranges, Style, round_above, text_width};
 use super::correlation::axis_end;
 use super::page::{LEFT_EDGE, TITLE_BASELINE};
 use super::{Curve, ReportError};
 
 /// Read by screen readers.
 const DESCRIPTION: &str = "The pair correlation function of a mosaic (black) in the global 95 % envelope of simulations of \
-    each sampler (band) around their mean (thin line): one panel a sampler. Where the curve leaves the band it is drawn red.";
+    each sampler (band) around their mean (thin blue line): one panel per sampler. Where the curve leaves the band it is drawn red.";
 
 const COLUMNS: usize = 3;
 const PANEL: (f64, f64) = (184., 118.);
@@ -15,13 +15,20 @@ const AXIS_DEPTH: f64 = 36.;
 const BAND: &str = "#9ecae1";
 const MEAN: &str = "#0072B2";
 const OUTSIDE: &str = "#D55E00";
+/// Widths of the lines of the mosaic, of the simulations' mean, and of what is outside.
+const OWN_WIDTH: f64 = 1.6;
+const MEAN_WIDTH: f64 = 1.1;
+const OUTSIDE_WIDTH: f64 = 2.2;
+/// The key stands in a line of its own below the title; length of its samples of lines.
+const KEY_DEPTH: f64 = 16.;
+const SWATCH: f64 = 18.;
 
 /// One sampler's panel. All curves are on the same distances.
 #[derive(Clone, Copy, Debug)]
 pub struct EnvelopePanel<'a> {
     /// Its name.
     pub name: &'a str,
-    /// Above the panel, behind the name: the p-value.
+    /// Above the panel, behind the name: the p-value, “p = 0.3”.
     pub note: &'a str,
     /// Mean of the simulations.
     pub mean: &'a [f64],
@@ -47,24 +54,46 @@ pub fn envelope_figure(title: &str, mosaic: Curve, panels: &[EnvelopePanel]) -> 
     }
     let rows = panels.len().div_ceil(COLUMNS).max(1);
     let row_height = ROW_HEAD + PANEL.1 + AXIS_DEPTH;
-    let mut canvas = Canvas::new(TITLE_BASELINE + 4. + rows as f64 * row_height);
+    let head = TITLE_BASELINE + 4. + KEY_DEPTH;
+    let mut canvas = Canvas::new(head + rows as f64 * row_height);
     let fitted = canvas::fit(title, Style::Title, canvas::PAGE_WIDTH - 2. * LEFT_EDGE);
     canvas.text(LEFT_EDGE, TITLE_BASELINE, &fitted, Style::Title, Anchor::Start);
+    key(&mut canvas, TITLE_BASELINE + KEY_DEPTH);
     let highest = panels.iter().flat_map(|p| p.high).chain(mosaic.g).copied().filter(|v| v.is_finite());
     let highest = highest.fold(1., f64::max) * 1.05;
     let x = (0., axis_end(mosaic.r.last().copied().unwrap_or(1.)));
     for (k, panel) in panels.iter().enumerate() {
         let area = Area {
             x: AXIS_ROOM + (k % COLUMNS) as f64 * (PANEL.0 + AXIS_ROOM + 6.),
-            y: TITLE_BASELINE + 4. + ROW_HEAD + (k / COLUMNS) as f64 * row_height,
+            y: head + ROW_HEAD + (k / COLUMNS) as f64 * row_height,
             width: PANEL.0,
             height: PANEL.1,
         };
-        let heading = format!("{}  {}", panel.name, panel.note);
+        let heading = format!("{}, {}", panel.name, panel.note);
         canvas.text(area.x, area.y - 7., &heading, Style::Axis, Anchor::Start);
         draw(&mut canvas, area, Ranges { x, y: (0., highest) }, mosaic, panel);
     }
     Ok(canvas.into_svg(title, DESCRIPTION))
+}
+
+/// Writes which line is which, from left to right.
+fn key(canvas: &mut Canvas, baseline: f64) {
+    let middle = baseline - 3.;
+    let mut x = LEFT_EDGE;
+    for (words, colour, width) in [
+        ("g of the mosaic", INK, OWN_WIDTH),
+        ("mean of the simulations", MEAN, MEAN_WIDTH),
+        ("95 % global envelope of the simulations", BAND, 0.),
+        ("g outside the envelope", OUTSIDE, OUTSIDE_WIDTH),
+    ] {
+        if width > 0. {
+            canvas.line((x, middle), (x + SWATCH, middle), colour, width);
+        } else {
+            canvas.band(Area { x, y: middle - 4., width: SWATCH, height: 8. }, colour, 1.);
+        }
+        canvas.text(x + SWATCH + 4., baseline, words, Style::Note, Anchor::Start);
+        x += SWATCH + 4. + text_width(words, Style::Note) + 16.;
+    }
 }
 
 fn draw(canvas: &mut Canvas, area: Area, ranges: Ranges, mosaic: Curve, panel: &EnvelopePanel) {
@@ -76,8 +105,8 @@ fn draw(canvas: &mut Canvas, area: Area, ranges: Ranges, mosaic: Curve, panel: &
     let band: Vec<_> = along(panel.low).into_iter().chain(along(panel.high).into_iter().rev()).collect();
     canvas.polygon(&band, BAND);
     canvas.line(place(ranges.x.0, 1.), place(ranges.x.1, 1.), FRAME, 0.6);
-    canvas.polyline(along(panel.mean), MEAN, 0.8, None);
-    canvas.polyline(along(mosaic.g), INK, 1.6, None);
+    canvas.polyline(along(panel.mean), MEAN, MEAN_WIDTH, None);
+    canvas.polyline(along(mosaic.g), INK, OWN_WIDTH, None);
     // edges are rounded to three decimals
     let within = |bin: usize| (panel.low[bin] - 6e-4..=panel.high[bin] + 6e-4).contains(&mosaic.g[bin]);
     let mut bin = 0;
@@ -87,7 +116,7 @@ fn draw(canvas: &mut Canvas, area: Area, ranges: Ranges, mosaic: Curve, panel: &
             // half a bin on either side, so that a single bin is seen
             let span = bin.saturating_sub(1)..(bin + run + 1).min(mosaic.r.len());
             let points = span.map(|b| place(mosaic.r[b], mosaic.g[b])).collect();
-            canvas.polyline(points, OUTSIDE, 2.2, None);
+            canvas.polyline(points, OUTSIDE, OUTSIDE_WIDTH, None);
         }
         bin += run + 1;
     }
@@ -106,13 +135,18 @@ mod tests {
             envelope_figure("a", Curve { r: &r, g }, panels).unwrap().to_uppercase()
         };
         let inside = drawn(&mean, &[panel; 4]);
-        assert_eq!(inside.matches("BNOT  P = 0.3").count(), 4);
-        assert!(!inside.contains(OUTSIDE) && inside.contains(&BAND.to_uppercase()));
+        assert_eq!(inside.matches("BNOT, P = 0.3").count(), 4);
+        // the key knows all colours, once each
+        let times = |svg: &str, colour: &str| svg.matches(&colour.to_uppercase()).count();
+        assert_eq!((times(&inside, OUTSIDE), times(&inside, BAND)), (1, 5));
         let mut g = mean.clone();
         g[7] = 2.;
-        assert!(drawn(&g, &[panel]).contains(OUTSIDE));
+        assert_eq!(times(&drawn(&g, &[panel]), OUTSIDE), 2);
         let svg = envelope_figure("a", Curve { r: &r, g: &g }, &[panel]).unwrap();
         roxmltree::Document::parse(&svg).unwrap();
+        for words in ["g of the mosaic", "mean of the simulations", "95 % global envelope"] {
+            assert!(svg.contains(words), "{words} is not in the key");
+        }
         assert!(envelope_figure("a", Curve { r: &r, g: &[1.] }, &[panel]).is_err());
     }
 }

@@ -3,7 +3,7 @@ use super::field::{Projection, draw_outline, scale_bar};
 use super::page::{LEFT_EDGE, LETTER_RISE, TITLE_BASELINE};
 use super::{shown_unit, with_unit};
 use crate::mosaic::Mosaic;
-use crate::report::grey::png;
+use crate::report::picture::png;
 use crate::report::{ReportError, significant};
 use crate::stats::{LocalValues, LocalWindow, MapGrid, Maps};
 use image::ExtendedColorType;

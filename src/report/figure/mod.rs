@@ -7,12 +7,14 @@ mod correlation;
 mod envelope;
 mod field;
 mod froc;
+mod labels;
 mod maps;
 mod neighbours;
 mod page;
 mod panels;
 mod reliability;
 mod samplers;
+mod spectrum;
 
 use super::ReportError;
 use crate::geometry::{Point, Window};
@@ -26,11 +28,12 @@ pub use maps::maps_figure;
 use page::Page;
 pub use reliability::{ReliabilityFigure, reliability_figure};
 pub use samplers::{SamplerPanel, samplers_figure};
+pub use spectrum::{spectrum_figure, spectrum_png};
 
 /// Read by screen readers, and by whoever wonders what ℓ∞ is.
 const DESCRIPTION: &str = "One cone mosaic: its picture, its points, its nearest-neighbour distances with the Gaussian \
     of the same mean and standard deviation (RI: mean over standard deviation), and its pair correlation function over \
-    the mean ones of point samplers (ℓ∞, l-infinity: the largest difference between a sampler's and the mosaic's).";
+    the mean ones of the three nearest point samplers and of independent points (ℓ∞, l-infinity: the largest difference between a sampler's and the mosaic's).";
 
 /// A function of distance, sampled: as many values as distances.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +47,7 @@ pub struct Curve<'a> {
 /// The mean PCF of a sampler, and how far the mosaic is from it.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceLine<'a> {
-    /// The sampler's name, as it stands in the legend.
+    /// The sampler's name.
     pub name: &'a str,
     /// Distances in hexagonal spacings.
     pub r: &'a [f64],
@@ -85,7 +88,7 @@ pub struct MosaicFigure<'a> {
     pub histogram_counts: &'a [usize],
     /// The mosaic's pair correlation function.
     pub pcf: Option<Curve<'a>>,
-    /// The samplers it is compared with, in the order of the legend.
+    /// The samplers it is compared with. Drawn are the three nearest, and `uniform` for scale.
     pub references: &'a [ReferenceLine<'a>],
 }
 
@@ -132,8 +135,7 @@ fn with_unit(number: &str, unit: &str) -> String {
 pub fn mosaic_figure(figure: &MosaicFigure) -> Result<String, ReportError> {
     figure.validate()?;
     let bounds = figure.window.bounds();
-    let page =
-        Page::arrange(bounds.width() / bounds.height(), figure.picture.is_some(), figure.references.len());
+    let page = Page::arrange(bounds.width() / bounds.height(), figure.picture.is_some());
     let mut canvas = Canvas::new(page.height);
     let title = canvas::fit(figure.title, Style::Title, canvas::PAGE_WIDTH - 2. * page::LEFT_EDGE);
     canvas.text(page::LEFT_EDGE, page::TITLE_BASELINE, &title, Style::Title, Anchor::Start);

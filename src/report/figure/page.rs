@@ -19,12 +19,11 @@ const GAP: f64 = 14.;
 const RIGHT_EDGE: f64 = 8.;
 pub(super) const LEFT_EDGE: f64 = 2.;
 /// Height of the plots where nothing asks for more.
-const PLOT_HEIGHT: f64 = 154.;
+const PLOT_HEIGHT: f64 = 160.;
+/// A field beside the plots is at most so high.
+const TALLEST: f64 = 200.;
 /// Share of the two plots' width that the histogram gets; the PCF has more to show.
 const HISTOGRAM_SHARE: f64 = 0.4;
-/// A line of the PCF's legend, and what must remain below the legend for the curves.
-const LEGEND_LINE: f64 = 11.;
-const CURVE_ROOM: f64 = 75.;
 /// Wider fields than this are stacked beside the plots, and above them.
 const WIDE: f64 = 1.7;
 const VERY_WIDE: f64 = 4.;
@@ -43,24 +42,22 @@ pub(super) struct Page {
 
 impl Page {
     /// For a field of the given width over height, shown once, or twice with a picture.
-    pub(super) fn arrange(aspect: f64, with_picture: bool, references: usize) -> Self {
-        let plot_height = PLOT_HEIGHT.max((references + 1) as f64 * LEGEND_LINE + CURVE_ROOM);
+    pub(super) fn arrange(aspect: f64, with_picture: bool) -> Self {
         if aspect <= WIDE {
-            Self::row(aspect, with_picture, plot_height)
+            Self::row(aspect, with_picture)
         } else if aspect <= VERY_WIDE {
-            Self::stacked_beside(aspect, with_picture, plot_height)
+            Self::stacked_beside(aspect, with_picture)
         } else {
-            Self::stacked_above(aspect, with_picture, plot_height)
+            Self::stacked_above(aspect, with_picture)
         }
     }
 
     /// All panels side by side.
-    fn row(aspect: f64, with_picture: bool, plot_height: f64) -> Self {
+    fn row(aspect: f64, with_picture: bool) -> Self {
         let widest = if with_picture { 140. } else { 180. };
-        let tallest = plot_height.max(200.);
-        let width = f64::min(widest, tallest * aspect);
+        let width = f64::min(widest, TALLEST * aspect);
         let height = width / aspect;
-        let plot_height = plot_height.max(height.min(190.));
+        let plot_height = PLOT_HEIGHT.max(height.min(190.));
         // A narrow strip still needs room for its letter and its scale bar.
         let column = width.max(56.) + GAP;
         let picture = with_picture.then_some(Area { x: LEFT_EDGE, y: HEAD, width, height });
@@ -71,29 +68,29 @@ impl Page {
     }
 
     /// Fields one above the other on the left, plots on the right.
-    fn stacked_beside(aspect: f64, with_picture: bool, plot_height: f64) -> Self {
+    fn stacked_beside(aspect: f64, with_picture: bool) -> Self {
         let width = f64::min(270., if with_picture { 88. } else { 130. } * aspect);
         let height = width / aspect;
         let picture = with_picture.then_some(Area { x: LEFT_EDGE, y: HEAD, width, height });
         let top = HEAD + if with_picture { height + SCALE_BAR_ROOM + LETTER_ROOM } else { 0. };
         let points = Area { x: LEFT_EDGE, y: top, width, height };
         // The axes end where the lower field does.
-        let plot_height = plot_height.max(top + height - HEAD);
+        let plot_height = PLOT_HEIGHT.max(top + height - HEAD);
         let (neighbours, correlation) = plots(LEFT_EDGE + width + GAP, HEAD, plot_height);
         let bottom = (top - HEAD + height + SCALE_BAR_ROOM).max(plot_height + AXIS_DEPTH);
         Self { height: HEAD + bottom, picture, points, neighbours, correlation }
     }
 
     /// Fields over the whole width, plots below.
-    fn stacked_above(aspect: f64, with_picture: bool, plot_height: f64) -> Self {
+    fn stacked_above(aspect: f64, with_picture: bool) -> Self {
         let width = PAGE_WIDTH - 2. * LEFT_EDGE;
         let height = width / aspect;
         let step = height + SCALE_BAR_ROOM + LETTER_ROOM;
         let picture = with_picture.then_some(Area { x: LEFT_EDGE, y: HEAD, width, height });
         let points = Area { y: HEAD + if with_picture { step } else { 0. }, x: LEFT_EDGE, width, height };
         let top = points.y + step;
-        let (neighbours, correlation) = plots(LEFT_EDGE, top, plot_height);
-        Self { height: top + plot_height + AXIS_DEPTH, picture, points, neighbours, correlation }
+        let (neighbours, correlation) = plots(LEFT_EDGE, top, PLOT_HEIGHT);
+        Self { height: top + PLOT_HEIGHT + AXIS_DEPTH, picture, points, neighbours, correlation }
     }
 }
 
@@ -113,8 +110,8 @@ mod tests {
     #[test]
     fn panels_never_overlap_nor_leave_the_page() {
         for aspect in [0.02, 0.3, 0.7, 1., 1.5, 1.75, 2.67, 3.9, 4.1, 12., 60.] {
-            for (with_picture, references) in [(true, 0), (true, 6), (false, 6), (true, 14)] {
-                let page = Page::arrange(aspect, with_picture, references);
+            for with_picture in [true, false] {
+                let page = Page::arrange(aspect, with_picture);
                 let areas: Vec<_> = page
                     .picture
                     .into_iter()

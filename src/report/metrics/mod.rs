@@ -18,12 +18,14 @@ mod unit;
 #[cfg(test)]
 mod values;
 mod voronoi;
+mod words;
 
 pub use dictionary::{dictionary, dictionary_csv, dictionary_text};
 pub use metric::{Metric, MetricGroup, Quantity, Subject, SummaryKind};
 pub use names::{ColumnNames, column_names};
 pub use selection::MetricSelection;
 pub use summary::Summary;
+pub use words::column_in_words;
 
 use metric::metric;
 

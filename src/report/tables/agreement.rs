@@ -1,5 +1,5 @@
 use super::{Row, Table, column};
-use crate::compare::{Agreement, Interval, Intraclass};
+use crate::compare::{ClusteredAgreement, Interval, Intraclass};
 
 /// Agreement of two graders, or of all, in one column.
 #[derive(Clone, Copy, Debug)]
@@ -13,9 +13,11 @@ pub struct AgreementRow<'a> {
     /// Mean of each grader; `None` for the row over all.
     pub means: Option<[f64; 2]>,
     /// Bias and limits of agreement; `None` for the row over all.
-    pub agreement: Option<Agreement>,
+    pub agreement: Option<ClusteredAgreement>,
     /// Intraclass correlation.
     pub intraclass: Option<Intraclass>,
+    /// Images of a group do not count as independent.
+    pub grouped: bool,
 }
 
 impl Row for AgreementRow<'static> {
@@ -24,13 +26,15 @@ impl Row for AgreementRow<'static> {
 
 impl AgreementRow<'_> {
     /// Returns one end of an interval of the agreement.
-    fn end(&self, end: usize, interval: fn(&Agreement) -> Option<Interval>) -> Option<f64> {
+    fn end(&self, end: usize, interval: fn(&ClusteredAgreement) -> Option<Interval>) -> Option<f64> {
         interval(self.agreement.as_ref()?)?.get(end).copied()
     }
 
     /// Returns one end of an interval of the correlation.
     fn icc_end(&self, end: usize, interval: fn(&Intraclass) -> Option<Interval>) -> Option<f64> {
-        interval(self.intraclass.as_ref()?)?.get(end).copied()
+        // these intervals would take the images of a group as independent
+        let icc = self.intraclass.as_ref().filter(|_| !self.grouped)?;
+        interval(icc)?.get(end).copied()
     }
 }
 
@@ -49,31 +53,31 @@ pub static AGREEMENT: Table<AgreementRow> = Table {
         column("mean_first", "of the column", "Mean of the first.").of(|a| a.means.map(|m| m[0]).into()),
         column("mean_second", "of the column", "Mean of the second.").of(|a| a.means.map(|m| m[1]).into()),
         column("difference", "of the column", "Bias: mean of first − second.")
-            .of(|a| a.agreement.map(|g| g.bias).into()),
+            .of(|a| a.agreement.map(|g| g.agreement.bias).into()),
         column("difference_low", "of the column", "Lower end of the 95 % interval of difference (t).")
-            .of(|a| a.end(0, Agreement::bias_interval).into()),
+            .of(|a| a.end(0, |g| g.bias_interval).into()),
         column("difference_high", "of the column", "Upper end of that interval.")
-            .of(|a| a.end(1, Agreement::bias_interval).into()),
-        column("sd", "of the column", "Standard deviation (n − 1) of the differences.")
-            .of(|a| a.agreement.and_then(|g| g.sd).into()),
+            .of(|a| a.end(1, |g| g.bias_interval).into()),
+        column("sd", "of the column", "Standard deviation (n − 1) of the differences; with groups, of both components of their variance.")
+            .of(|a| a.agreement.and_then(|g| g.agreement.sd).into()),
         column("limit_low", "of the column", "Lower limit of agreement, bias − 1.96 SD.")
             .source("Bland & Altman 1999")
-            .of(|a| a.end(0, |g| g.limits).into()),
+            .of(|a| a.end(0, |g| g.agreement.limits).into()),
         column("limit_low_from", "of the column", "Lower end of the 95 % interval of limit_low.")
             .source("Bland & Altman 1999")
-            .of(|a| a.end(0, |g| g.limit_intervals().map(|i| i[0])).into()),
+            .of(|a| a.end(0, |g| g.limit_intervals.map(|i| i[0])).into()),
         column("limit_low_to", "of the column", "Upper end of that interval.")
             .source("Bland & Altman 1999")
-            .of(|a| a.end(1, |g| g.limit_intervals().map(|i| i[0])).into()),
+            .of(|a| a.end(1, |g| g.limit_intervals.map(|i| i[0])).into()),
         column("limit_high", "of the column", "Upper limit of agreement, bias + 1.96 SD.")
             .source("Bland & Altman 1999")
-            .of(|a| a.end(1, |g| g.limits).into()),
+            .of(|a| a.end(1, |g| g.agreement.limits).into()),
         column("limit_high_from", "of the column", "Lower end of the 95 % interval of limit_high.")
             .source("Bland & Altman 1999")
-            .of(|a| a.end(0, |g| g.limit_intervals().map(|i| i[1])).into()),
+            .of(|a| a.end(0, |g| g.limit_intervals.map(|i| i[1])).into()),
         column("limit_high_to", "of the column", "Upper end of that interval.")
             .source("Bland & Altman 1999")
-            .of(|a| a.end(1, |g| g.limit_intervals().map(|i| i[1])).into()),
+            .of(|a| a.end(1, |g| g.limit_intervals.map(|i| i[1])).into()),
         column(
             "icc_agreement",
             "≤ 1",
@@ -109,6 +113,15 @@ pub static AGREEMENT: Table<AgreementRow> = Table {
         .of(|a| a.intraclass.map(|i| i.repeatability).into()),
         column("within_cv_percent", "%", "within_sd over the mean; empty where that is 0.")
             .of(|a| a.intraclass.and_then(|i| i.within_cv_percent).into()),
+        column(
+            "groups",
+            "count",
+            "Groups of images that count as independent: with groups fewer than images. The limits are then \
+             those for repeated measurements (Bland & Altman 2007), their intervals by Zou (2013), and \
+             intervals of ICC are left out.",
+        )
+        .source("Bland & Altman 2007")
+        .of(|a| a.agreement.map(|g| g.clusters).into()),
     ],
 };
 

@@ -235,5 +235,12 @@ pub static COMPARISON: Table<Difference> = Table {
             .of(|d| d.interval.map(|i| i[1]).into()),
         column("p", "0–1", "p-value of the paired sign-flip test that the mean difference is zero.")
             .of(|d| d.p.into()),
+        column(
+            "p_least",
+            "0–1",
+            "Least p-value that so few groups (or images) can have: 2/2ⁿ of n that differ, .0625 of 5; \
+             above 16 of them 1/50,000.",
+        )
+        .of(|d| d.least_p.into()),
     ],
 };

@@ -53,6 +53,8 @@ pub struct PowerSpectrum {
     pub anisotropy_db: Vec<Option<f64>>,
     /// Highest wave numbers in the plane, along x and y.
     highest: [usize; 2],
+    /// Frequency of the first wave along x and along y, in √λ.
+    step: [f64; 2],
     /// Power at 0 ≤ kx, |ky| ≤ highest: `[kx · (2 · highest y + 1) + ky + highest y]`.
     plane: Vec<f64>,
 }
@@ -114,6 +116,7 @@ pub fn spectrum(
         power: filled().map(|(_, a)| a.mean).collect(),
         anisotropy_db: filled().map(|(_, a)| a.anisotropy_db()).collect(),
         highest,
+        step: [stretch / root, 1. / (stretch * root)],
         plane,
     })
 }
@@ -141,6 +144,11 @@ impl Annulus {
 }
 
 impl PowerSpectrum {
+    /// Returns how far apart waves lie along x and along y, in √λ: cycles per 1/√density.
+    pub const fn wave_step(&self) -> [f64; 2] {
+        self.step
+    }
+
     /// Highest wave numbers of the plane along x and y.
     pub fn highest(&self) -> [usize; 2] {
         self.highest

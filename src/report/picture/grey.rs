@@ -1,4 +1,4 @@
-use super::ReportError;
+use crate::report::ReportError;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, GrayImage, ImageEncoder};
 use ndarray::ArrayView2;
@@ -12,7 +12,7 @@ const SAMPLE: usize = 1 << 17;
 
 /// The plane in 8 bits, its 0.5th percentile black and its 99.5th white. A constant plane is mid-grey, what is not a
 /// number is black.
-pub(super) fn stretched(plane: ArrayView2<f32>) -> GrayImage {
+pub(in crate::report) fn stretched(plane: ArrayView2<f32>) -> GrayImage {
     let (height, width) = plane.dim();
     // An odd step, so that the sample does not run down a few columns of an image of even width.
     let step = (plane.len() / SAMPLE) | 1;
@@ -69,7 +69,7 @@ pub(super) fn enlarged(grey: &GrayImage, factor: u32) -> GrayImage {
 }
 
 /// Speed before size: a run writes hundreds of pictures.
-pub(super) fn png(
+pub(in crate::report) fn png(
     pixels: &[u8],
     width: u32,
     height: u32,

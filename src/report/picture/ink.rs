@@ -1,7 +1,7 @@
 /// Where a stroke or a spot lies, in px of the image it is drawn on; pixel (0, 0) is centred at (0, 0).
 /// imageproc's circles and lines have whole-pixel centres, which would shift a mark by up to half a pixel.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Shape {
+pub(in crate::report) enum Shape {
     /// A filled disc.
     Disc,
     /// The outline of a circle.
@@ -35,7 +35,7 @@ impl Shape {
 
     /// Calls `paint(x, y, coverage)` for every pixel of a `width` × `height` image that a line of `thickness` px
     /// touches, coverage in (0, 1]. For a disc, thickness is 0.
-    pub(super) fn cover(
+    pub(in crate::report) fn cover(
         self,
         (width, height): (u32, u32),
         (x, y): (f64, f64),

@@ -1,6 +1,6 @@
-use super::TextTable;
-use super::page::{STYLE, in_url};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use super::skeleton::{in_url, skeleton};
+use crate::report::TextTable;
+use maud::{Markup, PreEscaped, html};
 use std::fmt::Write;
 
 const MORE_STYLE: &str = "
@@ -59,33 +59,22 @@ pub struct Document {
 }
 
 impl Document {
-    /// One page without any other file; figures are in it.
+    /// Returns one page that needs no other file; figures are in it.
     pub fn to_html(&self) -> String {
-        html! {
-            (DOCTYPE)
-            html lang="en" {
-                head {
-                    meta charset="utf-8";
-                    meta name="viewport" content="width=device-width, initial-scale=1";
-                    title { (self.title) }
-                    style { (PreEscaped(STYLE)) (PreEscaped(MORE_STYLE)) }
-                }
-                body {
-                    h1 { (self.title) }
-                    p.lead { (self.lead) }
-                    div.summary { @for h in &self.headlines {
-                        div.no[!h.good] { b { (h.number) } (h.words) }
-                    } }
-                    @for section in &self.sections { (section.to_html()) }
-                    hr;
-                    p.lead { (self.colophon) }
-                }
-            }
-        }
-        .into_string()
+        let body = html! {
+            h1 { (self.title) }
+            p.lead { (self.lead) }
+            div.summary { @for h in &self.headlines {
+                div.no[!h.good] { b { (h.number) } (h.words) }
+            } }
+            @for section in &self.sections { (section.to_html()) }
+            hr;
+            p.lead { (self.colophon) }
+        };
+        skeleton(&self.title, MORE_STYLE, &body)
     }
 
-    /// The same as Markdown; figures are links to their files.
+    /// Returns the same as Markdown; figures are links to their files.
     pub fn to_markdown(&self) -> String {
         let mut text = format!("# {}\n\n{}\n\n", self.title, self.lead);
         for h in &self.headlines {

@@ -1,6 +1,6 @@
-use super::page::{STYLE, in_url};
-use super::{MarkKind, TextTable, counted};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use super::skeleton::{breakable, in_url, shared_start, skeleton};
+use crate::report::{MarkKind, TextTable, counted};
+use maud::{Markup, html};
 
 /// The overlays of so many of the worst images stand on the page; the others are linked.
 const SHOWN: usize = 12;
@@ -43,42 +43,47 @@ pub struct ValidationPage<'a> {
     pub failures: &'a [(&'a str, &'a str)],
 }
 
-/// The page of a validation: accuracy, agreement, curves, and the images from worst to best.
+/// Returns the page of a validation: accuracy, agreement, curves, and the images from worst to best.
 pub fn validation_page(page: &ValidationPage) -> String {
-    html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "Validation of cone detections" }
-                style { (PreEscaped(STYLE)) (PreEscaped(MORE_STYLE)) }
-            }
-            body {
-                h1 { "Validation of cone detections" }
-                p.lead { (page.lead) }
-                @if !page.images.is_empty() { nav { a href="#images" { "Images, worst first" } } }
-                @for note in page.notes { p.warning { "⚠ " (note) } }
-                @if !page.failures.is_empty() {
-                    h2.warning { (counted(page.failures.len(), "file")) " of marks failed" }
-                    ul { @for (file, reason) in page.failures { li title=(file) { (reason) } } }
-                }
-                @for (heading, table) in page.tables { h2 { (heading) } div.scroll { (table_of(table)) } }
-                @for (file, words) in page.figures {
-                    figure { img src=(in_url(file)) alt=(words); figcaption { (words) } }
-                }
-                @if !page.images.is_empty() { (images(page)) }
-                p {
-                    "Files: "
-                    @for (k, (file, words)) in page.files.iter().enumerate() {
-                        @if k > 0 { "; " } a href=(in_url(file)) { (file) } ", " (words)
-                    }
-                    "."
-                }
-            }
+    let body = html! {
+        h1 { "Validation of cone detections" }
+        p.lead { (page.lead) }
+        @if !page.images.is_empty() { nav { a href="#images" { "Images, worst first" } } }
+        @for note in page.notes { p.warning { "⚠ " (note) } }
+        @if !page.failures.is_empty() {
+            h2.warning { (counted(page.failures.len(), "file")) " of marks failed" }
+            ul { @for (file, reason) in page.failures { li title=(file) { (reason) } } }
         }
-    }
-    .into_string()
+        @for (heading, table) in page.tables { h2 { (heading) } div.scroll { (table_of(table)) } }
+        @for (file, words) in page.figures {
+            figure { img src=(in_url(file)) alt=(words); figcaption { (words) } }
+        }
+        @if !page.images.is_empty() { (images(page)) }
+        p {
+            "Files: "
+            @for (k, (file, words)) in page.files.iter().enumerate() {
+                @if k > 0 { "; " } a href=(in_url(file)) { (file) } ", " (words)
+            }
+            "."
+        }
+    };
+    skeleton("Validation of cone detections", &style(), &body)
+}
+
+/// Marks of the key to the overlays: class and words of each.
+const KEY: [(MarkKind, &str, &str); 4] = [
+    (MarkKind::Hit, "hit", "hit (ring)"),
+    (MarkKind::Miss, "miss", "miss (plus)"),
+    (MarkKind::FalseAlarm, "alarm", "false alarm (cross)"),
+    (MarkKind::Uncounted, "uncounted", "in the dark border, not counted"),
+];
+
+/// Returns the style of this page, the colours of the key among it.
+fn style() -> String {
+    let colour = |(kind, class, _): &(MarkKind, &str, &str)| {
+        format!(".key.{class} {{ background: {}; }}\n", hex(kind.colour()))
+    };
+    KEY.iter().fold(MORE_STYLE.to_owned(), |style, entry| style + &colour(entry))
 }
 
 fn table_of(table: &TextTable) -> Markup {
@@ -93,16 +98,12 @@ fn table_of(table: &TextTable) -> Markup {
 fn images(page: &ValidationPage) -> Markup {
     let shown = page.images.iter().take(SHOWN).filter_map(|i| i.overlay.as_ref().map(|o| (i, o)));
     let shown: Vec<_> = shown.collect();
+    let shared = shared_start(page.images.iter().map(|i| i.name.as_str()));
     html! {
         h2 id="images" { "Images: what needs a human first" }
         @if !shown.is_empty() {
             p {
-                @for (kind, words) in [
-                    (MarkKind::Hit, "hit (ring)"),
-                    (MarkKind::Miss, "miss (plus)"),
-                    (MarkKind::FalseAlarm, "false alarm (cross)"),
-                    (MarkKind::Uncounted, "in the dark border, not counted"),
-                ] { span.key style=(format!("background:{}", hex(kind.colour()))) {} (words) }
+                @for (_, class, words) in KEY { span class={ "key " (class) } {} (words) }
             }
             div.overlays {
                 @for (image, overlay) in shown {
@@ -118,7 +119,7 @@ fn images(page: &ValidationPage) -> Markup {
                 thead { tr { th { "image" } @for cell in page.header { th { (cell) } } } }
                 tbody { @for image in page.images { tr {
                     td title=(image.name) {
-                        @if let Some(overlay) = &image.overlay { a href=(in_url(overlay)) { (image.name) } } @else { (image.name) }
+                        @if let Some(overlay) = &image.overlay { a href=(in_url(overlay)) { (breakable(&image.name, shared)) } } @else { (breakable(&image.name, shared)) }
                     }
                     @for cell in &image.cells { td { (cell) } }
                 } } }

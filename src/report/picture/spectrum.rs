@@ -1,5 +1,5 @@
-use super::ReportError;
 use super::grey::png;
+use crate::report::ReportError;
 use crate::stats::PowerSpectrum;
 use image::ExtendedColorType;
 
@@ -26,12 +26,25 @@ impl PowerScale {
     }
 }
 
-/// The plane of wave vectors as grey PNG: frequency 0 in the middle, and black; x to the right, y down, a wave vector a pixel. Of
-/// large planes a pixel is the mean of a square of them, so that no side has more than 1024.
+/// A picture of the plane of wave vectors.
+pub(in crate::report) struct Plane {
+    /// Grey, as PNG.
+    pub png: Vec<u8>,
+    /// How far it reaches from its middle to its edges along x and y, in cycles per 1/√density.
+    pub reach: [f64; 2],
+}
+
+/// Returns the plane of wave vectors as grey PNG: frequency 0 in the middle, and black; x to the right, y down, one
+/// pixel per wave vector. Of large planes a pixel is the mean of a square of them, so that no side has more than 1024.
 ///
 /// # Errors
 /// If the encoder refuses it.
-pub fn spectrum_png(spectrum: &PowerSpectrum, scale: PowerScale) -> Result<Vec<u8>, ReportError> {
+pub fn spectrum_plane(spectrum: &PowerSpectrum, scale: PowerScale) -> Result<Vec<u8>, ReportError> {
+    plane(spectrum, scale).map(|plane| plane.png)
+}
+
+/// Returns the same, and how far it reaches.
+pub(in crate::report) fn plane(spectrum: &PowerSpectrum, scale: PowerScale) -> Result<Plane, ReportError> {
     let [columns, rows] = spectrum.highest().map(|k| k as isize);
     let block = ((2 * columns.max(rows) + 1) as usize).div_ceil(LARGEST) as isize;
     // blocks lie symmetrically about the middle one
@@ -54,7 +67,10 @@ pub fn spectrum_png(spectrum: &PowerSpectrum, scale: PowerScale) -> Result<Vec<u
         }
     }
     let size = |half: isize| (2 * half + 1) as u32;
-    png(&pixels, size(half_width), size(half_height), ExtendedColorType::L8)
+    let png = png(&pixels, size(half_width), size(half_height), ExtendedColorType::L8)?;
+    let [across, down] = spectrum.wave_step();
+    let reach = |half: isize, step: f64| (half as f64 + 0.5) * block as f64 * step;
+    Ok(Plane { png, reach: [reach(half_width, across), reach(half_height, down)] })
 }
 
 #[cfg(test)]
@@ -70,7 +86,7 @@ mod tests {
         let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
         let points = sampler(name).unwrap().sample(n, &window, &mut rng).unwrap();
         let power = spectrum(&points, &window, &SpectrumOptions::default()).unwrap();
-        image::load_from_memory(&spectrum_png(&power, scale).unwrap()).unwrap().to_luma8()
+        image::load_from_memory(&spectrum_plane(&power, scale).unwrap()).unwrap().to_luma8()
     }
 
     #[test]

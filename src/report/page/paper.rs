@@ -1,8 +1,8 @@
 //! What the re-making of the paper says, in words.
 
-use super::paper::{PaperResults, pair};
-use super::{Document, FindingRecord, Headline, Section, TextTable, significant};
 use crate::compare::paper::{DistanceBetween, MadeRow, PAIRS, allowed, peak};
+use crate::report::paper::{PaperResults, pair};
+use crate::report::{Document, FindingRecord, Headline, Section, TextTable, significant};
 use crate::stats::Pcf;
 
 /// A curve that stays below this has no peak: the mean of ten patterns scatters by .03.

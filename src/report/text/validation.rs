@@ -1,4 +1,4 @@
-use super::{significant, table};
+use super::table::{significant, table};
 use crate::compare::{
     Agreement, Difference, Froc, GroupSummary, Interval, MeanOverGroups, Reliability, Summary,
 };
@@ -154,7 +154,8 @@ pub fn threshold_table(
     TextTable::new(&["score of the detections", ""], rows)
 }
 
-/// Paired differences of two detectors or graders.
+/// Returns paired differences of two detectors or graders. Few groups cannot have a small p, however they differ: the
+/// least that they can have stands beside it.
 pub fn comparison_table(first: &str, second: &str, differences: &[Difference]) -> TextTable {
     let row = |d: &Difference| {
         let (label, number): (_, fn(f64) -> String) = match d.measure {
@@ -167,8 +168,10 @@ pub fn comparison_table(first: &str, second: &str, differences: &[Difference]) -
         };
         let values = [d.first, d.second, d.difference].map(number);
         let p = d.p.map_or(NONE.into(), |p| significant(p, 2));
-        [vec![label.to_owned()], values.to_vec(), vec![between(d.interval, number), p]].concat()
+        let least = significant(d.least_p, 2);
+        [vec![label.to_owned()], values.to_vec(), vec![between(d.interval, number), p, least]].concat()
     };
     let rows = differences.iter().map(row).collect();
-    TextTable::new(&["mean over images", first, second, "difference", "95 % interval", "p"], rows)
+    let header = ["mean over images", first, second, "difference", "95 % interval", "p", "least p possible"];
+    TextTable::new(&header, rows)
 }

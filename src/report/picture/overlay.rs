@@ -1,7 +1,7 @@
-use super::ReportError;
 use super::grey::{enlarged, png, stretched};
 use super::ink::Shape;
 use crate::image::Plane;
+use crate::report::ReportError;
 use image::{ExtendedColorType, Rgb, RgbImage};
 
 /// Neighbouring cones shall lie so many output px apart: less, and the rings hide them.

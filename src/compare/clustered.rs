@@ -1,0 +1,226 @@
+use super::{Agreement, Interval, agreement};
+use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
+
+/// Two-sided 95 % point of the normal distribution, as Bland & Altman print it.
+const Z: f64 = 1.96;
+
+/// Agreement of two methods where several pairs of measurements belong together: the images of an eye.
+///
+/// Images of one eye err alike, so that they say less than as many images of different eyes. Taken as independent, they
+/// make the intervals too narrow, and the limits of agreement too where eyes have unequal numbers of images.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClusteredAgreement {
+    /// Number of clusters.
+    pub clusters: usize,
+    /// Bias, the mean of all differences; `sd` is the root of both components of their variance together.
+    pub agreement: Agreement,
+    /// Standard deviation of the clusters' own biases; `None` of fewer than two clusters.
+    pub between_sd: Option<f64>,
+    /// Standard deviation of differences within a cluster; `None` where every cluster has one.
+    pub within_sd: Option<f64>,
+    /// 95 % confidence interval of the bias.
+    pub bias_interval: Option<Interval>,
+    /// 95 % confidence intervals of the lower and the upper limit of agreement.
+    pub limit_intervals: Option<[Interval; 2]>,
+}
+
+/// Returns bias and limits of agreement of `differences`, the indices of a cluster's in each of `clusters`; `None`
+/// without any, or if one is not finite.
+///
+/// Every cluster is taken to have a bias of its own, the true value of what is measured being another in every image:
+/// components of the variance by one-way analysis of variance, the limits from their sum (Bland & Altman 2007, section 3,
+/// J Biopharm Stat 17:571, <https://doi.org/10.1080/10543400701329422>). The interval of the bias has as many degrees of
+/// freedom as there are clusters, less one; those of the limits recover the variance of either component (Zou 2013, Stat
+/// Methods Med Res 22:630, <https://doi.org/10.1177/0962280211402548>). Where each cluster has one difference, all is as
+/// [`agreement`] has it.
+pub fn agreement_of_clusters(differences: &[f64], clusters: &[Vec<usize>]) -> Option<ClusteredAgreement> {
+    let plain = agreement(differences)?;
+    let groups: Vec<Vec<f64>> = clusters
+        .iter()
+        .map(|c| c.iter().filter_map(|&i| differences.get(i).copied()).collect::<Vec<f64>>())
+        .filter(|group| !group.is_empty())
+        .collect();
+    if groups.iter().all(|g| g.len() == 1) {
+        return Some(ClusteredAgreement {
+            clusters: groups.len(),
+            agreement: plain,
+            between_sd: plain.sd,
+            within_sd: None,
+            bias_interval: plain.bias_interval(),
+            limit_intervals: plain.limit_intervals(),
+        });
+    }
+    let parts = Components::of(&groups, plain.bias);
+    let sd = parts.map(|p| p.total().sqrt());
+    let limits = sd.map(|sd| [plain.bias - Z * sd, plain.bias + Z * sd]);
+    Some(ClusteredAgreement {
+        clusters: groups.len(),
+        agreement: Agreement { sd, limits, ..plain },
+        between_sd: parts.map(|p| p.between.sqrt()),
+        within_sd: parts.map(|p| p.within.sqrt()),
+        bias_interval: parts.and_then(|p| p.bias_interval(plain.bias)),
+        limit_intervals: parts.and_then(|p| p.limit_intervals(plain.bias)),
+    })
+}
+
+/// Components of the variance of differences in clusters.
+#[derive(Clone, Copy)]
+struct Components {
+    /// Clusters and differences.
+    clusters: f64,
+    n: f64,
+    /// Sum of squared sizes of the clusters, and their harmonic mean.
+    squared_sizes: f64,
+    harmonic_size: f64,
+    /// Variance of the clusters' biases.
+    between: f64,
+    /// Variance within a cluster.
+    within: f64,
+    /// Variance (n − 1) of the clusters' means.
+    of_means: f64,
+}
+
+impl Components {
+    /// Of clusters not all of which have a single difference; `None` of a single cluster.
+    fn of(groups: &[Vec<f64>], bias: f64) -> Option<Self> {
+        let clusters = groups.len() as f64;
+        if groups.len() < 2 {
+            return None;
+        }
+        let sizes = || groups.iter().map(|g| g.len() as f64);
+        let (n, squared_sizes): (f64, f64) = (sizes().sum(), sizes().map(|m| m * m).sum());
+        let means: Vec<f64> = groups.iter().map(|g| g.iter().sum::<f64>() / g.len() as f64).collect();
+        let square = |v: f64| v * v;
+        let between_squares: f64 = sizes().zip(&means).map(|(m, mean)| m * square(mean - bias)).sum();
+        let within_squares: f64 =
+            groups.iter().zip(&means).flat_map(|(g, mean)| g.iter().map(move |v| square(v - mean))).sum();
+        let within = within_squares / (n - clusters);
+        // what a cluster counts for where sizes differ
+        let size = (n * n - squared_sizes) / ((clusters - 1.) * n);
+        let between = ((between_squares / (clusters - 1.) - within) / size).max(0.);
+        let middle = means.iter().sum::<f64>() / clusters;
+        let of_means = means.iter().map(|m| square(m - middle)).sum::<f64>() / (clusters - 1.);
+        let harmonic_size = clusters / sizes().map(f64::recip).sum::<f64>();
+        Some(Self { clusters, n, squared_sizes, harmonic_size, between, within, of_means })
+    }
+
+    const fn total(&self) -> f64 {
+        self.between + self.within
+    }
+
+    /// Variance of the mean of all differences.
+    fn of_bias(&self) -> f64 {
+        (self.between * self.squared_sizes / self.n + self.within) / self.n
+    }
+
+    fn bias_interval(&self, bias: f64) -> Option<Interval> {
+        let t = StudentsT::new(0., 1., self.clusters - 1.).ok()?.inverse_cdf(0.975);
+        let reach = t * self.of_bias().sqrt();
+        Some([bias - reach, bias + reach])
+    }
+
+    /// By the closed form of Zou (2013), equations 4–6.
+    fn limit_intervals(&self, bias: f64) -> Option<[Interval; 2]> {
+        // how far each component of the variance reaches downwards and upwards
+        let reach = |part: f64, freedom: f64| -> Option<[f64; 2]> {
+            let chi = ChiSquared::new(freedom).ok()?;
+            let ratio = |q: f64| freedom / chi.inverse_cdf(q);
+            Some([part * (1. - ratio(0.975)), part * (ratio(0.025) - 1.)])
+        };
+        let of_means = reach(self.of_means, self.clusters - 1.)?;
+        let inside = reach((1. - 1. / self.harmonic_size) * self.within, self.n - self.clusters)?;
+        let [down, up] = [0, 1].map(|side: usize| of_means[side].hypot(inside[side]));
+        let sd = self.total().sqrt();
+        let [low, high] = [(self.total() - down).max(0.).sqrt(), (self.total() + up).sqrt()];
+        let of_bias = Z * self.of_bias().sqrt();
+        let [inner, outer] = [of_bias.hypot(Z * (sd - low)), of_bias.hypot(Z * (high - sd))];
+        let limits = [bias - Z * sd, bias + Z * sd];
+        Some([[limits[0] - outer, limits[0] + inner], [limits[1] - inner, limits[1] + outer]])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
+
+    fn near(a: f64, b: f64) {
+        assert!((a - b).abs() < 1e-9, "{a} instead of {b}");
+    }
+
+    /// Means of three clusters 1, 4 and 7 (mean 4, variance 9), within each −1, 0, 1: sums of squares 54 between (two
+    /// degrees of freedom, mean square 27), 6 within (six, mean square 1); (27 − 1)/3 = 26/3 between clusters.
+    #[test]
+    fn components_are_those_counted_by_hand() {
+        let differences = [0., 1., 2., 3., 4., 5., 6., 7., 8.];
+        let clusters: Vec<Vec<usize>> = (0..3).map(|k| (3 * k..3 * k + 3).collect()).collect();
+        let found = agreement_of_clusters(&differences, &clusters).unwrap();
+        assert_eq!((found.clusters, found.agreement.n, found.agreement.bias), (3, 9, 4.));
+        near(found.within_sd.unwrap(), 1.);
+        near(found.between_sd.unwrap().powi(2), 26. / 3.);
+        near(found.agreement.sd.unwrap().powi(2), 29. / 3.);
+        near(found.agreement.limits.unwrap()[1], 4. + 1.96 * (29f64 / 3.).sqrt());
+        // clusters of one size: the interval is that of the three means, t of two degrees of freedom 4.302653
+        near((found.bias_interval.unwrap()[1] - 4.) / 3f64.sqrt(), 4.302_652_729_696_142);
+    }
+
+    #[test]
+    fn clusters_of_one_are_independent() {
+        let differences = [1., 4., -2., 3., 0.5];
+        let singles: Vec<Vec<usize>> = (0..5).map(|i| vec![i]).collect();
+        let found = agreement_of_clusters(&differences, &singles).unwrap();
+        let plain = agreement(&differences).unwrap();
+        assert_eq!((found.agreement, found.bias_interval), (plain, plain.bias_interval()));
+        assert_eq!(found.limit_intervals, plain.limit_intervals());
+    }
+
+    #[test]
+    fn copies_of_an_image_add_no_certainty() {
+        let eyes = [1., 4., -2., 3., 0.5];
+        let copied: Vec<f64> = eyes.iter().flat_map(|d| [*d; 4]).collect();
+        let clusters: Vec<Vec<usize>> = (0..5).map(|k| (4 * k..4 * k + 4).collect()).collect();
+        let found = agreement_of_clusters(&copied, &clusters).unwrap();
+        let plain = agreement(&eyes).unwrap();
+        near(found.agreement.sd.unwrap(), plain.sd.unwrap());
+        near(found.bias_interval.unwrap()[0], plain.bias_interval().unwrap()[0]);
+        let [taken_as_independent, _] = agreement(&copied).unwrap().bias_interval().unwrap();
+        assert!(found.bias_interval.unwrap()[0] < taken_as_independent - 1.);
+    }
+
+    #[test]
+    fn intervals_hold_the_truth_in_nineteen_of_twenty() {
+        let mut rng = ChaCha8Rng::seed_from_u64(3);
+        let (between, within, bias) = (2., 1., 0.5);
+        let truth = bias + Z * f64::hypot(between, within);
+        let (mut of_bias, mut of_limit, trials) = (0, 0, 1000);
+        for _ in 0..trials {
+            let (mut differences, mut clusters) = (Vec::new(), Vec::new());
+            for _ in 0..12 {
+                let own: f64 = StandardNormal.sample(&mut rng);
+                let first = differences.len();
+                for _ in 0..rng.random_range(2..7) {
+                    let error: f64 = StandardNormal.sample(&mut rng);
+                    differences.push(bias + between * own + within * error);
+                }
+                clusters.push((first..differences.len()).collect());
+            }
+            let found = agreement_of_clusters(&differences, &clusters).unwrap();
+            let holds = |[low, high]: Interval, value: f64| usize::from(low <= value && value <= high);
+            of_bias += holds(found.bias_interval.unwrap(), bias);
+            of_limit += holds(found.limit_intervals.unwrap()[1], truth);
+        }
+        // three standard errors are 2 %
+        for held in [of_bias, of_limit] {
+            assert!((920..=980).contains(&held), "{of_bias} and {of_limit} of {trials}");
+        }
+    }
+
+    #[test]
+    fn one_cluster_has_a_bias_only() {
+        let found = agreement_of_clusters(&[1., 2.], &[vec![0, 1]]).unwrap();
+        assert_eq!((found.agreement.bias, found.agreement.sd, found.bias_interval), (1.5, None, None));
+        assert_eq!(agreement_of_clusters(&[], &[]), None);
+    }
+}

@@ -1,0 +1,90 @@
+use super::canvas::{Anchor, Area, Canvas, Style, text_width};
+
+/// Distance of two baselines.
+const LINE: f64 = 11.;
+/// From the baseline of a text up to its middle.
+const MIDDLE: f64 = 3.;
+/// Free above the baseline of the uppermost text, and below that of the lowest.
+const ASCENT: f64 = 8.;
+const DESCENT: f64 = 5.;
+/// Between a leader and its text.
+const GAP: f64 = 3.;
+
+/// A curve's name, and the point of the curve that it belongs to.
+pub(super) struct Label<'a> {
+    /// Text.
+    pub text: String,
+    /// Place on the page that the text is led from.
+    pub target: (f64, f64),
+    /// Colour of text and leader.
+    pub colour: &'a str,
+}
+
+/// Returns the width of the widest text, its leader's gap among it.
+pub(super) fn width(labels: &[Label]) -> f64 {
+    labels.iter().map(|l| text_width(&l.text, Style::Note)).fold(0., f64::max) + GAP
+}
+
+/// Returns the height that so many labels take above whatever lies below them.
+pub(super) fn height(count: usize) -> f64 {
+    if count == 0 { 0. } else { (count - 1) as f64 * LINE + ASCENT + DESCENT }
+}
+
+/// Writes every label at its own height where it can, and above `floor` (a height on the page) in any case; labels
+/// keep their order from top to bottom and never overlap. Texts begin at `left`.
+pub(super) fn draw(canvas: &mut Canvas, area: Area, left: f64, floor: f64, mut labels: Vec<Label>) {
+    labels.sort_by(|a, b| a.target.1.total_cmp(&b.target.1));
+    let wanted: Vec<f64> = labels.iter().map(|l| l.target.1 + MIDDLE).collect();
+    for (label, baseline) in labels.iter().zip(spread(&wanted, area.y + ASCENT, floor - DESCENT)) {
+        let end = (left - GAP / 2., baseline - MIDDLE);
+        canvas.line(label.target, end, label.colour, 0.5);
+        canvas.coloured_text(
+            left + GAP / 2.,
+            baseline,
+            &label.text,
+            Style::Note,
+            Anchor::Start,
+            label.colour,
+        );
+    }
+}
+
+/// Returns baselines as near to the rising ones `wanted` as fit between `top` and `bottom`, a line apart.
+fn spread(wanted: &[f64], top: f64, bottom: f64) -> Vec<f64> {
+    let mut below = bottom + LINE;
+    let mut baselines: Vec<f64> = wanted
+        .iter()
+        .rev()
+        .map(|&y| {
+            below = y.min(below - LINE);
+            below
+        })
+        .collect();
+    baselines.reverse();
+    // where they would leave the plot at the top they are pushed down again
+    let mut above = top - LINE;
+    for y in &mut baselines {
+        *y = y.max(above + LINE);
+        above = *y;
+    }
+    baselines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_never_overlap_and_stay_where_they_can() {
+        assert_eq!(spread(&[20., 60.], 8., 100.), [20., 60.]);
+        assert_eq!(spread(&[20., 22., 95.], 8., 100.), [11., 22., 95.]);
+        assert_eq!(spread(&[90., 95., 99.], 8., 80.), [58., 69., 80.]);
+        // too little room: they stand below each other from the top
+        assert_eq!(spread(&[5., 6., 7.], 8., 10.), [8., 19., 30.]);
+    }
+
+    #[test]
+    fn room_is_counted_in_lines() {
+        assert_eq!((height(0), height(1), height(3)), (0., 13., 35.));
+    }
+}

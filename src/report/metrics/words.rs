@@ -1,0 +1,68 @@
+use super::unit::Unit;
+use super::{Metric, Quantity, SummaryKind, metrics};
+
+/// Short names of the metrics that figures show most.
+const NAMES: [(&str, &str); 6] = [
+    ("n", "number of cones"),
+    ("density", "cone density"),
+    ("nn_mean", "nearest-neighbour distance"),
+    ("nn_sd", "SD of nearest-neighbour distances"),
+    ("ri", "regularity index"),
+    ("spacing_density", "spacing (density)"),
+];
+
+/// Returns what a column of a summary measures and its unit (empty without one), in words for the axis of a figure. A
+/// column that no summary of this crate has keeps its name.
+pub fn column_in_words(column: &str) -> (String, String) {
+    let Some((metric, unit, kind)) = find(column) else { return (column.replace('_', " "), String::new()) };
+    let name = NAMES.iter().find(|n| n.0 == metric.name).map_or(metric.name, |n| n.1);
+    (name.replace('_', " "), unit_in_words(metric, unit, kind).to_owned())
+}
+
+/// Returns the metric, the unit and the summary that a column belongs to.
+fn find(column: &str) -> Option<(&'static Metric, Unit, SummaryKind)> {
+    let kinds = [SummaryKind::Images, SummaryKind::Coordinates];
+    kinds.into_iter().find_map(|kind| {
+        metrics().filter(|m| m.is_of(kind)).find_map(|metric| {
+            let rest = column.strip_prefix(metric.name)?;
+            let unit = Unit::ALL.into_iter().find(|unit| unit.suffix(metric.quantity, kind) == rest)?;
+            Some((metric, unit, kind))
+        })
+    })
+}
+
+fn unit_in_words(metric: &Metric, unit: Unit, kind: SummaryKind) -> &'static str {
+    match (metric.quantity, unit, kind) {
+        (Quantity::Plain("text" | "count" | "ratio" | "0–1"), ..) => "",
+        (Quantity::Length, Unit::Coordinates, SummaryKind::Coordinates) => "in the unit of the coordinates",
+        (Quantity::Area | Quantity::Density, Unit::Coordinates, SummaryKind::Coordinates) => {
+            "by the squared unit of the coordinates"
+        }
+        (Quantity::Density, Unit::Coordinates, SummaryKind::Images) => "cones/px²",
+        (Quantity::Density, Unit::Micrometres, _) => "cones/mm²",
+        (Quantity::Density, Unit::Degrees, _) => "cones/degree²",
+        (Quantity::Density, Unit::Arcminutes, _) => "cones/arcmin²",
+        (quantity, ..) => unit.words(quantity, kind),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_become_words_with_units() {
+        for (column, quantity, unit) in [
+            ("density_per_mm2", "cone density", "cones/mm²"),
+            ("density_per_px2", "cone density", "cones/px²"),
+            ("nn_mean_um", "nearest-neighbour distance", "µm"),
+            ("nn_mean", "nearest-neighbour distance", "in the unit of the coordinates"),
+            ("n", "number of cones", ""),
+            ("ri", "regularity index", ""),
+            ("voronoi_area_mean_mm2", "voronoi area mean", "mm²"),
+            ("hand_count", "hand count", ""),
+        ] {
+            assert_eq!(column_in_words(column), (quantity.to_owned(), unit.to_owned()), "{column}");
+        }
+    }
+}

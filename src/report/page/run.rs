@@ -1,0 +1,242 @@
+use super::skeleton::{breakable, in_url, shared_start, skeleton};
+use crate::report::{
+    Cell, DetectionRecord, ImageRecord, LandmarkRecord, MosaicRecord, by_need, counted, significant,
+};
+use maud::{Markup, html};
+
+/// Style of what only this page has.
+const MORE_STYLE: &str = "
+ul.distances { display: flex; flex-wrap: wrap; gap: .2rem .5rem; list-style: none; padding: 0; margin: .4rem 0; font-size: .85rem; max-width: none; }
+ul.distances li { border: 1px solid var(--line); border-radius: 4px; padding: .05rem .5rem; font-variant-numeric: tabular-nums; }
+ul.distances li:first-child { font-weight: 600; }
+details { margin: .6rem 0; } summary { cursor: pointer; }
+";
+
+/// So many warnings stand open at the top of the page; more are folded.
+const OPEN_WARNINGS: usize = 6;
+
+/// Returns the page of a run: a table of all images and the figure of each. Refers to the files beside it.
+/// `landmarks` are what the maps of each image say, where there are maps.
+pub fn page(
+    records: &[ImageRecord],
+    landmarks: &[Option<LandmarkRecord>],
+    failures: &[(&str, &str)],
+    samplers: &[String],
+) -> String {
+    let cones: usize = records.iter().map(|r| r.mosaic.n).sum();
+    let scaled = records.iter().any(|r| r.mosaic.um_per_unit.is_some());
+    let title = format!("Cone mosaics of {}", counted(records.len(), "image"));
+    let body = html! {
+        h1 { "Cone mosaics" }
+        p.lead {
+            (counted(cones, "cone")) " in " (counted(records.len(), "image")) ". All columns, in full precision: "
+            a href="summary.csv" { "summary.csv" }
+            "; how they were made: " a href="run.json" { "run.json" } "."
+        }
+        @if !failures.is_empty() { (failed(failures)) }
+        (warned(records))
+        div.scroll { (overview(records, scaled)) }
+        (legend(samplers))
+        @for k in by_need(records) { (one(k, &records[k], landmarks.get(k).and_then(Option::as_ref))) }
+    };
+    skeleton(&title, MORE_STYLE, &body)
+}
+
+fn failed(failures: &[(&str, &str)]) -> Markup {
+    html! {
+        h2.warning { (counted(failures.len(), "image")) " failed" }
+        ul { @for (file, reason) in failures { li title=(file) { (reason) } } }
+    }
+}
+
+/// Returns the warnings of all images, counted.
+fn warned(records: &[ImageRecord]) -> Markup {
+    let order: Vec<usize> =
+        by_need(records).into_iter().filter(|&k| !records[k].warnings.is_empty()).collect();
+    let shared = shared_start(records.iter().map(|r| r.name.as_str()));
+    let count: usize = order.iter().map(|&k| records[k].warnings.len()).sum();
+    html! {
+        @if count > 0 {
+            details open[count <= OPEN_WARNINGS] {
+                summary.warning {
+                    "⚠ " (counted(count, "warning")) ", on " (order.len()) " of " (counted(records.len(), "image"))
+                }
+                ul { @for k in order { li {
+                    a href=(format!("#i{k}")) { (breakable(&records[k].name, shared)) } ": "
+                    (records[k].warnings.join("; "))
+                } } }
+            }
+        }
+    }
+}
+
+/// Returns what the columns mean, and what ℓ∞ says.
+fn legend(samplers: &[String]) -> Markup {
+    html! {
+        p {
+            "Images that most need the eye of a person come first. Spacing (density): of a hexagonal lattice as dense as the mosaic; "
+            "spacing (ring): read off the spectrum of the image before any cone was found. NN: distance to the nearest neighbour, "
+            "mean ± standard deviation. RI: regularity index, their ratio, of all points "
+            "and of those whose neighbours cannot lie beyond the border. Expected errors: false alarms and misses that the scores of "
+            "the cones and of the rejected candidates lead to expect."
+        }
+        @if !samplers.is_empty() {
+            p {
+                "ℓ∞ (l-infinity): the largest difference between the pair correlation function g(r) of the mosaic and that of a sampler "
+                "(mean of several samples of as many points in the same window). 0 means the same curve; the smaller it is, the more the "
+                "mosaic is arranged like the points of that sampler. Lanaro et al. (2020) call two curves alike below about 0.1. Chance "
+                "alone puts two patterns of one and the same process about 0.15 apart at 100 points, 0.08 at 300 and 0.05 at 1000."
+            }
+        }
+    }
+}
+
+fn number(value: Option<f64>, digits: usize) -> String {
+    value.map_or("–".into(), |v| significant(v, digits))
+}
+
+/// Returns a length given in px, in µm where the page has a scale, px behind it.
+fn length(px: Option<f64>, um_per_px: Option<f64>, scaled: bool) -> String {
+    if scaled {
+        format!("{} ({})", number(px.zip(um_per_px).map(|(v, um)| v * um), 3), number(px, 3))
+    } else {
+        number(px, 3)
+    }
+}
+
+fn overview(records: &[ImageRecord], scaled: bool) -> Markup {
+    let (length_unit, density_unit) = if scaled { ("µm (px)", "per mm²") } else { ("px", "per px²") };
+    let shared = shared_start(records.iter().map(|r| r.name.as_str()));
+    let compared = records.iter().any(|r| !r.mosaic.l_infinity.is_empty());
+    html! {
+        table {
+            thead { tr {
+                th { "image" } th.word { "modality" } th { "cones" }
+                th { "density" small { (density_unit) } }
+                th { "spacing (density)" small { (length_unit) } }
+                th { "spacing (ring)" small { (length_unit) } }
+                th { "NN" small { @if scaled { "µm" } @else { "px" } } }
+                th { "RI" } th { "RI" small { "interior" } }
+                th { "expected" br; "errors" }
+                @if compared { th.word { "closest to" } th { "ℓ∞" } }
+            } }
+            tbody { @for k in by_need(records) { (row(k, &records[k], shared, scaled, compared)) } }
+        }
+    }
+}
+
+fn row(k: usize, record: &ImageRecord, shared: usize, scaled: bool, compared: bool) -> Markup {
+    let m = &record.mosaic;
+    let um = m.um_per_unit;
+    let shown = if scaled { um } else { Some(1.) };
+    let distance = m.closest_sampler().and_then(|name| m.distance_to(name));
+    let nearest = |value: Option<f64>, digits| number(value.zip(shown).map(|(v, um)| v * um), digits);
+    html! { tr {
+        td title=(record.file) {
+            a href=(format!("#i{k}")) { (breakable(&record.name, shared)) }
+            @if !record.warnings.is_empty() {
+                span.warning title=(record.warnings.join("; ")) { " ⚠" (record.warnings.len()) }
+            }
+        }
+        td.word { (record.detection.modality) }
+        td { (m.n) }
+        td { (number(if scaled { m.density_per_mm2() } else { Some(m.density) }, 4)) }
+        td { (length(m.spacing, um, scaled)) }
+        td { (length(Some(record.detection.ring_spacing_px), um, scaled)) }
+        td { (nearest(m.nearest.mean, 3)) " ± " (nearest(m.nearest.sd, 2)) }
+        td { (number(m.nearest.ri, 3)) }
+        td { (number(m.nearest_interior.ri, 3)) }
+        td { (expected_errors(&record.detection)) }
+        @if compared {
+            td.word { (Cell::from(m.closest_sampler()).readable()) }
+            td { (distance.map_or("–".into(), two_decimals)) }
+        }
+    } }
+}
+
+/// Returns how many errors the scores lead to expect, and per hundred cones.
+pub fn expected_errors(found: &DetectionRecord) -> String {
+    let errors = found.expected_false_alarms + found.expected_misses;
+    let percent = 100. * errors / found.n.max(1) as f64;
+    format!("{errors:.0} ({percent:.1} %)")
+}
+
+/// Two decimals, so that distances can be compared at a glance.
+fn two_decimals(distance: f64) -> String {
+    format!("{distance:.2}")
+}
+
+/// Returns ℓ∞ of a mosaic to every sampler that it was compared with, the closest first.
+fn distances(mosaic: &MosaicRecord) -> Markup {
+    let mut rising: Vec<_> = mosaic.l_infinity.iter().collect();
+    rising.sort_by(|a, b| a.l_infinity.total_cmp(&b.l_infinity));
+    html! {
+        @if !rising.is_empty() {
+            ul.distances aria-label="ℓ∞ to each sampler, the closest first" {
+                @for d in rising { li { "ℓ∞ to " (d.sampler) ": " (two_decimals(d.l_infinity)) } }
+            }
+        }
+    }
+}
+
+/// Files of an image, and what they are called.
+const LINKS: [(&str, &str); 4] = [
+    ("overlay.png", "cones on the image"),
+    ("points.csv", "points"),
+    ("pcf.csv", "g(r)"),
+    ("metrics.json", "all numbers"),
+];
+/// Behind these, where there are maps.
+const MAP_LINKS: [(&str, &str); 3] =
+    [("maps.csv", "maps"), ("profiles.csv", "profiles"), ("fourier_map.csv", "spacing by spectra")];
+
+fn one(k: usize, record: &ImageRecord, landmarks: Option<&LandmarkRecord>) -> Markup {
+    let folder = format!("images/{}", in_url(&record.name));
+    html! {
+        section id=(format!("i{k}")) {
+            h2 { (record.name) }
+            @for warning in &record.warnings { p.warning { "⚠ " (warning) } }
+            @if record.mosaic.outline.is_some() { p.lead { (outlined(record)) } }
+            (distances(&record.mosaic))
+            figure { img loading="lazy" src=(format!("{folder}/figure.svg")) alt=(format!("Figure of {}", record.name)); }
+            @if !record.mosaic.verdicts.is_empty() {
+                ul.verdicts { @for verdict in &record.mosaic.verdicts { li { (verdict.words()) } } }
+                figure { img loading="lazy" src=(format!("{folder}/verdict.svg")) alt=(format!("g(r) of {} in the envelopes of samplers", record.name)); }
+            }
+            @if let Some(landmarks) = landmarks {
+                p { (landmarks.words()) }
+                @if landmarks.whole > 0 {
+                    figure { img loading="lazy" src=(format!("{folder}/maps.svg")) alt=(format!("Maps of {}", record.name)); }
+                }
+            }
+            nav {
+                @for (file, words) in LINKS.iter().chain(landmarks.map(|_| &MAP_LINKS).into_iter().flatten()) {
+                    a href=(format!("{folder}/{file}")) { (words) }
+                }
+            }
+        }
+    }
+}
+
+/// Returns what a window that is not a rectangle means for the numbers.
+fn outlined(record: &ImageRecord) -> String {
+    let area = record.mosaic.window_area;
+    let percent = 100. * area / (record.width_px * record.height_px) as f64;
+    let mm2 = record.mosaic.window_area_mm2().map(|mm2| format!(" ({} mm²)", significant(mm2, 3)));
+    format!(
+        "Counted within the outline: {} px²{}, {percent:.0} % of the image.",
+        significant(area, 4),
+        mm2.unwrap_or_default()
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_without_images_is_still_a_page() {
+        let text = page(&[], &[], &[("a<b>.png", "it is <broken>")], &[]);
+        assert!(text.starts_with("<!DOCTYPE html>") && text.contains("it is &lt;broken&gt;"));
+    }
+}
