@@ -46,11 +46,11 @@ pub fn compare_files(
         let (mosaic, outside) = load(input, options, &regions)?;
         let measures = measure(&mosaic, &options.measure);
         let curves = match &measures.pcf {
-            Ok(_) => references.curves(mosaic.len(), mosaic.window()).unwrap_or_default(),
+            Ok(_) => references.curves(mosaic.len(), mosaic.window()),
             Err(_) => Arc::default(),
         };
-        let mut record = record(input, &mosaic, outside, &measures, distances(&measures, &curves)?);
-        record.warnings.extend(not_compared(&measures, samplers, &curves));
+        let mut record = record(input, &mosaic, outside, &measures, distances(&measures, &curves.curves)?);
+        record.warnings.extend(not_compared(&curves));
         let (verdicts, none) = verdicts_on(&mosaic, &measures, samplers, with.verdict.as_ref(), seed);
         record.warnings.extend(none);
         record.mosaic.verdicts = verdicts::records(&verdicts);

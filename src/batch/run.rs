@@ -121,6 +121,8 @@ struct SamplerNote<'a> {
     n: usize,
     realisations: usize,
     ri: Option<f64>,
+    /// From the table that comes with the program.
+    shipped: bool,
 }
 
 struct Done {
@@ -239,17 +241,17 @@ fn one_image(
     lap(&mut seconds.measure);
 
     let curves = match &measures.pcf {
-        Ok(_) => references.curves(mosaic.len(), &window).unwrap_or_default(),
+        Ok(_) => references.curves(mosaic.len(), &window),
         Err(_) => Arc::default(),
     };
     let (verdicts, no_verdicts) =
         verdicts_on(&mosaic, &measures, &options.samplers, options.verdict.as_ref(), options.seed);
-    let mut mosaic_record = record_of(&mosaic, &measures, distances(&measures, &curves)?);
+    let mut mosaic_record = record_of(&mosaic, &measures, distances(&measures, &curves.curves)?);
     mosaic_record.verdicts = verdicts::records(&verdicts);
     lap(&mut seconds.compare);
 
     let mut warnings = warnings_of(Some(&found), &mosaic_record, &measures);
-    warnings.extend(not_compared(&measures, &options.samplers, &curves));
+    warnings.extend(not_compared(&curves));
     warnings.extend(no_verdicts);
     label.put_on(&mut mosaic_record, &mut warnings);
     let fourier = wants_fourier.then(|| {
@@ -288,8 +290,8 @@ fn one_image(
         if options.maps.is_some() {
             maps::write_fourier(folder, &image, record.fourier.as_ref(), scale)?;
         }
-        write_image_folder(folder, &image, &found, &mosaic, &measures, &curves, &record)?;
-        folder.write_json(METRICS, &metrics(&record, &measures, &curves, landmarks.as_ref()))?;
+        write_image_folder(folder, &image, &found, &mosaic, &measures, &curves.curves, &record)?;
+        folder.write_json(METRICS, &metrics(&record, &measures, &curves.curves, landmarks.as_ref()))?;
         verdicts::write(folder, "", &record.name, &measures, &verdicts)
     })?;
     lap(&mut seconds.report);
@@ -337,7 +339,13 @@ fn metrics<'a>(
 ) -> Metrics<'a> {
     let samplers = curves
         .iter()
-        .map(|c| SamplerNote { sampler: &c.sampler, n: c.n, realisations: c.realisations, ri: c.ri })
+        .map(|c| SamplerNote {
+            sampler: &c.sampler,
+            n: c.n,
+            realisations: c.realisations,
+            ri: c.ri,
+            shipped: c.shipped,
+        })
         .collect();
     let pcf_options = measures.pcf.as_ref().map_or_else(|_| PcfOptions::default(), |pcf| pcf.options);
     Metrics { record, histogram: &measures.histogram, pcf_options, samplers, landmarks }

@@ -7,7 +7,7 @@ use clap::Args;
 use conemosaic::batch::{CompareOptions, CoordinatesOutcome, compare_files, coordinate_files};
 use conemosaic::compare::VerdictOptions;
 use conemosaic::report::{FindingRecord, VerdictRecord, significant};
-use conemosaic::sample::{Sampler, as_reference, sampler, samplers, samplers_by_default};
+use conemosaic::sample::{Sampler, samplers_named};
 use std::path::PathBuf;
 
 /// Compares mosaics with point samplers: distances of pair correlation functions, and what they are worth
@@ -37,7 +37,7 @@ pub struct Compare {
     /// Folder for the results
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Samplers to compare with, separated by commas; all is every one, slow ones included [default: those marked * by
+    /// Samplers to compare with, separated by commas; all is every one, slow ones included; none is none [default: those marked * by
     /// `conemosaic sample --list`]
     #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
     samplers: Vec<String>,
@@ -49,27 +49,6 @@ pub struct Compare {
     no_verdict: bool,
     #[command(flatten)]
     mosaic: MosaicArgs,
-}
-
-/// The samplers of these names, as references; those compared with by default if there are none; “all” is every one. A name
-/// given twice counts once.
-pub fn samplers_named(names: &[String]) -> Result<Vec<&'static dyn Sampler>> {
-    if names.is_empty() {
-        return Ok(samplers_by_default());
-    }
-    let mut found: Vec<&'static dyn Sampler> = Vec::new();
-    for name in names {
-        let chosen = match name.trim() {
-            "all" => samplers().to_vec(),
-            name => vec![sampler(name)?],
-        };
-        for one in chosen.into_iter().map(as_reference) {
-            if !found.iter().any(|s| s.name() == one.name()) {
-                found.push(one);
-            }
-        }
-    }
-    Ok(found)
 }
 
 impl Compare {

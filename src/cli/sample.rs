@@ -148,11 +148,11 @@ fn list() -> String {
     let rows: Vec<Vec<String>> = samplers().iter().map(|s| vec![marked(*s), s.about().to_owned()]).collect();
     let made = table(&["sampler", "what it makes"], &rows);
     let made = format!("{made}\n* run and compare take these unless --samplers names others");
-    let parameters = samplers().iter().flat_map(|s| s.parameters().iter().map(move |p| (s.name(), p)));
+    let parameters = samplers().iter().flat_map(|s| s.parameters().into_iter().map(move |p| (s.name(), p)));
     let rows: Vec<Vec<String>> = parameters
         .map(|(sampler, p)| {
             let range = format!("{} {}", p.range_in_words(), p.unit).trim_end().to_owned();
-            vec![sampler.to_owned(), p.name.to_owned(), range, p.default.to_owned(), p.meaning.to_owned()]
+            vec![sampler.to_owned(), p.name.to_owned(), range, p.default_in_words(), p.meaning.to_owned()]
         })
         .collect();
     if rows.is_empty() {

@@ -49,7 +49,7 @@ pub use green::GREEN;
 pub use jittered::Jittered;
 pub use lloyd::Lloyd;
 pub use minimal_spacing::MinimalSpacing;
-pub use parameter::{Parameter, Values};
+pub use parameter::{Configure, Parameter, Settable, Setting};
 pub use pink::PINK;
 pub use poisson_disk::PoissonDisk;
 pub use shaped::{NearestTarget, Noise, Shaped, TargetCurve};
@@ -61,35 +61,52 @@ pub use wang::Wang;
 
 use crate::geometry::{Point, Polygon, Window};
 use rand::Rng;
+use std::fmt;
 
 /// A way to put n points into a window.
-pub trait Sampler: Send + Sync {
+pub trait Sampler: fmt::Debug + Send + Sync {
     /// The name users type: lower case, words joined by hyphens.
     fn name(&self) -> &'static str;
 
     /// One line: what it makes, its parameters, its source.
     fn about(&self) -> &'static str;
 
-    /// About `n` points of `frame` (exactly `n` where the method allows; [`Sampler::about`] says so), in the half-open
+    /// About `n` points of `frame` (exactly `n` where [`Sampler::exact`] says so), in the half-open
     /// ranges of its bounds. The same generator state gives the same points.
     ///
     /// # Errors
     /// If `n` is out of the method's range, or it found no room for `n` points.
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError>;
 
-    /// What can be set by [`Sampler::configure`].
-    fn parameters(&self) -> &'static [Parameter] {
-        &[]
+    /// Whether exactly the n points asked for are made, instead of the nearest number or one left to chance; `false` unless
+    /// a sampler says so. A polygon is cut out of a pattern, so that none is exact there but those that fill it.
+    fn exact(&self) -> bool {
+        false
     }
 
-    /// The same method with other parameters, given as (name, value); [`Values::read`] checks them.
+    /// Whether nothing tells the seam of a torus; `true` unless a sampler says otherwise.
+    fn periodic(&self) -> bool {
+        true
+    }
+
+    /// The sampler as one with parameters: `Some(self)` for those that are [`Settable`].
+    fn settable(&self) -> Option<&dyn Configure> {
+        None
+    }
+
+    /// Returns what can be set by [`Sampler::configure`].
+    fn parameters(&self) -> Vec<Parameter> {
+        self.settable().map_or(Vec::new(), Configure::described)
+    }
+
+    /// Returns the same method with other parameters, given as (name, value).
     ///
     /// # Errors
     /// If there is no such parameter or the value is out of its range.
     fn configure(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError> {
-        Values::read(self.name(), self.parameters(), settings)?;
-        // reached without settings only
-        Err(SampleError::unknown_parameter(self.name(), "", self.parameters()))
+        let name = settings.first().map_or("", |(name, _)| name);
+        let none = || Err(SampleError::unknown_parameter(self.name(), name, &[]));
+        self.settable().map_or_else(none, |sampler| sampler.configured(settings))
     }
 
     /// The same method for points as dense as `density` says, if it can; otherwise `None`.
@@ -97,9 +114,10 @@ pub trait Sampler: Send + Sync {
         None
     }
 
-    /// Whether mosaics are compared with it unless others are named: not with those that are slow, or that make no mosaic.
+    /// Whether mosaics are compared with it unless others are named: samplers that retinas come near to, and independent points
+    /// for scale. Their mean curves come with the program (`scripts/make-curves`).
     fn by_default(&self) -> bool {
-        true
+        false
     }
 
     /// The setting of it that mosaics are compared with, where that is not the default one.
@@ -201,19 +219,20 @@ fn nearest_in_number(
 const CUTS: usize = 32;
 const CLOSE: f64 = 0.005;
 
+/// In the order in which they are listed: from the least to the most regular of those by default, then the others.
 static SAMPLERS: &[&dyn Sampler] = &[
     &Uniform,
     &Jittered,
+    &Bridson,
+    &DartThrowing,
+    &Bnot::CONVERGED,
     &Triangular::DEFAULT,
     &Square::DEFAULT,
-    &DartThrowing,
-    &Bridson,
     &PoissonDisk,
     &GREEN,
     &PINK,
     &Step::HIGHEST,
     &Lloyd::DEFAULT,
-    &Bnot::CONVERGED,
     &Ahumada::DEFAULT,
     &CurcioSloan::DEFAULT,
     &Wang::DEFAULT,
@@ -224,6 +243,34 @@ static SAMPLERS: &[&dyn Sampler] = &[
 /// Every sampler there is.
 pub fn samplers() -> &'static [&'static dyn Sampler] {
     SAMPLERS
+}
+
+/// Returns the samplers of these names, each once and in the setting that mosaics are compared with: `all` stands for every
+/// one, `none` for none of those before it, and no name at all for those by default.
+///
+/// # Errors
+/// If there is no such sampler; the error lists the names.
+pub fn samplers_named(names: &[String]) -> Result<Vec<&'static dyn Sampler>, SampleError> {
+    if names.is_empty() {
+        return Ok(samplers_by_default());
+    }
+    let mut found: Vec<&'static dyn Sampler> = Vec::new();
+    for name in names {
+        let chosen = match name.trim() {
+            "all" => SAMPLERS.to_vec(),
+            "none" => {
+                found.clear();
+                continue;
+            }
+            name => vec![sampler(name)?],
+        };
+        for one in chosen.into_iter().map(as_reference) {
+            if !found.iter().any(|s| s.name() == one.name()) {
+                found.push(one);
+            }
+        }
+    }
+    Ok(found)
 }
 
 /// The samplers that mosaics are compared with if none are named, each in the setting for that.
@@ -265,7 +312,23 @@ mod tests {
             assert!(samplers()[..i].iter().all(|o| o.name() != s.name()));
             assert_eq!(sampler(s.name()).unwrap().name(), s.name());
             assert!(!s.about().contains('\n'));
+            assert_eq!(s.about().contains("exactly n"), s.exact(), "{}", s.name());
+            assert_eq!(s.about().contains("no torus"), !s.periodic(), "{}", s.name());
         }
+    }
+
+    #[test]
+    fn names_choose_samplers_once_and_none_chooses_none() {
+        let chosen = |names: &[&str]| -> Vec<&str> {
+            let names: Vec<String> = names.iter().map(|n| (*n).to_owned()).collect();
+            samplers_named(&names).unwrap().iter().map(|s| s.name()).collect()
+        };
+        assert_eq!(chosen(&[]), ["uniform", "jittered", "bridson", "dart-throwing", "bnot", "triangular"]);
+        assert_eq!(chosen(&["square", " uniform", "square"]), ["square", "uniform"]);
+        assert_eq!(chosen(&["all"]).len(), samplers().len());
+        assert!(chosen(&["none"]).is_empty());
+        assert!(samplers_named(&["nothing".to_owned()]).is_err());
+        assert_eq!(samplers_named(&["bnot".to_owned()]).unwrap()[0].parameters()[0].default, Some(20.));
     }
 
     #[test]
@@ -358,7 +421,7 @@ mod tests {
             for p in &points {
                 prop_assert!(p.x >= bounds.x0() && p.x < bounds.x1() && p.y >= bounds.y0() && p.y < bounds.y1());
             }
-            if s.about().contains("exactly n") || n == 0 {
+            if s.exact() || n == 0 {
                 prop_assert_eq!(points.len(), n);
             } else if n >= 50 {
                 // few rows of a lattice close on a narrow torus: their number jumps
