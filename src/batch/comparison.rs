@@ -6,12 +6,11 @@ use super::region::Regions;
 use super::verdicts::{self, verdicts_on};
 use super::work::for_each;
 use super::{BatchError, Input, Progress};
-use crate::compare::{References, VerdictOptions};
+use crate::compare::{References, SamplerCurves, VerdictOptions};
 use crate::report::{CoordinatesRecord, FindingRecord, tables};
 use crate::sample::Sampler;
 use crate::stats::measure;
 use std::path::Path;
-use std::sync::Arc;
 
 /// What mosaics are compared with, and how.
 #[derive(Clone)]
@@ -47,7 +46,7 @@ pub fn compare_files(
         let measures = measure(&mosaic, &options.measure);
         let curves = match &measures.pcf {
             Ok(_) => references.curves(mosaic.len(), mosaic.window()),
-            Err(_) => Arc::default(),
+            Err(_) => SamplerCurves::default(),
         };
         let mut record = record(input, &mosaic, outside, &measures, distances(&measures, &curves.curves)?);
         record.warnings.extend(not_compared(&curves));

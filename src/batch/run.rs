@@ -8,7 +8,7 @@ use super::outputs::OutputFolder;
 use super::verdicts::{self, verdicts_on};
 use super::work::for_each;
 use super::{BatchError, Crop, Failure, ImageWindow, Input, Labels, MapRequest, Progress, ScaleSource, maps};
-use crate::compare::{ReferenceCurve, References, VerdictOptions};
+use crate::compare::{ReferenceCurve, References, SamplerCurves, VerdictOptions};
 use crate::detect::{DetectOptions, Detections, fourier_spacing, weights};
 use crate::geometry::Window;
 use crate::image::Plane;
@@ -23,7 +23,6 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fs;
 use std::path::Path;
-use std::sync::Arc;
 use std::time::Instant;
 
 const IMAGES: &str = "images";
@@ -242,7 +241,7 @@ fn one_image(
 
     let curves = match &measures.pcf {
         Ok(_) => references.curves(mosaic.len(), &window),
-        Err(_) => Arc::default(),
+        Err(_) => SamplerCurves::default(),
     };
     let (verdicts, no_verdicts) =
         verdicts_on(&mosaic, &measures, &options.samplers, options.verdict.as_ref(), options.seed);

@@ -26,7 +26,8 @@ Writes to compared/:
   regularity.csv     nearest neighbours: mean, standard deviation, regularity index (as Table 1 of Lanaro et al.)
   l_infinity.csv     one row a file, one column a sampler (as their Table 2)
   finding.csv        their main finding on these mosaics: rank correlation of the two, with p-value (5 mosaics or more)
-  verdicts.csv       one row a file and sampler: p-values, where it differs, what is usual
+  verdicts.csv       one row a file and sampler: p-values, where it differs, what is usual; its l-infinity is to the mean of
+                     those simulations, that of l_infinity.csv to the mean curve for mosaics of about this size
   NAME.envelope.csv  g(r) of the mosaic; mean and envelope of each sampler
   NAME.verdict.svg   the same as a figure
   failures.csv       files that failed, if any; then the exit code is 2")]
@@ -102,7 +103,7 @@ fn distances(outcome: &CoordinatesOutcome, samplers: &[&'static dyn Sampler]) ->
 
 /// One row a file: the samplers it could be of, or how it differs from the one nearest to it.
 fn verdicts(outcome: &CoordinatesOutcome) -> String {
-    let headers = ["file", "l∞", "usual", "95 %", "p of l∞", "verdict by the envelope of g"];
+    let headers = ["file", "l∞ to simulations", "usual", "95 %", "p of l∞", "verdict by the envelope of g"];
     let rows: Vec<Vec<String>> = outcome
         .records
         .iter()

@@ -20,6 +20,7 @@ mod shipped;
 mod shipped_codec;
 mod sign_flip;
 mod summary;
+mod target_fit;
 mod validation;
 mod verdict;
 
@@ -39,6 +40,7 @@ pub use reliability::{Reliability, ReliabilityBin, reliability};
 pub use shipped::make_table;
 pub use sign_flip::sign_flip_test;
 pub use summary::{Summary, intervals, summarise};
+pub use target_fit::{POOR_FIT, TargetFit, target_fit};
 pub use validation::{Rates, Score, validate};
 pub use verdict::{Envelope, SamplerVerdict, VerdictOptions, verdict};
 

@@ -44,6 +44,10 @@ impl Sampler for CurcioSloan {
         "square array compressed along a diagonal, with jitter; as near n as the array allows (Curcio & Sloan 1992)"
     }
 
+    fn in_rows(&self) -> bool {
+        true
+    }
+
     fn settable(&self) -> Option<&dyn Configure> {
         Some(self)
     }

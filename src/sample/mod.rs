@@ -89,6 +89,12 @@ pub trait Sampler: fmt::Debug + Send + Sync {
         true
     }
 
+    /// Whether points stand in rows along the sides of the window, so that how the window lies matters to them; `false` unless
+    /// a sampler says so.
+    fn in_rows(&self) -> bool {
+        false
+    }
+
     /// The sampler as one with parameters: `Some(self)` for those that are [`Settable`].
     fn settable(&self) -> Option<&dyn Configure> {
         None

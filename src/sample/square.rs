@@ -24,6 +24,10 @@ impl Sampler for Square {
         "square lattice at a random offset, jitter if asked for; as near n as the lattice allows"
     }
 
+    fn in_rows(&self) -> bool {
+        true
+    }
+
     fn settable(&self) -> Option<&dyn Configure> {
         Some(self)
     }

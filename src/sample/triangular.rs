@@ -26,6 +26,10 @@ impl Sampler for Triangular {
         "triangular lattice at a random offset, jitter if asked for; as near n as the lattice allows, stretched to close on a torus"
     }
 
+    fn in_rows(&self) -> bool {
+        true
+    }
+
     fn by_default(&self) -> bool {
         true
     }
