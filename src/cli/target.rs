@@ -55,9 +55,13 @@ pub fn fit_in_words(fit: &TargetFit) -> String {
     if fit.l_infinity <= POOR_FIT {
         return words;
     }
-    format!(
-        "warning: {words}. More than {POOR_FIT}: the points are not like the target. More points (-n) scatter less; a g that is noisy, or of a pattern whose density varies, may be out of reach"
-    )
+    let why = match fit.at_the_end() {
+        true => {
+            "pairs beyond its last r are left to chance and disturb the last ones; rows that go on, up to 6 spacings, with g = 1 where it has settled, mend that"
+        }
+        false => "a noisy g, or one of points whose density varies, may be out of reach",
+    };
+    format!("warning: {words}, more than {POOR_FIT}: {why}")
 }
 
 /// Writes the fit beside the file of the points, as NAME.fit.json, and returns the path.

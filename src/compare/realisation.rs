@@ -60,7 +60,8 @@ pub(super) fn average(
     let made: Vec<&Realisation> = patterns.iter().flatten().flatten().collect();
     let pcfs: Vec<&Pcf> = made.iter().filter_map(|p| p.pcf.as_ref()).collect();
     let n = class.points();
-    let mean = mean_curve(&pcfs).ok_or(CompareError::TooFewPoints { found: n.min(1) })?;
+    let none = || CompareError::NoPattern { sampler: sampler.name().to_owned(), n };
+    let mean = mean_curve(&pcfs).ok_or_else(none)?;
     let indexes: Vec<f64> = made.iter().filter_map(|p| p.ri).collect();
     Ok(ReferenceCurve {
         sampler: sampler.name().to_owned(),

@@ -41,6 +41,9 @@ impl fmt::Display for NotCompared {
         match &self.reason {
             CompareError::Sample { source, .. } => source.fmt(f),
             CompareError::Stats { source, .. } => source.fmt(f),
+            CompareError::NoPattern { n, .. } => {
+                write!(f, "it made fewer than 2 of {n} points: the window is too narrow for it")
+            }
             other => other.fmt(f),
         }
     }

@@ -16,6 +16,17 @@ pub struct TargetFit {
     pub worst_r: f64,
 }
 
+impl TargetFit {
+    /// Whether the greatest difference is where the target ends: pairs farther apart are left to chance, and disturb the
+    /// last ones.
+    pub fn at_the_end(&self) -> bool {
+        self.r.last().is_some_and(|last| *last < MOST - END && self.worst_r > last - END)
+    }
+}
+
+/// Pairs beyond the end of a target disturb those nearer than this to it, in hexagonal spacings.
+const END: f64 = 0.4;
+
 /// From here on two patterns are told apart at a glance: the distance below which Lanaro et al. take samplers for alike.
 pub const POOR_FIT: f64 = 0.1;
 
@@ -23,8 +34,9 @@ pub const POOR_FIT: f64 = 0.1;
 /// were to reach, over the distances of both: at most 6 spacings and half the shorter side of the window, beyond which
 /// [`crate::sample::Shaped`] controls nothing.
 ///
-/// A single pattern in a bounded window scatters about its target even if it fits on the torus: by about .03 in l-infinity
-/// at 1000 points, .1 at 100.
+/// Measured: the mean g of 20 patterns of dart throwing, given up to 6 spacings, is missed by .065–.073 at 300 to 3000
+/// points, at the hard core's edge. Given up to 2.49 only it is missed by about .1, at 2.22: the last quarter of a spacing
+/// is not controlled ([`TargetFit::at_the_end`]).
 ///
 /// # Errors
 /// If there are fewer than two points or rows, or the rows end where estimates begin, at .15 spacings.
