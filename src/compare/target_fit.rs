@@ -27,7 +27,7 @@ impl TargetFit {
 /// Pairs beyond the end of a target disturb those nearer than this to it, in hexagonal spacings.
 const END: f64 = 0.4;
 
-/// From here on two patterns are told apart at a glance: the distance below which Lanaro et al. take samplers for alike.
+/// From here on two patterns are told apart at a glance: the distance under which Lanaro et al. take two distributions for the same.
 pub const POOR_FIT: f64 = 0.1;
 
 /// Compares the pair correlation function of `points` with the rows of r (in hexagonal spacings, rising) and g that they
