@@ -179,7 +179,7 @@ fn options_out_of_range_are_refused_before_anything_is_written() {
         (&["--unscaled"], "--scale-table"),
         (&["--scale-table", "gone.csv"], "gone.csv"),
         (&["--modality", "octopus"], "confocal, split, histology"),
-        (&["--samplers", "uniform,octopus"], "jittered, triangular"),
+        (&["--samplers", "uniform,octopus"], "jittered, bridson"),
         (&["--spacin", "9"], "--spacing"),
         (&["--bogus"], "run --help"),
         (&["-q", "-v"], "cannot be used with"),

@@ -42,6 +42,24 @@ fn run_writes_the_documented_files_and_nothing_else() {
 }
 
 #[test]
+fn no_samplers_make_no_columns_and_no_curves() {
+    let place = two_images();
+    place.ok(&["run", "in", "--out", "out", "--samplers", "none"]);
+    assert!(!place.header("out/summary.csv").iter().any(|column| column.starts_with("l_infinity")));
+    assert_eq!(place.header("out/images/a/pcf.csv")[..2], ["r", "g"]);
+    assert!(!place.header("out/images/a/pcf.csv").iter().any(|column| column == "g_bnot"));
+}
+
+#[test]
+fn curves_of_default_samplers_come_with_the_program_and_it_is_said() {
+    let place = two_images();
+    place.ok(&["run", "in/a.png", "--out", "out", "--samplers", "bnot,green"]);
+    let metrics: serde_json::Value = serde_json::from_str(&place.read("out/images/a/metrics.json")).unwrap();
+    let shipped = |k: usize| metrics["samplers"][k]["shipped"].as_bool();
+    assert_eq!((shipped(0), shipped(1)), (Some(true), Some(false)));
+}
+
+#[test]
 fn the_files_of_a_run_agree_with_each_other() {
     let place = two_images();
     place.ok(&["run", "in", "--out", "out", "--um-per-px", "0.5", "--samplers", "jittered,dart-throwing"]);

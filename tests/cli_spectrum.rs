@@ -41,6 +41,30 @@ fn what_measure_writes_is_a_target_that_sample_reaches() {
 }
 
 #[test]
+fn the_miss_of_a_target_is_told_written_and_warned_of() {
+    let place = Place::new();
+    place.ok(&["sample", "dart-throwing", "-n", "900", "--torus", "--out", "darts.csv"]);
+    place.ok(&["measure", "darts.csv", "--out", "measured", "--window", "unit", "--torus"]);
+    let reached = |target: &str, n: &str| {
+        let outcome = place.run(&["sample", "--target-pcf", target, "-n", n, "--torus", "--out", "made.csv"]);
+        assert_eq!(outcome.code, 0, "{}", outcome.stderr);
+        let fit: serde_json::Value =
+            serde_json::from_slice(&std::fs::read(place.path("made.fit.json")).unwrap()).unwrap();
+        assert_eq!(fit["g_wanted"].as_array().unwrap().len(), fit["r"].as_array().unwrap().len());
+        (outcome.stderr, fit["l_infinity"].as_f64().unwrap())
+    };
+    let (words, miss) = reached("measured/darts.pcf.csv", "900");
+    assert!(miss < 0.1 && words.contains("l∞") && !words.contains("warning"), "{miss}: {words}");
+    // pairs at one distance only: no pattern has that
+    place.write("spike.csv", "r,g\n0.15,0\n0.9,0\n1,9\n1.1,0\n2.5,0\n");
+    let (words, miss) = reached("spike.csv", "900");
+    assert!(miss > 0.1 && words.contains("warning"), "{miss}: {words}");
+    // points on the terminal stay points
+    let outcome = place.run(&["sample", "--target-pcf", "measured/darts.pcf.csv", "-n", "50"]);
+    assert!(!outcome.stdout.contains("l∞") && outcome.stderr.contains("l∞"), "{}", outcome.stderr);
+}
+
+#[test]
 fn a_given_spectrum_is_reached() {
     let place = Place::new();
     place.write("ramp.csv", "frequency,power\n0.4,0.1\n0.7,1\n");

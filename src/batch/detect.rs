@@ -1,23 +1,16 @@
-use super::failures::write_failures;
-use super::measured::CONFIDENT;
-use super::outputs::OutputFolder;
-use super::work::for_each;
+use super::analysis::CONFIDENT;
+use super::output::{Ending, ResultFolder, Standing, for_each, write_failures};
 use super::{BatchError, Failure, Input, Progress, ScaleSource};
 use crate::detect::{DetectOptions, Detection, Detections, detect};
 use crate::geometry::Point;
 use crate::image::{Plane, decode, read_bytes};
 use crate::mosaic::Scale;
-use crate::mosaic::io::write_points;
+use crate::mosaic::io::format_points;
 use crate::report::{MarkKind, OverlayMark, counted, encode_png, overlay};
-use std::fs;
-use std::io::Read;
 use std::path::Path;
 
 /// Radius of the rings of an overlay, in cone spacings: inside the cone, so that neighbours' rings stay apart.
 const RING: f64 = 0.3;
-
-/// How a file of detections begins.
-const DETECTIONS: &[u8] = b"x_px,y_px,score";
 
 /// What came of detecting cones in a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,6 +21,8 @@ pub struct DetectionOutcome {
     pub cones: usize,
     /// Images without.
     pub failures: Vec<Failure>,
+    /// How the batch ended.
+    pub ending: Ending,
 }
 
 /// What is written beside the cones of an image.
@@ -37,6 +32,8 @@ pub struct DetectionExtras {
     pub overlay: bool,
     /// `NAME.rejected.csv`: candidates that were not taken for cones.
     pub rejected: bool,
+    /// Replace coordinates that a person has made or corrected; the earlier files are put away.
+    pub replace_corrections: bool,
 }
 
 /// Writes `NAME.csv` (x_px, y_px, score) for every image, and what `extras` says.
@@ -51,40 +48,44 @@ pub fn detect_files(
     out: &Path,
     progress: &dyn Progress,
 ) -> Result<DetectionOutcome, BatchError> {
-    let out = OutputFolder::create(out)?;
-    let (cones, failures) = for_each(inputs, progress, |input| {
+    let out = ResultFolder::open(out)?;
+    let worked = for_each(inputs, progress, |input| {
         if input.name.eq_ignore_ascii_case("failures") {
             return Err(BatchError::Reserved { file: input.path.clone() });
         }
         let (_, image) = read_image(input)?;
-        let found = detect_in(input, &image, options)?;
         let scale = scales.scale_of(&input.path, image.ncols())?;
-        let path = out.join(format!("{}.csv", input.name));
-        refuse_foreign(&path)?;
-        write_detections(&path, &found.cones, scale)?;
+        let names = ["csv", "rejected.csv"].map(|kind| format!("{}.{kind}", input.name));
+        let [cones, rejected] = &names;
+        if !extras.replace_corrections {
+            refuse_foreign(&out, cones)?;
+            if extras.rejected {
+                refuse_foreign(&out, rejected)?;
+            }
+        }
+        let found = detect_in(input, &image, options)?;
+        out.write(cones, &formatted(&found.cones, scale))?;
         if extras.rejected {
-            let path = out.join(format!("{}.rejected.csv", input.name));
-            refuse_foreign(&path)?;
-            write_detections(&path, &found.rejected, scale)?;
+            out.write(rejected, &formatted(&found.rejected, scale))?;
         }
         if extras.overlay {
             out.write(&format!("{}.overlay.png", input.name), &overlay_of(&image, &found)?)?;
         }
         Ok((found.cones.len(), describe(&found)))
     });
-    write_failures(&out, &failures)?;
-    Ok(DetectionOutcome { images: cones.len(), cones: cones.iter().sum(), failures })
+    write_failures(&out, &worked.failures)?;
+    let ending = out.close(worked.left)?;
+    let cones = worked.done.iter().sum();
+    Ok(DetectionOutcome { images: worked.done.len(), cones, failures: worked.failures, ending })
 }
 
-/// Hand marks may be called as detections are, and hours of work: only detections are replaced.
-fn refuse_foreign(path: &Path) -> Result<(), BatchError> {
-    let Ok(file) = fs::File::open(path) else { return Ok(()) };
-    let mut start = Vec::new();
-    let readable = file.take(DETECTIONS.len() as u64).read_to_end(&mut start).is_ok();
-    if readable && start == DETECTIONS {
-        return Ok(());
+/// Refuses to replace hand marks, which may be called as detections are, and corrections: they are
+/// hours of work.
+fn refuse_foreign(out: &ResultFolder, name: &str) -> Result<(), BatchError> {
+    match out.standing(name) {
+        Standing::Missing | Standing::Own => Ok(()),
+        Standing::Changed => Err(BatchError::Foreign { path: out.join(name) }),
     }
-    Err(BatchError::Foreign { path: path.to_owned() })
 }
 
 /// The bytes of the file and the image in them.
@@ -102,14 +103,24 @@ pub(super) fn detect_in(
     detect(image, options).map_err(|source| BatchError::Detect { file: input.path.clone(), source })
 }
 
-pub(super) fn write_detections(
-    path: &Path,
-    found: &[Detection],
-    scale: Option<Scale>,
-) -> Result<(), BatchError> {
+/// Returns the file of detections: x_px, y_px, score.
+pub(super) fn formatted(found: &[Detection], scale: Option<Scale>) -> Vec<u8> {
     let centres: Vec<Point> = found.iter().map(|d| d.centre).collect();
     let scores: Vec<f64> = found.iter().map(|d| d.score).collect();
-    Ok(write_points(path, &centres, Some(&scores), scale)?)
+    format_points(&centres, Some(&scores), scale).into_bytes()
+}
+
+/// Draws given cones on the image; `spacing` is theirs, px.
+pub(super) fn mark_cones(
+    image: &Plane,
+    points: &[Point],
+    spacing: Option<f64>,
+) -> Result<Vec<u8>, BatchError> {
+    // without a neighbour there is no spacing: a ring that can be seen
+    let spacing = spacing.unwrap_or(10.);
+    let mark = |p: &Point| OverlayMark { x: p.x, y: p.y, radius: RING * spacing, kind: MarkKind::Detection };
+    let marks: Vec<OverlayMark> = points.iter().map(mark).collect();
+    Ok(encode_png(&overlay(image, &marks, spacing))?)
 }
 
 pub(super) fn overlay_of(image: &Plane, found: &Detections) -> Result<Vec<u8>, BatchError> {

@@ -127,6 +127,14 @@ pub enum BatchError {
         /// The first such file in it.
         file: String,
     },
+    /// An image that fails now and whose earlier results stay.
+    #[error("{source}; its earlier results stay in {folder}")]
+    Outdated {
+        /// Why it fails.
+        source: Box<BatchError>,
+        /// Where its earlier results are.
+        folder: String,
+    },
     /// Another command is writing into the folder.
     #[error("{path}: another run is writing into this folder: wait for its end, or choose another folder", path = path.display())]
     Busy {

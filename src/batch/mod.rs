@@ -25,7 +25,7 @@ pub use input::{GroupBy, Input, Labels, ScaleSource, coordinate_files, image_fil
 pub use measure::{CoordinatesOptions, CoordinatesOutcome, compare_files, measure_files};
 pub use output::{Ending, Failure, Leftovers, Progress, Silent};
 pub use paper::remake_paper;
-pub use run::{RunOptions, RunOutcome, run_files};
+pub use run::{ConeSource, GivenCones, RunOptions, RunOutcome, run_files};
 pub use validate::{
     Analysis, Comparison, Detected, Grouping, ValidationOptions, ValidationOutcome, ValidationRow, VersusRow,
     validate_files,

@@ -7,7 +7,7 @@ use clap::Args;
 use conemosaic::batch::{CompareOptions, CoordinatesOutcome, compare_files, coordinate_files};
 use conemosaic::compare::VerdictOptions;
 use conemosaic::report::{FindingRecord, VerdictRecord, significant};
-use conemosaic::sample::{Sampler, as_reference, sampler, samplers, samplers_by_default};
+use conemosaic::sample::{Sampler, samplers_named};
 use std::path::PathBuf;
 
 /// Compares mosaics with point samplers: distances of pair correlation functions, and what they are worth
@@ -26,7 +26,8 @@ Writes to compared/:
   regularity.csv     nearest neighbours: mean, standard deviation, regularity index (as Table 1 of Lanaro et al.)
   l_infinity.csv     one row a file, one column a sampler (as their Table 2)
   finding.csv        their main finding on these mosaics: rank correlation of the two, with p-value (5 mosaics or more)
-  verdicts.csv       one row a file and sampler: p-values, where it differs, what is usual
+  verdicts.csv       one row a file and sampler: p-values, where it differs, what is usual; its l-infinity is to the mean of
+                     those simulations, that of l_infinity.csv to the mean curve for mosaics of about this size
   NAME.envelope.csv  g(r) of the mosaic; mean and envelope of each sampler
   NAME.verdict.svg   the same as a figure
   failures.csv       files that failed, if any; then the exit code is 2")]
@@ -37,7 +38,7 @@ pub struct Compare {
     /// Folder for the results
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Samplers to compare with, separated by commas; all is every one, slow ones included [default: those marked * by
+    /// Samplers to compare with, separated by commas; all is every one, slow ones included; none is none [default: those marked * by
     /// `conemosaic sample --list`]
     #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
     samplers: Vec<String>,
@@ -49,27 +50,6 @@ pub struct Compare {
     no_verdict: bool,
     #[command(flatten)]
     mosaic: MosaicArgs,
-}
-
-/// The samplers of these names, as references; those compared with by default if there are none; “all” is every one. A name
-/// given twice counts once.
-pub fn samplers_named(names: &[String]) -> Result<Vec<&'static dyn Sampler>> {
-    if names.is_empty() {
-        return Ok(samplers_by_default());
-    }
-    let mut found: Vec<&'static dyn Sampler> = Vec::new();
-    for name in names {
-        let chosen = match name.trim() {
-            "all" => samplers().to_vec(),
-            name => vec![sampler(name)?],
-        };
-        for one in chosen.into_iter().map(as_reference) {
-            if !found.iter().any(|s| s.name() == one.name()) {
-                found.push(one);
-            }
-        }
-    }
-    Ok(found)
 }
 
 impl Compare {
@@ -123,7 +103,7 @@ fn distances(outcome: &CoordinatesOutcome, samplers: &[&'static dyn Sampler]) ->
 
 /// One row a file: the samplers it could be of, or how it differs from the one nearest to it.
 fn verdicts(outcome: &CoordinatesOutcome) -> String {
-    let headers = ["file", "l∞", "usual", "95 %", "p of l∞", "verdict by the envelope of g"];
+    let headers = ["file", "l∞ to simulations", "usual", "95 %", "p of l∞", "verdict by the envelope of g"];
     let rows: Vec<Vec<String>> = outcome
         .records
         .iter()

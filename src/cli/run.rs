@@ -1,15 +1,16 @@
+use super::Done;
 use super::common::Common;
 use super::detect::DetectArgs;
 use super::maps::MapArgs;
 use super::metrics::SummaryArgs;
 use super::scale::ScaleArgs;
 use super::short_table;
-use super::{Done, compare::samplers_named};
 use anyhow::{Result, bail};
 use clap::Args;
 use conemosaic::batch::{Crop, ImageWindow, RunOptions, RunOutcome, image_files, run_files};
 use conemosaic::compare::VerdictOptions;
 use conemosaic::report::{Cell, Subject, Summary, by_need, counted, expected_errors, significant};
+use conemosaic::sample::samplers_named;
 use conemosaic::stats::MeasureOptions;
 use std::path::PathBuf;
 
@@ -44,7 +45,7 @@ pub struct Run {
     out: PathBuf,
     #[command(flatten)]
     detect: DetectArgs,
-    /// Samplers to compare with, separated by commas; all is every one, slow ones included [default: those marked * by
+    /// Samplers to compare with, separated by commas; all is every one, slow ones included; none is none [default: those marked * by
     /// `conemosaic sample --list`]
     #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
     samplers: Vec<String>,

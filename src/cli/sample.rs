@@ -1,10 +1,11 @@
 use super::Done;
 use super::common::Common;
-use super::target::TargetArgs;
+use super::target::{TargetArgs, fit_in_words, write_fit};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use conemosaic::batch::Region;
-use conemosaic::geometry::{Rectangle, Window};
+use conemosaic::compare::{POOR_FIT, TargetFit, target_fit};
+use conemosaic::geometry::{Point, Rectangle, Window};
 use conemosaic::image;
 use conemosaic::mosaic::io::{ReadOptions, format_plain_points, read_outline, write_plain_points};
 use conemosaic::report::{counted, table};
@@ -70,9 +71,9 @@ impl Sample {
             return Ok(Done::Completely);
         };
         let window = self.window()?;
-        let shaped = self.target.sampler()?;
-        let default: &dyn Sampler = match (&shaped, &self.name) {
-            (Some(shaped), _) => shaped,
+        let target = self.target.target()?;
+        let default: &dyn Sampler = match (&target, &self.name) {
+            (Some(target), _) => &target.shaped,
             (None, name) => sampler(name.as_deref().unwrap_or_default())?,
         };
         let changed = self.changed(default)?;
@@ -81,18 +82,32 @@ impl Sample {
         let mut rng = ChaCha8Rng::seed_from_u64(common.seed);
         let points = chosen.sample_watched(n, &window, &mut rng, &mut |step, of| bar.at(step, of))?;
         bar.end();
+        let rows = target.as_ref().and_then(|t| t.pcf.as_deref());
+        let fit = rows.and_then(|rows| target_fit(&points, &window, rows).ok());
+        self.write(&points, fit.as_ref(), common)?;
+        if let Some(fit) = fit.filter(|fit| !common.quiet || fit.l_infinity > POOR_FIT) {
+            // the points themselves may be going to the terminal
+            let _ = writeln!(std::io::stderr(), "{}", fit_in_words(&fit));
+        }
+        Ok(Done::Completely)
+    }
+
+    fn write(&self, points: &[Point], fit: Option<&TargetFit>, common: &Common) -> Result<()> {
         if let Some(path) = &self.out {
-            write_plain_points(path, &points)?;
+            write_plain_points(path, points)?;
             common.say(&format!("{}: {}", counted(points.len(), "point"), path.display()));
+            if let Some(fit) = fit {
+                common.say(&format!("fit: {}", write_fit(path, points.len(), fit)?.display()));
+            }
         } else {
-            match std::io::stdout().write_all(format_plain_points(&points).as_bytes()) {
+            match std::io::stdout().write_all(format_plain_points(points).as_bytes()) {
                 Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
                     return Err(error).context("cannot print the points");
                 }
                 _ => {}
             }
         }
-        Ok(Done::Completely)
+        Ok(())
     }
 
     fn window(&self) -> Result<Window> {
@@ -148,11 +163,11 @@ fn list() -> String {
     let rows: Vec<Vec<String>> = samplers().iter().map(|s| vec![marked(*s), s.about().to_owned()]).collect();
     let made = table(&["sampler", "what it makes"], &rows);
     let made = format!("{made}\n* run and compare take these unless --samplers names others");
-    let parameters = samplers().iter().flat_map(|s| s.parameters().iter().map(move |p| (s.name(), p)));
+    let parameters = samplers().iter().flat_map(|s| s.parameters().into_iter().map(move |p| (s.name(), p)));
     let rows: Vec<Vec<String>> = parameters
         .map(|(sampler, p)| {
             let range = format!("{} {}", p.range_in_words(), p.unit).trim_end().to_owned();
-            vec![sampler.to_owned(), p.name.to_owned(), range, p.default.to_owned(), p.meaning.to_owned()]
+            vec![sampler.to_owned(), p.name.to_owned(), range, p.default_in_words(), p.meaning.to_owned()]
         })
         .collect();
     if rows.is_empty() {

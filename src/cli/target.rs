@@ -1,6 +1,11 @@
 use anyhow::{Context, Result, bail};
 use clap::Args;
+use conemosaic::compare::{POOR_FIT, TargetFit};
+use conemosaic::files::write_atomically;
+use conemosaic::report::significant;
 use conemosaic::sample::{Shaped, TargetCurve};
+use serde_json::json;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// A curve that the points are to have, instead of a named sampler.
@@ -8,7 +13,8 @@ use std::path::{Path, PathBuf};
 #[command(next_help_heading = "Points of a given pair correlation or spectrum (exactly n, instead of NAME)")]
 pub struct TargetArgs {
     /// CSV of r (in hexagonal spacings, up to 1 at least) and g, as NAME.pcf.csv of `measure` holds them: points are moved until
-    /// their pair correlation function is this one. Beyond the last r, or 6 spacings, it is left to chance
+    /// their pair correlation function is this one. Beyond the last r, or 6 spacings, it is left to chance. How near they come
+    /// is printed and, beside --out, written to NAME.fit.json
     #[arg(long, value_name = "FILE", conflicts_with = "name")]
     target_pcf: Option<PathBuf>,
     /// CSV of frequency (in √n) and power (1: independent points), as NAME.spectrum.csv of `measure --spectrum` holds them: the same
@@ -18,26 +24,71 @@ pub struct TargetArgs {
     target_spectrum: Option<PathBuf>,
 }
 
+/// A curve that was read.
+pub struct Target {
+    /// What makes points of it.
+    pub shaped: Shaped,
+    /// Rows of r and g, if that is what it is given by.
+    pub pcf: Option<Vec<[f64; 2]>>,
+}
+
 impl TargetArgs {
-    /// The sampler of that curve, if there is one.
-    pub fn sampler(&self) -> Result<Option<Shaped>> {
-        let curve = match (&self.target_pcf, &self.target_spectrum) {
-            (Some(path), _) => read(path, "r and g", TargetCurve::from_pcf)?,
-            (None, Some(path)) => read(path, "frequency and power", TargetCurve::from_spectrum)?,
+    /// Reads the curve, if there is one.
+    pub fn target(&self) -> Result<Option<Target>> {
+        let (curve, pcf) = match (&self.target_pcf, &self.target_spectrum) {
+            (Some(path), _) => {
+                let (curve, rows) = read(path, "r and g", TargetCurve::from_pcf)?;
+                (curve, Some(rows))
+            }
+            (None, Some(path)) => (read(path, "frequency and power", TargetCurve::from_spectrum)?.0, None),
             (None, None) => return Ok(None),
         };
-        Ok(Some(Shaped { curve, nearest: None }))
+        Ok(Some(Target { shaped: Shaped { curve, nearest: None }, pcf }))
     }
 }
 
+/// How near points came to their target, in words; a warning if that is not near.
+pub fn fit_in_words(fit: &TargetFit) -> String {
+    let miss = significant(fit.l_infinity, 2);
+    let words =
+        format!("g(r) differs from the target by at most {miss} (l∞), at r = {:.2} spacings", fit.worst_r);
+    if fit.l_infinity <= POOR_FIT {
+        return words;
+    }
+    let why = match fit.at_the_end() {
+        true => {
+            "pairs beyond its last r are left to chance and disturb the last ones; rows that go on, up to 6 spacings, with g = 1 where it has settled, mend that"
+        }
+        false => "a noisy g, or one of points whose density varies, may be out of reach",
+    };
+    format!("warning: {words}, more than {POOR_FIT}: {why}")
+}
+
+/// Writes the fit beside the file of the points, as NAME.fit.json, and returns the path.
+pub fn write_fit(points: &Path, n: usize, fit: &TargetFit) -> Result<PathBuf> {
+    let path = points.with_extension("fit.json");
+    let told = json!({
+        "points": n,
+        "l_infinity": fit.l_infinity,
+        "worst_r": fit.worst_r,
+        "r": fit.r,
+        "g_wanted": fit.wanted,
+        "g_reached": fit.reached,
+    });
+    write_atomically(&path, |file| writeln!(file, "{told:#}"))
+        .with_context(|| format!("cannot write {}", path.display()))?;
+    Ok(path)
+}
+
+/// Returns the curve and the rows that it is of.
 fn read<E: std::error::Error + Send + Sync + 'static>(
     path: &Path,
     what: &str,
     curve: impl Fn(&[[f64; 2]]) -> Result<TargetCurve, E>,
-) -> Result<TargetCurve> {
+) -> Result<(TargetCurve, Vec<[f64; 2]>)> {
     let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
     let rows = rows(&text, what).with_context(|| path.display().to_string())?;
-    curve(&rows).with_context(|| path.display().to_string())
+    Ok((curve(&rows).with_context(|| path.display().to_string())?, rows))
 }
 
 /// The first two columns; a header, blank lines and lines after # are left out.

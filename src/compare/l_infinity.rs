@@ -39,6 +39,14 @@ pub enum CompareError {
         /// Why.
         source: StatsError,
     },
+    /// A sampler has no pattern for a window of this shape.
+    #[error("sampler {sampler} made fewer than 2 of {n} points: the window is too narrow for it")]
+    NoPattern {
+        /// Its name.
+        sampler: String,
+        /// What was asked for.
+        n: usize,
+    },
     /// Too few or too many simulations, or a level that is none.
     #[error("a verdict of {found} simulations: it needs 39 to 9999, and a level between 0 and 0.5")]
     Simulations {

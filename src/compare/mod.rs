@@ -5,6 +5,7 @@ mod assignment;
 mod bootstrap;
 mod clustered;
 mod comparison;
+mod curve_class;
 mod curves;
 mod froc;
 mod groups;
@@ -12,11 +13,16 @@ mod intraclass;
 mod l_infinity;
 mod matching;
 pub mod paper;
+mod realisation;
 mod reference;
 mod reliability;
+mod shared_work;
+mod shipped;
+mod shipped_codec;
 mod sign_flip;
 mod subjects;
 mod summary;
+mod target_fit;
 mod validation;
 mod verdict;
 
@@ -31,11 +37,14 @@ pub use groups::{GroupSummary, MeanOverGroups, by_group, clusters, mean_over_gro
 pub use intraclass::{Intraclass, intraclass};
 pub use l_infinity::{CompareError, l_infinity};
 pub use matching::{Assignment, MatchError, MatchOptions, Matching, Pair, match_points};
-pub use reference::{ReferenceCurve, References};
+pub use reference::{NotCompared, ReferenceCurve, References, SamplerCurves};
 pub use reliability::{Reliability, ReliabilityBin, reliability};
+#[doc(hidden)]
+pub use shipped::make_table;
 pub use sign_flip::{least_p, sign_flip_test};
 pub use subjects::{SubjectMean, mean_over_subjects};
 pub use summary::{Summary, intervals, summarise};
+pub use target_fit::{POOR_FIT, TargetFit, target_fit};
 pub use validation::{Rates, Score, validate};
 pub use verdict::{Envelope, SamplerVerdict, VerdictOptions, verdict};
 

@@ -1,26 +1,12 @@
-use super::{CompareError, curve, draw, mean_curve};
-use crate::geometry::{Polygon, Rectangle, Window};
-use crate::mosaic::hexagonal_spacing;
-use crate::sample::{SampleError, Sampler};
-use crate::stats::{Deviation, Pcf, PcfOptions, moments, nearest_neighbours};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
-use sha2::{Digest, Sha256};
-use std::cell::Cell;
-use std::collections::HashMap;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-
-/// Ratio of successive classes of n and of aspect. Mean curves at 250, 275, 300 and 330 points differ by no more (.002–.011 of seven samplers)
-/// than the noise that a mean over 58 realisations leaves (.006–.02).
-const CLASS: f64 = 1.2;
-/// Points drawn for one curve, over all realisations.
-const POINTS_PER_CURVE: f64 = 16_000.;
-/// Bounds on the number of realisations, below [`LARGE`] points.
-const REALISATIONS: (usize, usize) = (4, 60);
-/// From here on 2 realisations, from five times as many on 1: large patterns scatter little and cost much.
-const LARGE: usize = 20_000;
+use super::curve_class::Class;
+use super::realisation::{average, realise};
+use super::shared_work::{Once, Workers};
+use super::{CompareError, shipped};
+use crate::geometry::Window;
+use crate::sample::Sampler;
+use crate::stats::{Pcf, PcfOptions};
+use std::fmt;
+use std::sync::Arc;
 
 /// What a sampler looks like at some n in a window of some shape: the mean over realisations.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,31 +21,65 @@ pub struct ReferenceCurve {
     pub realisations: usize,
     /// Mean regularity index (all points, sample deviation); `None` where it is not defined, as for a lattice.
     pub ri: Option<f64>,
+    /// Taken from the table that comes with the program instead of made now: the same curve, g rounded to 10⁻⁴.
+    pub shipped: bool,
 }
 
-type Curves = Result<Arc<Vec<ReferenceCurve>>, CompareError>;
+/// A sampler that a mosaic is not compared with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NotCompared {
+    /// Name of the sampler.
+    pub sampler: String,
+    /// Why it has no curve.
+    pub reason: CompareError,
+}
+
+impl fmt::Display for NotCompared {
+    /// “not compared with bnot: ” and the reason, which does not name the sampler again.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "not compared with {}: ", self.sampler)?;
+        match &self.reason {
+            CompareError::Sample { source, .. } => source.fmt(f),
+            CompareError::Stats { source, .. } => source.fmt(f),
+            CompareError::NoPattern { n, .. } => {
+                write!(f, "it made fewer than 2 of {n} points: the window is too narrow for it")
+            }
+            other => other.fmt(f),
+        }
+    }
+}
+
+/// Curves of samplers for one mosaic: those that there are, and why the others are missing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SamplerCurves {
+    /// The curves, in the order of the samplers.
+    pub curves: Vec<ReferenceCurve>,
+    /// Samplers that have none.
+    pub missing: Vec<NotCompared>,
+}
 
 /// Curves of samplers, made when first asked for and kept.
 ///
 /// They depend on the mosaic only through its n, in classes 20 % apart, the proportions of its window, likewise, and whether
-/// that is a torus: distances in spacings have no scale. Each polygon has curves of its own.
+/// that is a torus: distances in spacings have no scale. A polygon without holes is taken for the rectangle whose border is as
+/// long for its area; longer ones, and any for lattices, have curves of their own.
 ///
 /// The number of realisations is 16 000/n, but at least 4 and at most 60 (2 from 20 000 points on, 1 from 100 000). Measured
 /// noise of a mean curve that leaves, as l-infinity: uniform .02–.03, jittered .01–.03, Poisson disks .01–.017 at
 /// n = 100, 300, 1024 and 4096; lattices below .001.
 ///
 /// Every realisation has its own generator, seeded by a hash of the seed, the sampler's name, the classes and its number,
-/// so results do not depend on order or threads.
-///
-/// # Threads
-/// Threads that ask for the same curves at the same time share the work: each takes realisations off one list until
-/// none is left and then waits for those under way. A realisation runs to its end on its thread; should it hand out work and
-/// its thread meanwhile be given something that asks for curves, that is answered by private work instead of waiting.
-/// So no wait can hang on what lies below it on the same stack, and rayon's stealing cannot deadlock.
+/// so results do not depend on order or threads. Curves of the default samplers, options and seed come with the program
+/// for the classes that images have.
 pub struct References {
     setup: Arc<Setup>,
-    jobs: Mutex<HashMap<Class, Arc<Job>>>,
+    /// By class, of the samplers that stand in rows or of the others.
+    made: Once<(Class, bool), Arc<Vec<Made>>>,
+    workers: Workers,
 }
+
+/// A sampler's place in the list, and its curve or why it has none.
+type Made = (usize, Result<ReferenceCurve, CompareError>);
 
 struct Setup {
     samplers: Vec<&'static dyn Sampler>,
@@ -70,258 +90,66 @@ struct Setup {
 impl References {
     /// Curves of `samplers`, estimated with `options`; the same `seed` gives the same curves.
     pub fn new(samplers: Vec<&'static dyn Sampler>, options: PcfOptions, seed: u64) -> Self {
-        Self { setup: Arc::new(Setup { samplers, options, seed }), jobs: Mutex::new(HashMap::new()) }
+        let setup = Arc::new(Setup { samplers, options, seed });
+        Self { setup, made: Once::new(), workers: Workers::like_the_caller() }
     }
 
-    /// The samplers' curves, in their order, for a mosaic of `n` points in `window`.
-    ///
-    /// # Errors
-    /// If there are fewer than two points, an option is out of range, or a sampler cannot fill such a window.
-    pub fn curves(&self, n: usize, window: &Window) -> Curves {
-        if n < 2 {
-            return Err(CompareError::TooFewPoints { found: n });
-        }
+    /// Returns the samplers' curves for a mosaic of `n` points in `window`. None of fewer than two points: then every
+    /// sampler is among the missing.
+    pub fn curves(&self, n: usize, window: &Window) -> SamplerCurves {
         let class = Class::of(n, window);
-        let mut created = false;
-        let job = lock(&self.jobs)
-            .entry(class.clone())
-            .or_insert_with(|| {
-                created = true;
-                Arc::new(Job::new(class, Arc::clone(&self.setup)))
-            })
-            .clone();
-        if let Some(curves) = job.finished() {
-            return curves;
-        }
-        if BUSY.get() {
-            return job.privately();
-        }
-        if created {
-            for _ in 1..rayon::current_num_threads().min(job.tasks) {
-                let job = Arc::clone(&job);
-                rayon::spawn(move || job.work());
-            }
-        }
-        job.work();
-        job.wait()
-    }
-}
-
-thread_local! {
-    /// Whether this thread has a realisation on its stack.
-    static BUSY: Cell<bool> = const { Cell::new(false) };
-}
-
-/// A panic elsewhere leaves the data of these locks whole: they change by single steps.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// What curves depend on. Classes are powers of [`CLASS`].
-#[derive(Clone, PartialEq, Eq, Hash)]
-struct Class {
-    n: i32,
-    shape: Shape,
-}
-
-/// Rectangles by their proportions; polygons each for itself.
-#[derive(Clone, PartialEq, Eq, Hash)]
-enum Shape {
-    Rectangle { aspect: i32, torus: bool },
-    Polygon(Polygon),
-}
-
-impl Class {
-    fn of(n: usize, window: &Window) -> Self {
-        let nearest = |v: f64| (v.ln() / CLASS.ln()).round() as i32;
-        let shape = match window {
-            Window::Rectangle(bounds) | Window::Torus(bounds) => Shape::Rectangle {
-                aspect: nearest(bounds.width() / bounds.height()),
-                torus: window.is_torus(),
-            },
-            Window::Polygon(polygon) => Shape::Polygon(polygon.clone()),
-        };
-        Self { n: nearest(n as f64), shape }
-    }
-
-    fn points(&self) -> usize {
-        (CLASS.powi(self.n).round() as usize).max(2)
-    }
-
-    /// A rectangle of area 1, or the polygon; `None` if the proportions are beyond numbers.
-    fn window(&self) -> Option<Window> {
-        match &self.shape {
-            Shape::Rectangle { aspect, torus } => {
-                let width = CLASS.powi(*aspect).sqrt();
-                let bounds = Rectangle::new(0., 0., width, 1. / width).ok()?;
-                Some(if *torus { Window::Torus(bounds) } else { Window::Rectangle(bounds) })
-            }
-            Shape::Polygon(polygon) => Some(Window::Polygon(polygon.clone())),
-        }
-    }
-
-    /// What tells the generators of its realisations from those of other shapes.
-    fn seed(&self) -> Vec<u8> {
-        match &self.shape {
-            Shape::Rectangle { aspect, torus } => {
-                let mut bytes = aspect.to_le_bytes().to_vec();
-                bytes.push(u8::from(*torus));
-                bytes
-            }
-            Shape::Polygon(polygon) => polygon.bytes(),
-        }
-    }
-
-    fn realisations(&self) -> usize {
-        let n = self.points();
-        match n {
-            _ if n >= 5 * LARGE => 1,
-            _ if n >= LARGE => 2,
-            _ => ((POINTS_PER_CURVE / n as f64).round() as usize).clamp(REALISATIONS.0, REALISATIONS.1),
-        }
-    }
-}
-
-/// One pattern of a sampler; without a curve where the sampler made fewer than two points.
-struct Realisation {
-    pcf: Option<Pcf>,
-    ri: Option<f64>,
-}
-
-/// All realisations of all samplers for a class, on one list.
-struct Job {
-    class: Class,
-    setup: Arc<Setup>,
-    tasks: usize,
-    next: AtomicUsize,
-    progress: Mutex<Progress>,
-    complete: Condvar,
-}
-
-struct Progress {
-    done: Vec<Option<Result<Realisation, CompareError>>>,
-    left: usize,
-    curves: Option<Curves>,
-}
-
-impl Job {
-    fn new(class: Class, setup: Arc<Setup>) -> Self {
-        let tasks = setup.samplers.len() * class.realisations();
-        let curves = (tasks == 0).then(|| Ok(Arc::default()));
-        let progress = Progress { done: (0..tasks).map(|_| None).collect(), left: tasks, curves };
-        Self {
-            class,
-            setup,
-            tasks,
-            next: AtomicUsize::new(0),
-            progress: Mutex::new(progress),
-            complete: Condvar::new(),
-        }
-    }
-
-    fn finished(&self) -> Option<Curves> {
-        lock(&self.progress).curves.clone()
-    }
-
-    /// Takes realisations off the list until there is none. Whoever ends the last one makes the curves.
-    fn work(&self) {
-        loop {
-            let task = self.next.fetch_add(1, Ordering::Relaxed);
-            if task >= self.tasks {
-                return;
-            }
-            let outcome = self.realise(task);
-            let mut progress = lock(&self.progress);
-            progress.done[task] = Some(outcome);
-            progress.left -= 1;
-            if progress.left == 0 {
-                let done = std::mem::take(&mut progress.done);
-                progress.curves = Some(self.average(done.into_iter().flatten()));
-                self.complete.notify_all();
-            }
-        }
-    }
-
-    fn wait(&self) -> Curves {
-        let mut progress = lock(&self.progress);
-        loop {
-            if let Some(curves) = &progress.curves {
-                return curves.clone();
-            }
-            progress = self.complete.wait(progress).unwrap_or_else(PoisonError::into_inner);
-        }
-    }
-
-    fn privately(&self) -> Curves {
-        self.average((0..self.tasks).map(|task| self.realise(task)))
-    }
-
-    fn sampler_of(&self, task: usize) -> &'static dyn Sampler {
-        self.setup.samplers[task / self.class.realisations()]
-    }
-
-    fn realise(&self, task: usize) -> Result<Realisation, CompareError> {
-        let was_busy = BUSY.replace(true);
-        // Others wait for this task: a sampler's panic must reach them as an error.
-        let outcome = catch_unwind(AssertUnwindSafe(|| self.attempt(task)));
-        BUSY.set(was_busy);
-        outcome.unwrap_or_else(|_| {
-            Err(CompareError::Interrupted { sampler: self.sampler_of(task).name().to_owned() })
-        })
-    }
-
-    fn attempt(&self, task: usize) -> Result<Realisation, CompareError> {
-        let (class, sampler) = (&self.class, self.sampler_of(task));
-        let too_thin = || CompareError::Sample {
-            sampler: sampler.name().to_owned(),
-            source: SampleError::TooThin { aspect: f64::INFINITY, max: f64::MAX },
-        };
-        let window = class.window().ok_or_else(too_thin)?;
-        let mut hash = Sha256::new();
-        hash.update(self.setup.seed.to_le_bytes());
-        hash.update((sampler.name().len() as u64).to_le_bytes());
-        hash.update(sampler.name());
-        hash.update(class.n.to_le_bytes());
-        hash.update(class.seed());
-        hash.update(((task % class.realisations()) as u64).to_le_bytes());
-        let mut rng = ChaCha8Rng::from_seed(hash.finalize().into());
-        let points = draw(sampler, class.points(), &window, &mut rng)?;
-        if points.len() < 2 {
-            return Ok(Realisation { pcf: None, ri: None });
-        }
-        let pcf = curve(sampler, &points, &window, &self.setup.options)?;
-        let nearest = nearest_neighbours(&points, &window);
-        Ok(Realisation { pcf: Some(pcf), ri: moments(&nearest.distances, Deviation::Sample).ri })
-    }
-
-    /// Means over each sampler's realisations, given in the order of tasks.
-    fn average(&self, done: impl Iterator<Item = Result<Realisation, CompareError>>) -> Curves {
-        let done: Vec<_> = done.collect();
-        let realisations = self.class.realisations();
-        let n = self.class.points();
-        let curves = self.setup.samplers.iter().zip(done.chunks(realisations)).map(|(sampler, patterns)| {
-            let patterns = patterns.iter().map(|p| p.as_ref()).collect::<Result<Vec<_>, _>>();
-            let patterns = patterns.map_err(Clone::clone)?;
-            let pcfs: Vec<&Pcf> = patterns.iter().filter_map(|p| p.pcf.as_ref()).collect();
-            let Some(mean) = mean_curve(&pcfs) else {
-                return Err(CompareError::TooFewPoints { found: n.min(1) });
-            };
-            let indexes: Vec<f64> = patterns.iter().filter_map(|p| p.ri).collect();
-            Ok(ReferenceCurve {
-                sampler: sampler.name().to_owned(),
-                pcf: Pcf { spacing: hexagonal_spacing(n, 1.).unwrap_or(mean.spacing), ..mean },
-                n,
-                realisations: pcfs.len(),
-                ri: moments(&indexes, Deviation::Sample).mean,
-            })
+        let groups = [(class.clone(), true), (class.stand_in(), false)].map(|group| {
+            let made = || Arc::new(self.curves_of(n, &group.0, group.1));
+            self.made.get(group.clone(), made)
         });
-        // a sampler that cannot fill this window is left out, unless none can
-        let (made, refused): (Vec<_>, Vec<_>) = curves.partition(Result::is_ok);
-        let made: Vec<ReferenceCurve> = made.into_iter().flatten().collect();
-        match refused.into_iter().find_map(Result::err) {
-            Some(error) if made.is_empty() => Err(error),
-            _ => Ok(Arc::new(made)),
+        let mut made: Vec<&Made> = groups.iter().flat_map(|group| group.iter()).collect();
+        made.sort_by_key(|(place, _)| *place);
+        let mut found = SamplerCurves::default();
+        for (place, curve) in made {
+            let sampler = self.setup.samplers[*place].name().to_owned();
+            match curve {
+                Ok(curve) => found.curves.push(curve.clone()),
+                Err(reason) => found.missing.push(NotCompared { sampler, reason: reason.clone() }),
+            }
         }
+        found
+    }
+
+    /// Looks curves up in the table that comes with the program and makes the others, of the samplers that stand in rows
+    /// or of those that do not.
+    fn curves_of(&self, n: usize, class: &Class, in_rows: bool) -> Vec<Made> {
+        let setup = &self.setup;
+        let samplers = setup.samplers.iter().copied().enumerate().filter(|(_, s)| s.in_rows() == in_rows);
+        if n < 2 {
+            return samplers
+                .map(|(place, _)| (place, Err(CompareError::TooFewPoints { found: n })))
+                .collect();
+        }
+        let (mut made, mut unknown) = (Vec::new(), Vec::new());
+        for (place, sampler) in samplers {
+            match shipped::find(sampler, class, &setup.options, setup.seed) {
+                Some(curve) => made.push((place, Ok(curve))),
+                None => unknown.push((place, sampler)),
+            }
+        }
+        let new = self.make(unknown.iter().map(|(_, sampler)| *sampler).collect(), class);
+        made.extend(unknown.iter().map(|(place, _)| *place).zip(new));
+        made
+    }
+
+    /// The curve of each sampler, or why there is none: all realisations of all of them are one list of tasks.
+    pub(super) fn make(
+        &self,
+        samplers: Vec<&'static dyn Sampler>,
+        class: &Class,
+    ) -> Vec<Result<ReferenceCurve, CompareError>> {
+        let each = class.realisations();
+        let (count, setup, of) = (each * samplers.len(), Arc::clone(&self.setup), class.clone());
+        let tasks = samplers.clone();
+        let done = self.workers.all(count, move |task| {
+            realise(tasks[task / each], &of, task % each, &setup.options, setup.seed)
+        });
+        samplers.iter().zip(done.chunks(each)).map(|(s, patterns)| average(*s, class, patterns)).collect()
     }
 }
 
@@ -330,18 +158,20 @@ mod tests {
     use super::*;
     use crate::compare::l_infinity;
     use crate::geometry::Point;
-    use crate::sample::{Frame, sampler};
+    use crate::sample::{Frame, SampleError, as_reference, sampler};
     use rand::Rng;
     use rayon::prelude::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
 
     fn references(names: &[&str], seed: u64) -> References {
-        let samplers = names.iter().map(|name| sampler(name).unwrap()).collect();
+        let samplers = names.iter().map(|name| as_reference(sampler(name).unwrap())).collect();
         References::new(samplers, PcfOptions::default(), seed)
     }
 
     #[test]
     fn curves_come_in_the_order_of_the_samplers_with_their_regularity() {
-        let curves = references(&["bridson", "uniform"], 1).curves(300, &Window::unit_square()).unwrap();
+        let curves = references(&["bridson", "uniform"], 1).curves(300, &Window::unit_square());
+        let curves = &curves.curves;
         assert_eq!([&curves[0].sampler, &curves[1].sampler], ["bridson", "uniform"]);
         assert!(curves[0].ri.unwrap() > 10. && (curves[1].ri.unwrap() - 1.88).abs() < 0.1);
         assert!(curves[1].pcf.g.iter().all(|g| (g - 1.).abs() < 0.1));
@@ -350,26 +180,59 @@ mod tests {
 
     #[test]
     fn one_class_of_n_and_shape_is_made_once_and_shared() {
-        let references = references(&["uniform"], 1);
+        /// Counts the patterns that it makes.
+        #[derive(Debug)]
+        struct Counts(AtomicUsize);
+        impl Sampler for Counts {
+            fn name(&self) -> &'static str {
+                "counts"
+            }
+            fn about(&self) -> &'static str {
+                "a test"
+            }
+            fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
+                self.0.fetch_add(1, Ordering::Relaxed);
+                sampler("uniform")?.fill(n, frame, rng)
+            }
+        }
+        static COUNTS: Counts = Counts(AtomicUsize::new(0));
+        let references = References::new(vec![&COUNTS], PcfOptions::default(), 1);
+        let made = |n: usize, window: &Window| {
+            let before = COUNTS.0.load(Ordering::Relaxed);
+            assert_eq!(references.curves(n, window).curves.len(), 1);
+            COUNTS.0.load(Ordering::Relaxed) - before
+        };
         let wide = Window::rectangle(5., 5., 305., 205.).unwrap();
-        let first = references.curves(300, &Window::rectangle(0., 0., 3., 2.).unwrap()).unwrap();
-        assert!(Arc::ptr_eq(&first, &references.curves(302, &wide).unwrap()));
-        assert!(!Arc::ptr_eq(&first, &references.curves(330, &wide).unwrap()));
-        assert!(!Arc::ptr_eq(&first, &references.curves(300, &Window::unit_square()).unwrap()));
+        assert_eq!(made(300, &Window::rectangle(0., 0., 3., 2.).unwrap()), 56);
+        assert_eq!(made(302, &wide), 0);
+        assert!(made(330, &wide) > 0 && made(300, &Window::unit_square()) > 0);
+    }
+
+    fn polygon(corners: &[(f64, f64)]) -> Window {
+        Window::polygon(vec![corners.iter().map(|&(x, y)| Point::new(x, y)).collect()]).unwrap()
     }
 
     #[test]
-    fn a_polygon_has_curves_of_its_own_that_hardly_differ_from_a_rectangle_s() {
-        let corners = [(0., 0.), (3., 0.), (3., 1.), (1., 1.), (1., 2.), (0., 2.)];
-        let ring = || vec![corners.iter().map(|&(x, y)| Point::new(x, y)).collect::<Vec<_>>()];
-        let (l, again) = (Window::polygon(ring()).unwrap(), Window::polygon(ring()).unwrap());
-        let references = references(&["dart-throwing", "uniform"], 1);
-        let curves = references.curves(300, &l).unwrap();
-        assert!(Arc::ptr_eq(&curves, &references.curves(300, &again).unwrap()));
-        let square = references.curves(300, &Window::unit_square()).unwrap();
-        for (a, b) in curves.iter().zip(square.iter()) {
-            let distance = l_infinity(&a.pcf, &b.pcf).unwrap();
-            assert!(distance < 0.07, "{}: {distance}", a.sampler);
+    fn a_polygon_has_the_curve_of_the_rectangle_that_its_own_hardly_differs_from() {
+        let cut = polygon(&[(0.4, 0.), (1., 0.), (1., 1.), (0., 1.), (0., 0.3)]);
+        let samplers = || ["dart-throwing", "uniform"].map(|name| sampler(name).unwrap()).to_vec();
+        let references = References::new(samplers(), PcfOptions::default(), 3);
+        let own = references.make(samplers(), &Class::of(300, &cut));
+        for (a, b) in own.into_iter().zip(references.curves(300, &cut).curves) {
+            let distance = l_infinity(&a.unwrap().pcf, &b.pcf).unwrap();
+            assert!(distance > 0. && distance < 0.05, "{}: {distance}", b.sampler);
+        }
+    }
+
+    #[test]
+    fn lattices_and_long_polygons_have_curves_of_their_own() {
+        let turned = polygon(&[(0., 0.), (1., 0.3), (0.7, 1.3), (-0.3, 1.)]);
+        let thin = polygon(&[(0., 0.), (9., 0.3), (9., 1.3), (0., 1.)]);
+        for (name, window) in [("triangular", &turned), ("jittered", &thin)] {
+            let one = || vec![sampler(name).unwrap()];
+            let references = References::new(one(), PcfOptions::default(), 1);
+            let own = references.make(one(), &Class::of(150, window));
+            assert_eq!(references.curves(150, window).curves, [own[0].clone().unwrap()], "{name}");
         }
     }
 
@@ -379,7 +242,7 @@ mod tests {
         for (name, noise) in
             [("dart-throwing", 0.017), ("bridson", 0.017), ("jittered", 0.03), ("uniform", 0.03)]
         {
-            let of = |seed| references(&[name], seed).curves(300, &window).unwrap()[0].pcf.clone();
+            let of = |seed| references(&[name], seed).curves(300, &window).curves[0].pcf.clone();
             let distance = l_infinity(&of(1), &of(2)).unwrap();
             // Of two noisy curves, and half as much again for chance.
             assert!(distance < 1.5 * 2f64.sqrt() * noise, "{name}: {distance}");
@@ -391,17 +254,18 @@ mod tests {
         let window = Window::unit_square();
         let sizes: Vec<usize> = (0..24).map(|i| 30 + 17 * (i % 6)).collect();
         let alone = references(&["bridson", "jittered"], 7);
-        let expected: Vec<_> = sizes.iter().map(|&n| alone.curves(n, &window).unwrap()).collect();
+        let expected: Vec<_> = sizes.iter().map(|&n| alone.curves(n, &window)).collect();
         for threads in [1, 4] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let shared = references(&["bridson", "jittered"], 7);
-            let found: Vec<_> = pool
-                .install(|| sizes.par_iter().rev().map(|&n| shared.curves(n, &window).unwrap()).collect());
+            let found: Vec<_> =
+                pool.install(|| sizes.par_iter().rev().map(|&n| shared.curves(n, &window)).collect());
             assert!(expected.iter().rev().eq(found.iter()));
         }
     }
 
     /// Hands its work to other threads, so that its thread may meanwhile be given another question.
+    #[derive(Debug)]
     struct Parallel;
 
     impl Sampler for Parallel {
@@ -433,6 +297,7 @@ mod tests {
         }
     }
 
+    #[derive(Debug)]
     struct Panics;
 
     impl Sampler for Panics {
@@ -453,21 +318,37 @@ mod tests {
         let shared = References::new(vec![&PANICS], PcfOptions::default(), 0);
         let answers: Vec<_> =
             (0..4).into_par_iter().map(|_| shared.curves(1000, &Window::unit_square())).collect();
-        assert!(answers.iter().all(|a| matches!(a, Err(CompareError::Interrupted { .. }))));
+        let interrupted = |missing: &NotCompared| matches!(missing.reason, CompareError::Interrupted { .. });
+        assert!(answers.iter().all(|a| a.curves.is_empty() && a.missing.iter().all(interrupted)));
+        assert!(answers.iter().all(|a| a.missing.len() == 1));
     }
 
     #[test]
     fn what_cannot_be_compared_says_why() {
         let square = Window::unit_square();
-        assert_eq!(
-            references(&["uniform"], 1).curves(1, &square),
-            Err(CompareError::TooFewPoints { found: 1 })
-        );
+        let reason = |references: &References, n: usize, window: &Window| {
+            let found = references.curves(n, window);
+            assert!(found.curves.is_empty());
+            found.missing[0].to_string()
+        };
+        let few = reason(&references(&["uniform"], 1), 1, &square);
+        assert_eq!(few, "not compared with uniform: a comparison needs at least 2 points, there are 1");
         let thread = Window::rectangle(0., 0., 1e9, 1.).unwrap();
-        let thin = references(&["uniform"], 1).curves(100, &thread);
-        assert!(matches!(thin, Err(CompareError::Sample { .. })), "{thin:?}");
+        let thin = reason(&references(&["uniform"], 1), 100, &thread);
+        assert!(thin.starts_with("not compared with uniform: the window is"), "{thin}");
         let options = PcfOptions { bandwidth: -1., ..PcfOptions::default() };
-        let bad = References::new(vec![sampler("uniform").unwrap()], options, 1).curves(100, &square);
-        assert!(matches!(bad, Err(CompareError::Stats { .. })));
+        let bad = References::new(vec![sampler("uniform").unwrap()], options, 1);
+        assert!(reason(&bad, 100, &square).contains("bandwidth"));
+    }
+
+    #[test]
+    fn one_sampler_that_fails_leaves_the_others_and_its_reason() {
+        static PANICS: Panics = Panics;
+        let both = References::new(vec![&PANICS, sampler("uniform").unwrap()], PcfOptions::default(), 2);
+        let found = both.curves(100, &Window::unit_square());
+        assert_eq!(
+            (found.curves[0].sampler.as_str(), found.missing[0].sampler.as_str()),
+            ("uniform", "panics")
+        );
     }
 }

@@ -1,7 +1,7 @@
 //! What is known of one mosaic, in the form in which it is written to files.
 
 use super::VerdictRecord;
-use crate::detect::{Detector, FourierEstimate, Modality, Polarity};
+use crate::detect::{Detections, Detector, FourierEstimate, Modality, Polarity};
 use crate::geometry::{Polygon, Window};
 use crate::mosaic::{LengthUnit, Mosaic, RetinalPlace, hexagonal_spacing};
 use crate::stats;
@@ -160,9 +160,51 @@ pub struct DetectionRecord {
 }
 
 impl DetectionRecord {
+    /// Records how cones were found, `n` of them in the whole image.
+    pub fn new(found: &Detections, n: usize) -> Self {
+        Self {
+            detector: found.detector,
+            modality: found.modality,
+            modality_confidence: found.modality_confidence,
+            polarity: found.polarity,
+            n,
+            ring_spacing_px: found.ring_spacing,
+            ring_confidence: found.ring_confidence,
+            clarity: found.clarity,
+            density_spacing_px: found.spacing,
+            spacing_confidence: found.spacing_confidence,
+            spacing_range_px: found.spacing_map.range().into(),
+            expected_false_alarms: found.expected_false_alarms(),
+            expected_misses: found.expected_misses(),
+        }
+    }
+
     /// Errors expected per cone found.
     pub fn expected_error_rate(&self) -> f64 {
         (self.expected_false_alarms + self.expected_misses) / self.n.max(1) as f64
+    }
+}
+
+/// The origin of the cones of an image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ConesFrom {
+    /// This program found them.
+    Detected,
+    /// They were marked or found before, and given.
+    Given,
+    /// This program found them, and a person corrected them.
+    Corrected,
+}
+
+impl ConesFrom {
+    /// Returns the origin in a word.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Detected => "detected",
+            Self::Given => "given",
+            Self::Corrected => "corrected",
+        }
     }
 }
 
@@ -171,8 +213,9 @@ pub fn by_need(records: &[ImageRecord]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..records.len()).collect();
     // where the modality or the spacing is wrong, so are the scores
     let need = |k: &usize| {
-        let found = &records[*k].detection;
-        found.expected_error_rate() + 1. - found.spacing_confidence * found.modality_confidence
+        records[*k].detection.as_ref().map_or(0., |found| {
+            found.expected_error_rate() + 1. - found.spacing_confidence * found.modality_confidence
+        })
     };
     order.sort_by(|a, b| need(b).total_cmp(&need(a)));
     order
@@ -193,8 +236,13 @@ pub struct ImageRecord {
     pub width_px: usize,
     /// Height in px.
     pub height_px: usize,
-    /// The cones.
-    pub detection: DetectionRecord,
+    /// Where the cones are from.
+    pub cones_from: ConesFrom,
+    /// Given cones outside the window, which are left out.
+    #[serde(default)]
+    pub outside: usize,
+    /// How this program found the cones; `None` if they were given or corrected.
+    pub detection: Option<DetectionRecord>,
     /// Spacing by the spectrum of the image; `None` if no column of it is wanted.
     #[serde(default)]
     pub fourier: Option<FourierEstimate>,

@@ -13,7 +13,8 @@ pub struct VerdictRecord {
     pub p_envelope: f64,
     /// p-value of l-infinity: the mosaic's rank among the simulations.
     pub p_l_infinity: f64,
-    /// l-infinity between the mosaic and the mean of the simulations.
+    /// l-infinity between the mosaic and the mean of the simulations at its own n and window; that to the mean curve of the
+    /// class of n and window is in the record's distances.
     pub l_infinity: f64,
     /// Median l-infinity of one simulation to the mean of all other curves.
     pub l_infinity_usual: f64,

@@ -1,8 +1,8 @@
 use super::hash_grid::{HashGrid, distance};
 use super::normal::{displaced, truncated};
 use super::outward::exactly;
-use super::retina::{ECCENTRICITY, Retina};
-use super::{Frame, Parameter, SampleError, Sampler, Values};
+use super::retina::{Retina, eccentricity};
+use super::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use crate::geometry::Point;
 use rand::{Rng, RngExt};
 use std::cmp::Reverse;
@@ -49,26 +49,6 @@ impl Ahumada {
     pub const DEFAULT: Self = Self { radius_sd: 0.1, jitter: 0.07, eccentricity: None };
 }
 
-static PARAMETERS: [Parameter; 3] = [
-    Parameter {
-        name: "radius-sd",
-        unit: "mean radii",
-        range: (0., 0.3),
-        whole: false,
-        default: "0.1",
-        meaning: "standard deviation of the discs' radii (our choice)",
-    },
-    Parameter {
-        name: "jitter",
-        unit: "mean diameters",
-        range: (0., 0.5),
-        whole: false,
-        default: "0.07",
-        meaning: "standard deviation of each cone's displacement in x and y after packing (our choice)",
-    },
-    ECCENTRICITY,
-];
-
 impl Sampler for Ahumada {
     fn name(&self) -> &'static str {
         "ahumada"
@@ -78,21 +58,16 @@ impl Sampler for Ahumada {
         "discs of random radius packed outward from the centre, then jitter; exactly n; no torus (Ahumada & Poirson 1987)"
     }
 
-    fn parameters(&self) -> &'static [Parameter] {
-        &PARAMETERS
+    fn exact(&self) -> bool {
+        true
     }
 
-    fn configure(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError> {
-        let values = Values::read(self.name(), self.parameters(), settings)?;
-        Ok(Box::new(Self {
-            radius_sd: values.get("radius-sd").unwrap_or(self.radius_sd),
-            jitter: values.get("jitter").unwrap_or(self.jitter),
-            eccentricity: values.get("eccentricity").or(self.eccentricity),
-        }))
-    }
-
-    fn by_default(&self) -> bool {
+    fn periodic(&self) -> bool {
         false
+    }
+
+    fn settable(&self) -> Option<&dyn Configure> {
+        Some(self)
     }
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
@@ -104,6 +79,32 @@ impl Sampler for Ahumada {
             discs.into_iter().map(|disc| displaced(disc.centre, jitter(disc.centre), rng)).collect()
         })
     }
+}
+
+impl Settable for Ahumada {
+    const SETTINGS: &'static [Setting<Self>] = &[
+        Setting {
+            name: "radius-sd",
+            unit: "mean radii",
+            range: (0., 0.3),
+            whole: false,
+            unset: "",
+            meaning: "standard deviation of the discs' radii (our choice)",
+            get: |s| Some(s.radius_sd),
+            set: |s, v| s.radius_sd = v,
+        },
+        Setting {
+            name: "jitter",
+            unit: "mean diameters",
+            range: (0., 0.5),
+            whole: false,
+            unset: "",
+            meaning: "standard deviation of each cone's displacement in x and y after packing (our choice)",
+            get: |s| Some(s.jitter),
+            set: |s, v| s.jitter = v,
+        },
+        eccentricity(|s| s.eccentricity, |s, v| s.eccentricity = Some(v)),
+    ];
 }
 
 #[derive(Clone, Copy)]

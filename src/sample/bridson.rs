@@ -32,6 +32,10 @@ impl Sampler for Bridson {
         "Poisson disks, k = 30, r = 0.7306 spacings, torus distance, about n points (Bridson 2007)"
     }
 
+    fn by_default(&self) -> bool {
+        true
+    }
+
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         if n == 0 {
             return Ok(Vec::new());

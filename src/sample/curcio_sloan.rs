@@ -1,5 +1,5 @@
 use super::lattice::Lattice;
-use super::{Frame, Parameter, SampleError, Sampler, Values};
+use super::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use crate::geometry::Point;
 use rand::Rng;
 use std::f64::consts::SQRT_2;
@@ -35,25 +35,6 @@ impl CurcioSloan {
     pub const DEFAULT: Self = Self { compression: 0.8, jitter: 0.1 };
 }
 
-static PARAMETERS: [Parameter; 2] = [
-    Parameter {
-        name: "compression",
-        unit: "",
-        range: (0.5, 1.),
-        whole: false,
-        default: "0.8",
-        meaning: "length of one diagonal of the square cell over its length before (0.760: triangular lattice; our choice)",
-    },
-    Parameter {
-        name: "jitter",
-        unit: "cell sides",
-        range: (0., 0.5),
-        whole: false,
-        default: "0.1",
-        meaning: "standard deviation of each point's displacement in x and y (our choice)",
-    },
-];
-
 impl Sampler for CurcioSloan {
     fn name(&self) -> &'static str {
         "curcio-sloan"
@@ -63,20 +44,12 @@ impl Sampler for CurcioSloan {
         "square array compressed along a diagonal, with jitter; as near n as the array allows (Curcio & Sloan 1992)"
     }
 
-    fn parameters(&self) -> &'static [Parameter] {
-        &PARAMETERS
+    fn in_rows(&self) -> bool {
+        true
     }
 
-    fn configure(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError> {
-        let values = Values::read(self.name(), self.parameters(), settings)?;
-        Ok(Box::new(Self {
-            compression: values.get("compression").unwrap_or(self.compression),
-            jitter: values.get("jitter").unwrap_or(self.jitter),
-        }))
-    }
-
-    fn by_default(&self) -> bool {
-        false
+    fn settable(&self) -> Option<&dyn Configure> {
+        Some(self)
     }
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
@@ -85,6 +58,31 @@ impl Sampler for CurcioSloan {
         let (step, row_step) = (SQRT_2 * side * self.compression, side / (SQRT_2 * self.compression));
         Ok(Lattice { step, row_step, shift: 0.5, jitter: self.jitter * side }.fill(n, frame, rng))
     }
+}
+
+impl Settable for CurcioSloan {
+    const SETTINGS: &'static [Setting<Self>] = &[
+        Setting {
+            name: "compression",
+            unit: "",
+            range: (0.5, 1.),
+            whole: false,
+            unset: "",
+            meaning: "length of one diagonal of the square cell over its length before (0.760: triangular lattice; our choice)",
+            get: |s| Some(s.compression),
+            set: |s, v| s.compression = v,
+        },
+        Setting {
+            name: "jitter",
+            unit: "cell sides",
+            range: (0., 0.5),
+            whole: false,
+            unset: "",
+            meaning: "standard deviation of each point's displacement in x and y (our choice)",
+            get: |s| Some(s.jitter),
+            set: |s, v| s.jitter = v,
+        },
+    ];
 }
 
 #[cfg(test)]

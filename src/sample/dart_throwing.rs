@@ -28,6 +28,14 @@ impl Sampler for DartThrowing {
         "uniform darts kept when none is nearer than r = 0.75 spacings, torus distance, no relaxation (Cook 1986); exactly n"
     }
 
+    fn exact(&self) -> bool {
+        true
+    }
+
+    fn by_default(&self) -> bool {
+        true
+    }
+
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         if n == 0 {
             return Ok(Vec::new());

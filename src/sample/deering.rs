@@ -1,8 +1,8 @@
 use super::hash_grid::{HashGrid, distance};
 use super::normal::truncated;
 use super::outward::{exactly, ring};
-use super::retina::{ECCENTRICITY, Retina};
-use super::{Frame, Parameter, SampleError, Sampler, Values};
+use super::retina::{Retina, eccentricity};
+use super::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use crate::geometry::Point;
 use rand::Rng;
 use std::collections::VecDeque;
@@ -60,26 +60,6 @@ impl Deering {
     pub const DEFAULT: Self = Self { radius_sd: 0.15, rounds: 8, eccentricity: None };
 }
 
-static PARAMETERS: [Parameter; 3] = [
-    Parameter {
-        name: "radius-sd",
-        unit: "mean radii",
-        range: (0., 0.3),
-        whole: false,
-        default: "0.15",
-        meaning: "standard deviation of the cells' radii (our choice)",
-    },
-    Parameter {
-        name: "rounds",
-        unit: "",
-        range: (0., 100.),
-        whole: true,
-        default: "8",
-        meaning: "rounds of pushing and pulling after each ring (our choice)",
-    },
-    ECCENTRICITY,
-];
-
 impl Sampler for Deering {
     fn name(&self) -> &'static str {
         "deering"
@@ -89,21 +69,16 @@ impl Sampler for Deering {
         "rings of cells of random size that attract and repel each other; exactly n; no torus (Deering 2005)"
     }
 
-    fn parameters(&self) -> &'static [Parameter] {
-        &PARAMETERS
+    fn exact(&self) -> bool {
+        true
     }
 
-    fn configure(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError> {
-        let values = Values::read(self.name(), self.parameters(), settings)?;
-        Ok(Box::new(Self {
-            radius_sd: values.get("radius-sd").unwrap_or(self.radius_sd),
-            rounds: values.count("rounds").unwrap_or(self.rounds),
-            eccentricity: values.get("eccentricity").or(self.eccentricity),
-        }))
-    }
-
-    fn by_default(&self) -> bool {
+    fn periodic(&self) -> bool {
         false
+    }
+
+    fn settable(&self) -> Option<&dyn Configure> {
+        Some(self)
     }
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
@@ -113,6 +88,32 @@ impl Sampler for Deering {
             self.grow(half.map(|side| side + beyond), &retina, rng)
         })
     }
+}
+
+impl Settable for Deering {
+    const SETTINGS: &'static [Setting<Self>] = &[
+        Setting {
+            name: "radius-sd",
+            unit: "mean radii",
+            range: (0., 0.3),
+            whole: false,
+            unset: "",
+            meaning: "standard deviation of the cells' radii (our choice)",
+            get: |s| Some(s.radius_sd),
+            set: |s, v| s.radius_sd = v,
+        },
+        Setting {
+            name: "rounds",
+            unit: "",
+            range: (0., 100.),
+            whole: true,
+            unset: "",
+            meaning: "rounds of pushing and pulling after each ring (our choice)",
+            get: |s| Some(s.rounds as f64),
+            set: |s, v| s.rounds = v as usize,
+        },
+        eccentricity(|s| s.eccentricity, |s, v| s.eccentricity = Some(v)),
+    ];
 }
 
 #[derive(Clone, Copy)]

@@ -18,6 +18,14 @@ impl Sampler for Jittered {
         "one uniform point in each of n near-square cells of equal area (Cook 1986); exactly n"
     }
 
+    fn exact(&self) -> bool {
+        true
+    }
+
+    fn by_default(&self) -> bool {
+        true
+    }
+
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         let ideal = (n as f64 * frame.height / frame.width).sqrt().round();
         let rows = (ideal as usize).clamp(1, n.max(1));

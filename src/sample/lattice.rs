@@ -1,4 +1,4 @@
-use super::{Frame, Parameter};
+use super::{Frame, Setting};
 use crate::geometry::Point;
 use rand::{Rng, RngExt};
 use rand_distr::StandardNormal;
@@ -10,14 +10,18 @@ const OFFSETS: usize = 32;
 const CARRIED: f64 = 5.;
 
 /// What the lattices let a user set.
-pub(super) const JITTER: Parameter = Parameter {
-    name: "jitter",
-    unit: "spacings",
-    range: (0., 1.),
-    whole: false,
-    default: "0",
-    meaning: "standard deviation of each point's displacement in x and y",
-};
+pub(super) const fn jitter<S>(get: fn(&S) -> Option<f64>, set: fn(&mut S, f64)) -> Setting<S> {
+    Setting {
+        name: "jitter",
+        unit: "spacings",
+        range: (0., 1.),
+        whole: false,
+        unset: "",
+        meaning: "standard deviation of each point's displacement in x and y",
+        get,
+        set,
+    }
+}
 
 /// Rows of points `step` apart; rows `row_step` apart; every other row moved by `shift` × `step`; then each point
 /// displaced by a normal deviate of standard deviation `jitter` in x and y.

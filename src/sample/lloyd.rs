@@ -1,5 +1,5 @@
 use super::region::{Region, Relaxes};
-use super::{Density, Frame, Parameter, SampleError, Sampler, Values, Watch};
+use super::{Configure, Density, Frame, SampleError, Sampler, Settable, Setting, Watch};
 use crate::geometry::power::PowerSites;
 use crate::geometry::{Point, Window};
 use rand::Rng;
@@ -28,15 +28,6 @@ impl Default for Lloyd {
     }
 }
 
-static PARAMETERS: [Parameter; 1] = [Parameter {
-    name: "steps",
-    unit: "",
-    range: (0., 1_000_000.),
-    whole: true,
-    default: "20",
-    meaning: "moves of all points to the centroids of their Voronoi cells; 0 leaves them uniform",
-}];
-
 impl Sampler for Lloyd {
     fn name(&self) -> &'static str {
         "lloyd"
@@ -44,6 +35,10 @@ impl Sampler for Lloyd {
 
     fn about(&self) -> &'static str {
         "uniform points moved to the centroids of their Voronoi cells; exactly n (Lloyd 1982)"
+    }
+
+    fn exact(&self) -> bool {
+        true
     }
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
@@ -70,23 +65,26 @@ impl Sampler for Lloyd {
         self.relax_window(n, window, rng, progress)
     }
 
-    fn parameters(&self) -> &'static [Parameter] {
-        &PARAMETERS
-    }
-
-    fn configure(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError> {
-        let values = Values::read(self.name(), &PARAMETERS, settings)?;
-        let steps = values.count("steps").unwrap_or(self.steps);
-        Ok(Box::new(Self { steps, density: self.density.clone() }))
-    }
-
-    fn by_default(&self) -> bool {
-        false
+    fn settable(&self) -> Option<&dyn Configure> {
+        Some(self)
     }
 
     fn with_density(&self, density: &Density) -> Option<Box<dyn Sampler>> {
         Some(Box::new(Self { density: Some(density.clone()), ..self.clone() }))
     }
+}
+
+impl Settable for Lloyd {
+    const SETTINGS: &'static [Setting<Self>] = &[Setting {
+        name: "steps",
+        unit: "",
+        range: (0., 1_000_000.),
+        whole: true,
+        unset: "",
+        meaning: "moves of all points to the centroids of their Voronoi cells; 0 leaves them uniform",
+        get: |s| Some(s.steps as f64),
+        set: |s, v| s.steps = v as usize,
+    }];
 }
 
 impl Relaxes for Lloyd {

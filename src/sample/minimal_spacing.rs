@@ -1,7 +1,7 @@
 use super::normal::truncated;
 use super::retina::{FARTHEST, cones_per_mm2};
 use super::torus_cells::TorusCells;
-use super::{Frame, Parameter, SampleError, Sampler, Values};
+use super::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use crate::geometry::Point;
 use crate::mosaic::hexagonal_spacing;
 use rand::{Rng, RngExt};
@@ -49,33 +49,6 @@ impl MinimalSpacing {
     }
 }
 
-static PARAMETERS: [Parameter; 3] = [
-    Parameter {
-        name: "mean",
-        unit: "spacings",
-        range: (0., 0.9),
-        whole: false,
-        default: "0.7",
-        meaning: "mean of the minimal distance (our choice)",
-    },
-    Parameter {
-        name: "sd",
-        unit: "spacings",
-        range: (0., 0.3),
-        whole: false,
-        default: "0.07",
-        meaning: "standard deviation of the minimal distance (our choice: a tenth of the mean)",
-    },
-    Parameter {
-        name: "eccentricity",
-        unit: "mm",
-        range: (0., FARTHEST),
-        whole: false,
-        default: "none, mean 0.7",
-        meaning: "distance from the fovea: the mean is 7 µm there (Curcio & Sloan 1992), at most 0.7 spacings, unless it is set",
-    },
-];
-
 impl Sampler for MinimalSpacing {
     fn name(&self) -> &'static str {
         "minimal-spacing"
@@ -85,23 +58,12 @@ impl Sampler for MinimalSpacing {
         "random places refused within a normal minimal distance, torus distance; exactly n (Wässle & Riemann 1978, Galli-Resta et al. 1999)"
     }
 
-    fn parameters(&self) -> &'static [Parameter] {
-        &PARAMETERS
+    fn exact(&self) -> bool {
+        true
     }
 
-    fn configure(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError> {
-        let values = Values::read(self.name(), self.parameters(), settings)?;
-        Ok(Box::new(Self {
-            mean: values
-                .get("mean")
-                .or_else(|| values.get("eccentricity").map(Self::mean_at))
-                .unwrap_or(self.mean),
-            sd: values.get("sd").unwrap_or(self.sd),
-        }))
-    }
-
-    fn by_default(&self) -> bool {
-        false
+    fn settable(&self) -> Option<&dyn Configure> {
+        Some(self)
     }
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
@@ -127,6 +89,41 @@ impl Sampler for MinimalSpacing {
         }
         Ok(points)
     }
+}
+
+impl Settable for MinimalSpacing {
+    const SETTINGS: &'static [Setting<Self>] = &[
+        Setting {
+            name: "eccentricity",
+            unit: "mm",
+            range: (0., FARTHEST),
+            whole: false,
+            unset: "none: the mean holds",
+            meaning: "distance from the fovea: the mean is 7 µm there (Curcio & Sloan 1992), at most 0.7 spacings, unless it is set",
+            get: |_| None,
+            set: |s, v| s.mean = Self::mean_at(v),
+        },
+        Setting {
+            name: "mean",
+            unit: "spacings",
+            range: (0., 0.9),
+            whole: false,
+            unset: "",
+            meaning: "mean of the minimal distance (our choice)",
+            get: |s| Some(s.mean),
+            set: |s, v| s.mean = v,
+        },
+        Setting {
+            name: "sd",
+            unit: "spacings",
+            range: (0., 0.3),
+            whole: false,
+            unset: "",
+            meaning: "standard deviation of the minimal distance (our choice: a tenth of the mean)",
+            get: |s| Some(s.sd),
+            set: |s, v| s.sd = v,
+        },
+    ];
 }
 
 impl MinimalSpacing {

@@ -1,4 +1,4 @@
-//! Point processes behind one trait. A new one is one file here and one line in [`samplers`].
+//! Point processes behind one trait. A new one is one file here, and its module, name and place in the registry below.
 //!
 //! All work in any window. Distances of the Poisson-disk samplers are those of the torus in every window, so the
 //! pattern has no border of its own; a bounded window then cuts it off as an image cuts off a mosaic. A polygon is cut
@@ -27,6 +27,7 @@ mod pink;
 mod poisson_disk;
 mod region;
 mod retina;
+mod sampler;
 mod shaped;
 mod square;
 mod step;
@@ -49,9 +50,10 @@ pub use green::GREEN;
 pub use jittered::Jittered;
 pub use lloyd::Lloyd;
 pub use minimal_spacing::MinimalSpacing;
-pub use parameter::{Parameter, Values};
+pub use parameter::{Configure, Parameter, Settable, Setting};
 pub use pink::PINK;
 pub use poisson_disk::PoissonDisk;
+pub use sampler::{Sampler, Watch};
 pub use shaped::{NearestTarget, Noise, Shaped, TargetCurve};
 pub use square::Square;
 pub use step::Step;
@@ -59,161 +61,22 @@ pub use triangular::Triangular;
 pub use uniform::Uniform;
 pub use wang::Wang;
 
-use crate::geometry::{Point, Polygon, Window};
-use rand::Rng;
+use self::sampler::{cut, nearest_in_number};
 
-/// A way to put n points into a window.
-pub trait Sampler: Send + Sync {
-    /// The name users type: lower case, words joined by hyphens.
-    fn name(&self) -> &'static str;
-
-    /// One line: what it makes, its parameters, its source.
-    fn about(&self) -> &'static str;
-
-    /// About `n` points of `frame` (exactly `n` where the method allows; [`Sampler::about`] says so), in the half-open
-    /// ranges of its bounds. The same generator state gives the same points.
-    ///
-    /// # Errors
-    /// If `n` is out of the method's range, or it found no room for `n` points.
-    fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError>;
-
-    /// What can be set by [`Sampler::configure`].
-    fn parameters(&self) -> &'static [Parameter] {
-        &[]
-    }
-
-    /// The same method with other parameters, given as (name, value); [`Values::read`] checks them.
-    ///
-    /// # Errors
-    /// If there is no such parameter or the value is out of its range.
-    fn configure(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError> {
-        Values::read(self.name(), self.parameters(), settings)?;
-        // reached without settings only
-        Err(SampleError::unknown_parameter(self.name(), "", self.parameters()))
-    }
-
-    /// The same method for points as dense as `density` says, if it can; otherwise `None`.
-    fn with_density(&self, _density: &Density) -> Option<Box<dyn Sampler>> {
-        None
-    }
-
-    /// Whether mosaics are compared with it unless others are named: not with those that are slow, or that make no mosaic.
-    fn by_default(&self) -> bool {
-        true
-    }
-
-    /// The setting of it that mosaics are compared with, where that is not the default one.
-    fn as_reference(&self) -> Option<&'static dyn Sampler> {
-        None
-    }
-
-    /// [`Sampler::fill`] for methods that take long: `progress` hears of steps done, of how many at most.
-    ///
-    /// # Errors
-    /// As [`Sampler::fill`].
-    fn fill_watched(
-        &self,
-        n: usize,
-        frame: &Frame,
-        rng: &mut dyn Rng,
-        _progress: &mut Watch<'_>,
-    ) -> Result<Vec<Point>, SampleError> {
-        self.fill(n, frame, rng)
-    }
-
-    /// [`Sampler::sample_watched`] without a listener.
-    ///
-    /// # Errors
-    /// As there.
-    fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
-        self.sample_watched(n, window, rng, &mut |_, _| ())
-    }
-
-    /// About `n` points of `window`, by [`Sampler::fill`]: the bounds of a rectangle or torus are filled.
-    ///
-    /// A polygon is cut out of a pattern of the same density in its bounds. How many points it holds is left to chance;
-    /// patterns are drawn until their number is within .5 % of `n`, at most 32, and the nearest is taken.
-    ///
-    /// # Errors
-    /// If `n` or the window is out of the method's range, or it found no room for the points.
-    fn sample_watched(
-        &self,
-        n: usize,
-        window: &Window,
-        rng: &mut dyn Rng,
-        progress: &mut Watch<'_>,
-    ) -> Result<Vec<Point>, SampleError> {
-        match window {
-            Window::Polygon(polygon) => {
-                cut(n, polygon, polygon.area() / polygon.bounds().area(), |n, frame| {
-                    self.fill_watched(n, frame, rng, progress)
-                })
-            }
-            Window::Rectangle(_) | Window::Torus(_) => {
-                self.fill_watched(n, &Frame::new(n, window)?, rng, progress)
-            }
-        }
-    }
-}
-
-/// What hears of a sampler's progress: steps done, and of how many at most.
-pub type Watch<'a> = dyn FnMut(usize, usize) + 'a;
-
-/// The pattern nearest to `n` points in number that a polygon cuts out of fillings of its bounds, of whose points it
-/// holds about `share`.
-fn cut(
-    n: usize,
-    polygon: &Polygon,
-    share: f64,
-    mut fill: impl FnMut(usize, &Frame) -> Result<Vec<Point>, SampleError>,
-) -> Result<Vec<Point>, SampleError> {
-    let bounds = polygon.bounds();
-    let filled = (n as f64 / share).round() as usize;
-    let frame = Frame::new(filled, &Window::Rectangle(bounds))?;
-    nearest_in_number(n, CUTS, || {
-        let mut points = fill(filled, &frame)?;
-        points.retain(|&p| polygon.contains(p));
-        Ok(points)
-    })
-}
-
-/// Of at most `tries` patterns the one whose number of points is nearest to `n`; one that is near enough ends the search.
-fn nearest_in_number(
-    n: usize,
-    tries: usize,
-    mut pattern: impl FnMut() -> Result<Vec<Point>, SampleError>,
-) -> Result<Vec<Point>, SampleError> {
-    let mut best: Option<(usize, Vec<Point>)> = None;
-    for _ in 0..tries {
-        let points = pattern()?;
-        let miss = points.len().abs_diff(n);
-        if best.as_ref().is_none_or(|(least, _)| miss < *least) {
-            best = Some((miss, points));
-        }
-        if miss as f64 <= CLOSE * n as f64 {
-            break;
-        }
-    }
-    Ok(best.map(|(_, points)| points).unwrap_or_default())
-}
-
-/// Most patterns drawn to cut a polygon out of, and how near, as a share of n, a number must come to end the search.
-const CUTS: usize = 32;
-const CLOSE: f64 = 0.005;
-
+/// In the order in which they are listed: from the least to the most regular of those by default, then the others.
 static SAMPLERS: &[&dyn Sampler] = &[
     &Uniform,
     &Jittered,
+    &Bridson,
+    &DartThrowing,
+    &Bnot::CONVERGED,
     &Triangular::DEFAULT,
     &Square::DEFAULT,
-    &DartThrowing,
-    &Bridson,
     &PoissonDisk,
     &GREEN,
     &PINK,
     &Step::HIGHEST,
     &Lloyd::DEFAULT,
-    &Bnot::CONVERGED,
     &Ahumada::DEFAULT,
     &CurcioSloan::DEFAULT,
     &Wang::DEFAULT,
@@ -224,6 +87,34 @@ static SAMPLERS: &[&dyn Sampler] = &[
 /// Every sampler there is.
 pub fn samplers() -> &'static [&'static dyn Sampler] {
     SAMPLERS
+}
+
+/// Returns the samplers of these names, each once and in the setting that mosaics are compared with: `all` stands for every
+/// one, `none` for none of those before it, and no name at all for those by default.
+///
+/// # Errors
+/// If there is no such sampler; the error lists the names.
+pub fn samplers_named(names: &[String]) -> Result<Vec<&'static dyn Sampler>, SampleError> {
+    if names.is_empty() {
+        return Ok(samplers_by_default());
+    }
+    let mut found: Vec<&'static dyn Sampler> = Vec::new();
+    for name in names {
+        let chosen = match name.trim() {
+            "all" => SAMPLERS.to_vec(),
+            "none" => {
+                found.clear();
+                continue;
+            }
+            name => vec![sampler(name)?],
+        };
+        for one in chosen.into_iter().map(as_reference) {
+            if !found.iter().any(|s| s.name() == one.name()) {
+                found.push(one);
+            }
+        }
+    }
+    Ok(found)
 }
 
 /// The samplers that mosaics are compared with if none are named, each in the setting for that.
@@ -250,6 +141,7 @@ pub fn sampler(name: &str) -> Result<&'static dyn Sampler, SampleError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::{Point, Window};
     use crate::stats::{Deviation, interior, moments, nearest_neighbours};
     use proptest::prelude::*;
     use rand::SeedableRng;
@@ -265,7 +157,23 @@ mod tests {
             assert!(samplers()[..i].iter().all(|o| o.name() != s.name()));
             assert_eq!(sampler(s.name()).unwrap().name(), s.name());
             assert!(!s.about().contains('\n'));
+            assert_eq!(s.about().contains("exactly n"), s.exact(), "{}", s.name());
+            assert_eq!(s.about().contains("no torus"), !s.periodic(), "{}", s.name());
         }
+    }
+
+    #[test]
+    fn names_choose_samplers_once_and_none_chooses_none() {
+        let chosen = |names: &[&str]| -> Vec<&str> {
+            let names: Vec<String> = names.iter().map(|n| (*n).to_owned()).collect();
+            samplers_named(&names).unwrap().iter().map(|s| s.name()).collect()
+        };
+        assert_eq!(chosen(&[]), ["uniform", "jittered", "bridson", "dart-throwing", "bnot", "triangular"]);
+        assert_eq!(chosen(&["square", " uniform", "square"]), ["square", "uniform"]);
+        assert_eq!(chosen(&["all"]).len(), samplers().len());
+        assert!(chosen(&["none"]).is_empty());
+        assert!(samplers_named(&["nothing".to_owned()]).is_err());
+        assert_eq!(samplers_named(&["bnot".to_owned()]).unwrap()[0].parameters()[0].default, Some(20.));
     }
 
     #[test]
@@ -358,7 +266,7 @@ mod tests {
             for p in &points {
                 prop_assert!(p.x >= bounds.x0() && p.x < bounds.x1() && p.y >= bounds.y0() && p.y < bounds.y1());
             }
-            if s.about().contains("exactly n") || n == 0 {
+            if s.exact() || n == 0 {
                 prop_assert_eq!(points.len(), n);
             } else if n >= 50 {
                 // few rows of a lattice close on a narrow torus: their number jumps

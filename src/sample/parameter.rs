@@ -1,9 +1,9 @@
-use super::SampleError;
+use super::{SampleError, Sampler};
 
-/// A number that a sampler takes. The command line sets it by `--set name=value`, and `sample --list` shows it.
+/// A number that a sampler takes, as users read of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
-    /// Its name: lower case, words joined by hyphens.
+    /// Name: lower case, words joined by hyphens.
     pub name: &'static str,
     /// What it counts or is measured in; empty for a plain number.
     pub unit: &'static str,
@@ -11,20 +11,29 @@ pub struct Parameter {
     pub range: (f64, f64),
     /// Only whole numbers are allowed.
     pub whole: bool,
-    /// What holds if it is not set, in words or digits.
-    pub default: &'static str,
+    /// The value that holds if it is not set; `None` where that is no number.
+    pub default: Option<f64>,
+    /// What holds instead of a number.
+    pub unset: &'static str,
     /// What it does, and where its default comes from.
     pub meaning: &'static str,
 }
 
 impl Parameter {
-    /// The range as a user reads it: “1 to 1000”, “at least 0”.
+    /// Returns the range as a user reads it: “1 to 1000”, “at least 0”.
     pub fn range_in_words(&self) -> String {
         let kind = if self.whole { "whole, " } else { "" };
         match self.range {
             (low, f64::INFINITY) => format!("{kind}at least {low}"),
             (low, high) => format!("{kind}{low} to {high}"),
         }
+    }
+
+    /// Returns the default as a user reads it: the number to four digits, or words.
+    pub fn default_in_words(&self) -> String {
+        let Some(value) = self.default else { return self.unset.to_owned() };
+        let exact = value.to_string();
+        if exact.len() <= 7 { exact } else { format!("{value:.4}") }
     }
 
     fn parse(&self, sampler: &'static str, text: &str) -> Result<f64, SampleError> {
@@ -38,78 +47,160 @@ impl Parameter {
     }
 }
 
-/// Values read from `name=value` pairs and found to be in range.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Values(Vec<(&'static str, f64)>);
+/// A row of a sampler's table of parameters: what users read of one, and the field that it is. Its default stands nowhere
+/// but in the sampler.
+pub struct Setting<S> {
+    /// See [`Parameter::name`].
+    pub name: &'static str,
+    /// See [`Parameter::unit`].
+    pub unit: &'static str,
+    /// See [`Parameter::range`].
+    pub range: (f64, f64),
+    /// See [`Parameter::whole`].
+    pub whole: bool,
+    /// See [`Parameter::unset`]; empty if there always is a number.
+    pub unset: &'static str,
+    /// See [`Parameter::meaning`].
+    pub meaning: &'static str,
+    /// Returns the value that holds, if it is a number.
+    pub get: fn(&S) -> Option<f64>,
+    /// Sets a value of the range.
+    pub set: fn(&mut S, f64),
+}
 
-impl Values {
-    /// The values that `settings` (name, value) give to `parameters` of `sampler`; the last one holds if there are two.
+impl<S> Setting<S> {
+    fn parameter(&self, of: &S) -> Parameter {
+        let Self { name, unit, range, whole, unset, meaning, get, .. } = *self;
+        Parameter { name, unit, range, whole, default: get(of), unset, meaning }
+    }
+}
+
+/// A sampler with parameters. With it, [`Sampler::settable`] is `Some(self)`.
+pub trait Settable: Sampler + Clone + 'static {
+    /// The parameters, set in this order: a later one overrules what an earlier one sets besides its own.
+    const SETTINGS: &'static [Setting<Self>];
+}
+
+/// What every [`Settable`] sampler does, whatever its type.
+pub trait Configure {
+    /// Returns the parameters, in the order of the table, with this sampler's values as defaults.
+    fn described(&self) -> Vec<Parameter>;
+
+    /// Returns the same sampler with other parameters, given as (name, value); the last holds of two of one name.
     ///
     /// # Errors
-    /// If a name is none of theirs, or a value is not a number in its range; the message says what could be set.
-    pub fn read(
-        sampler: &'static str,
-        parameters: &[Parameter],
-        settings: &[(&str, &str)],
-    ) -> Result<Self, SampleError> {
-        let mut values = Vec::new();
+    /// If a name is none of a parameter, or a value is not a number in its range; the message says what could be set.
+    fn configured(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError>;
+}
+
+impl<S: Settable> Configure for S {
+    fn described(&self) -> Vec<Parameter> {
+        S::SETTINGS.iter().map(|setting| setting.parameter(self)).collect()
+    }
+
+    fn configured(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError> {
+        let parameters = self.described();
+        let mut values = vec![None; parameters.len()];
         for (name, text) in settings {
-            let parameter = parameters
-                .iter()
-                .find(|p| p.name == *name)
-                .ok_or_else(|| SampleError::unknown_parameter(sampler, name, parameters))?;
-            values.push((parameter.name, parameter.parse(sampler, text)?));
+            let place = parameters.iter().position(|p| p.name == *name);
+            let place =
+                place.ok_or_else(|| SampleError::unknown_parameter(self.name(), name, &parameters))?;
+            values[place] = Some(parameters[place].parse(self.name(), text)?);
         }
-        Ok(Self(values))
-    }
-
-    /// The value of a parameter, if it was set.
-    pub fn get(&self, name: &str) -> Option<f64> {
-        self.0.iter().rev().find(|(n, _)| *n == name).map(|(_, v)| *v)
-    }
-
-    /// The value of a whole parameter, if it was set.
-    pub fn count(&self, name: &str) -> Option<usize> {
-        self.get(name).map(|v| v as usize)
+        let mut new = self.clone();
+        for (setting, value) in S::SETTINGS.iter().zip(values) {
+            value.into_iter().for_each(|v| (setting.set)(&mut new, v));
+        }
+        Ok(Box::new(new))
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::Frame;
     use super::*;
+    use crate::geometry::Point;
+    use rand::Rng;
 
-    const STEPS: Parameter =
-        Parameter { name: "steps", unit: "", range: (1., 10.), whole: true, default: "3", meaning: "a test" };
-    const LENGTH: Parameter = Parameter {
-        name: "length",
-        unit: "spacings",
-        range: (0., f64::INFINITY),
-        whole: false,
-        default: "1",
-        meaning: "a test",
-    };
+    #[derive(Clone, Debug)]
+    struct Tester {
+        steps: Option<usize>,
+        length: f64,
+    }
 
-    fn read(settings: &[(&str, &str)]) -> Result<Values, SampleError> {
-        Values::read("tester", &[STEPS, LENGTH], settings)
+    impl Sampler for Tester {
+        fn name(&self) -> &'static str {
+            "tester"
+        }
+        fn about(&self) -> &'static str {
+            "a test"
+        }
+        fn settable(&self) -> Option<&dyn Configure> {
+            Some(self)
+        }
+        /// Shows what is set.
+        fn fill(&self, _: usize, _: &Frame, _: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
+            Ok(vec![Point::new(self.steps.map_or(-1., |s| s as f64), self.length)])
+        }
+    }
+
+    impl Settable for Tester {
+        const SETTINGS: &'static [Setting<Self>] = &[
+            Setting {
+                name: "steps",
+                unit: "",
+                range: (1., 10.),
+                whole: true,
+                unset: "until it rests",
+                meaning: "a test",
+                get: |t| t.steps.map(|s| s as f64),
+                set: |t, v| t.steps = Some(v as usize),
+            },
+            Setting {
+                name: "length",
+                unit: "spacings",
+                range: (0., f64::INFINITY),
+                whole: false,
+                unset: "",
+                meaning: "a test",
+                get: |t| Some(t.length),
+                set: |t, v| t.length = v,
+            },
+        ];
+    }
+
+    const TESTER: Tester = Tester { steps: None, length: 0.5 };
+
+    fn set(settings: &[(&str, &str)]) -> Result<Point, SampleError> {
+        let window = crate::geometry::Window::unit_square();
+        let frame = Frame::new(1, &window)?;
+        let mut rng = <rand_chacha::ChaCha8Rng as rand::SeedableRng>::seed_from_u64(1);
+        Ok(TESTER.configure(settings)?.fill(1, &frame, &mut rng)?[0])
     }
 
     #[test]
-    fn values_are_read_by_name_and_the_last_holds() {
-        let values = read(&[("steps", "4"), ("length", "0.25"), ("steps", "5")]).unwrap();
-        assert_eq!((values.count("steps"), values.get("length")), (Some(5), Some(0.25)));
-        assert_eq!(read(&[]).unwrap().get("steps"), None);
+    fn values_are_set_by_name_and_the_last_holds() {
+        assert_eq!(set(&[]).unwrap(), Point::new(-1., 0.5));
+        let set = set(&[("steps", "4"), ("length", "0.25"), ("steps", "5")]).unwrap();
+        assert_eq!(set, Point::new(5., 0.25));
+    }
+
+    #[test]
+    fn defaults_are_those_of_the_sampler() {
+        let words: Vec<String> = TESTER.parameters().iter().map(Parameter::default_in_words).collect();
+        assert_eq!(words, ["until it rests", "0.5"]);
     }
 
     #[test]
     fn what_cannot_be_set_says_what_can() {
-        let message = |settings: &[(&str, &str)]| read(settings).unwrap_err().to_string();
+        let message = |settings: &[(&str, &str)]| set(settings).unwrap_err().to_string();
         for bad in ["0", "11", "2.5", "many", "nan", ""] {
             assert!(message(&[("steps", bad)]).contains("whole, 1 to 10"), "{bad}");
         }
         assert!(message(&[("length", "-1")]).contains("at least 0 spacings"));
         let unknown = message(&[("step", "3")]);
         assert!(unknown.contains("steps, length") && unknown.contains("did you mean steps?"), "{unknown}");
-        let none = Values::read("tester", &[], &[("steps", "3")]).unwrap_err().to_string();
+        let none = super::super::Uniform.configure(&[("steps", "3")]).err().unwrap().to_string();
         assert!(none.contains("has no parameters"), "{none}");
     }
 }

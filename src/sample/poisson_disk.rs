@@ -33,10 +33,6 @@ impl Sampler for PoissonDisk {
         "maximal Poisson disks: darts until no place is left, r = 0.777 spacings, torus distance, about n points (Ebeida et al. 2011)"
     }
 
-    fn by_default(&self) -> bool {
-        false
-    }
-
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         if n == 0 {
             return Ok(Vec::new());

@@ -1,18 +1,22 @@
-use super::Parameter;
+use super::Setting;
 use crate::mosaic::RetinalPlace;
 
 /// The greatest eccentricity at which the density is known, in mm.
 pub(super) const FARTHEST: f64 = 18.;
 
 /// Of models whose cells follow the density of the retina from place to place.
-pub(super) const ECCENTRICITY: Parameter = Parameter {
-    name: "eccentricity",
-    unit: "mm",
-    range: (0., FARTHEST),
-    whole: false,
-    default: "none, one mean size",
-    meaning: "where the middle of the window lies, from the fovea: sizes then follow the density of Curcio et al. (1990)",
-};
+pub(super) const fn eccentricity<S>(get: fn(&S) -> Option<f64>, set: fn(&mut S, f64)) -> Setting<S> {
+    Setting {
+        name: "eccentricity",
+        unit: "mm",
+        range: (0., FARTHEST),
+        whole: false,
+        unset: "none, one mean size",
+        meaning: "where the middle of the window lies, from the fovea: sizes then follow the density of Curcio et al. (1990)",
+        get,
+        set,
+    }
+}
 
 /// Cones per mm² at that many mm from the fovea, the mean of the four meridians; beyond the last value known the last.
 pub(super) fn cones_per_mm2(eccentricity: f64) -> f64 {

@@ -1,5 +1,5 @@
-use super::lattice::{JITTER, Lattice};
-use super::{Frame, Parameter, SampleError, Sampler, Values};
+use super::lattice::{Lattice, jitter};
+use super::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use crate::geometry::Point;
 use rand::Rng;
 
@@ -24,13 +24,12 @@ impl Sampler for Square {
         "square lattice at a random offset, jitter if asked for; as near n as the lattice allows"
     }
 
-    fn parameters(&self) -> &'static [Parameter] {
-        &[JITTER]
+    fn in_rows(&self) -> bool {
+        true
     }
 
-    fn configure(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError> {
-        let values = Values::read(self.name(), self.parameters(), settings)?;
-        Ok(Box::new(Self { jitter: values.get("jitter").unwrap_or(self.jitter) }))
+    fn settable(&self) -> Option<&dyn Configure> {
+        Some(self)
     }
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
@@ -38,6 +37,10 @@ impl Sampler for Square {
         let jitter = self.jitter * frame.spacing(n.max(1));
         Ok(Lattice { step: side, row_step: side, shift: 0., jitter }.fill(n, frame, rng))
     }
+}
+
+impl Settable for Square {
+    const SETTINGS: &'static [Setting<Self>] = &[jitter(|s| Some(s.jitter), |s, v| s.jitter = v)];
 }
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
 use super::shaped::{Shaped, TargetCurve};
-use super::{Frame, Parameter, SampleError, Sampler, Values, Watch};
+use super::{Configure, Frame, SampleError, Sampler, Settable, Setting, Watch};
 use crate::geometry::{Point, Window};
 use rand::Rng;
 use std::f64::consts::FRAC_2_SQRT_PI;
@@ -29,29 +29,16 @@ impl Sampler for Step {
         "step"
     }
 
-    /// A test of theory rather than a model of cones: its curve is next to dart throwing's.
-    fn by_default(&self) -> bool {
-        false
-    }
-
     fn about(&self) -> &'static str {
         "step blue noise: power 0 below a frequency, 1 above, by optimisation of the PCF (Heck et al. 2013); exactly n"
     }
 
-    fn parameters(&self) -> &'static [Parameter] {
-        &[Parameter {
-            name: "frequency",
-            unit: "√n",
-            range: (0.05, HIGHEST),
-            whole: false,
-            default: "0.5642, 1/√π",
-            meaning: "where the step is; 1/√π is the highest at which such points exist (Heck et al. 2013)",
-        }]
+    fn exact(&self) -> bool {
+        true
     }
 
-    fn configure(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError> {
-        let values = Values::read(self.name(), self.parameters(), settings)?;
-        Ok(Box::new(Self { frequency: values.get("frequency").unwrap_or(self.frequency) }))
+    fn settable(&self) -> Option<&dyn Configure> {
+        Some(self)
     }
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
@@ -67,6 +54,19 @@ impl Sampler for Step {
     ) -> Result<Vec<Point>, SampleError> {
         self.shaped().sample_watched(n, window, rng, progress)
     }
+}
+
+impl Settable for Step {
+    const SETTINGS: &'static [Setting<Self>] = &[Setting {
+        name: "frequency",
+        unit: "√n",
+        range: (0.05, HIGHEST),
+        whole: false,
+        unset: "",
+        meaning: "where the step is; 1/√π is the highest at which such points exist (Heck et al. 2013)",
+        get: |s| Some(s.frequency),
+        set: |s, v| s.frequency = v,
+    }];
 }
 
 #[cfg(test)]

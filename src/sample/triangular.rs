@@ -1,5 +1,5 @@
-use super::lattice::{JITTER, Lattice};
-use super::{Frame, Parameter, SampleError, Sampler, Values};
+use super::lattice::{Lattice, jitter};
+use super::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use crate::geometry::Point;
 use rand::Rng;
 
@@ -26,13 +26,16 @@ impl Sampler for Triangular {
         "triangular lattice at a random offset, jitter if asked for; as near n as the lattice allows, stretched to close on a torus"
     }
 
-    fn parameters(&self) -> &'static [Parameter] {
-        &[JITTER]
+    fn in_rows(&self) -> bool {
+        true
     }
 
-    fn configure(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError> {
-        let values = Values::read(self.name(), self.parameters(), settings)?;
-        Ok(Box::new(Self { jitter: values.get("jitter").unwrap_or(self.jitter) }))
+    fn by_default(&self) -> bool {
+        true
+    }
+
+    fn settable(&self) -> Option<&dyn Configure> {
+        Some(self)
     }
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
@@ -40,6 +43,10 @@ impl Sampler for Triangular {
         let jitter = self.jitter * frame.spacing(n.max(1));
         Ok(Lattice { step, row_step: step * 3f64.sqrt() / 2., shift: 0.5, jitter }.fill(n, frame, rng))
     }
+}
+
+impl Settable for Triangular {
+    const SETTINGS: &'static [Setting<Self>] = &[jitter(|s| Some(s.jitter), |s, v| s.jitter = v)];
 }
 
 #[cfg(test)]

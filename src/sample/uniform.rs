@@ -15,6 +15,14 @@ impl Sampler for Uniform {
         "independent uniform points (white noise); exactly n"
     }
 
+    fn exact(&self) -> bool {
+        true
+    }
+
+    fn by_default(&self) -> bool {
+        true
+    }
+
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         Ok((0..n)
             .map(|_| {

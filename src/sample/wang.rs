@@ -1,7 +1,7 @@
 use super::hash_grid::{HashGrid, distance};
 use super::normal::displaced;
 use super::outward::{exactly, ring};
-use super::{Frame, Parameter, SampleError, Sampler, Values};
+use super::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use crate::geometry::Point;
 use rand::Rng;
 
@@ -41,25 +41,6 @@ impl Wang {
     pub const DEFAULT: Self = Self { jitter: 0.1, minimum: 0.65 };
 }
 
-static PARAMETERS: [Parameter; 2] = [
-    Parameter {
-        name: "jitter",
-        unit: "spacings of the array",
-        range: (0., 0.5),
-        whole: false,
-        default: "0.1",
-        meaning: "standard deviation of each cone's displacement in x and y (our choice)",
-    },
-    Parameter {
-        name: "minimum",
-        unit: "spacings of the array",
-        range: (0., 0.8),
-        whole: false,
-        default: "0.65",
-        meaning: "no two cones are nearer (our choice)",
-    },
-];
-
 impl Sampler for Wang {
     fn name(&self) -> &'static str {
         "wang"
@@ -69,25 +50,46 @@ impl Sampler for Wang {
         "polar array around the centre, jitter, minimal spacing; exactly n; no torus (Wang et al. 2001)"
     }
 
-    fn parameters(&self) -> &'static [Parameter] {
-        &PARAMETERS
+    fn exact(&self) -> bool {
+        true
     }
 
-    fn configure(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError> {
-        let values = Values::read(self.name(), self.parameters(), settings)?;
-        Ok(Box::new(Self {
-            jitter: values.get("jitter").unwrap_or(self.jitter),
-            minimum: values.get("minimum").unwrap_or(self.minimum),
-        }))
-    }
-
-    fn by_default(&self) -> bool {
+    fn periodic(&self) -> bool {
         false
+    }
+
+    fn settable(&self) -> Option<&dyn Configure> {
+        Some(self)
     }
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         exactly(n, frame, DENSITY, self.name(), |half| self.array(half.map(|side| side + BEYOND), rng))
     }
+}
+
+impl Settable for Wang {
+    const SETTINGS: &'static [Setting<Self>] = &[
+        Setting {
+            name: "jitter",
+            unit: "spacings of the array",
+            range: (0., 0.5),
+            whole: false,
+            unset: "",
+            meaning: "standard deviation of each cone's displacement in x and y (our choice)",
+            get: |s| Some(s.jitter),
+            set: |s, v| s.jitter = v,
+        },
+        Setting {
+            name: "minimum",
+            unit: "spacings of the array",
+            range: (0., 0.8),
+            whole: false,
+            unset: "",
+            meaning: "no two cones are nearer (our choice)",
+            get: |s| Some(s.minimum),
+            set: |s, v| s.minimum = v,
+        },
+    ];
 }
 
 impl Wang {

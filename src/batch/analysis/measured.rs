@@ -1,8 +1,7 @@
 use crate::batch::BatchError;
-use crate::compare::{ReferenceCurve, l_infinity};
+use crate::compare::{NotCompared, ReferenceCurve, SamplerCurves, l_infinity};
 use crate::detect::Detections;
 use crate::report::{MosaicRecord, SamplerDistance, counted};
-use crate::sample::Sampler;
 use crate::stats::Measures;
 
 /// Fewer cones than this leave every statistic uncertain: the RI of 30 points scatters by about 15 %.
@@ -22,17 +21,9 @@ pub(super) fn distances(
         .collect()
 }
 
-/// A warning for every sampler that cannot fill the mosaic's window.
-pub(super) fn not_compared(
-    measures: &Measures,
-    samplers: &[&'static dyn Sampler],
-    curves: &[ReferenceCurve],
-) -> Vec<String> {
-    if measures.pcf.is_err() {
-        return Vec::new();
-    }
-    let missing = samplers.iter().filter(|s| !curves.iter().any(|c| c.sampler == s.name()));
-    missing.map(|s| format!("not compared with {}: it cannot fill this window", s.name())).collect()
+/// Warns of every sampler that has no curve, with the reason.
+pub(super) fn not_compared(curves: &SamplerCurves) -> impl Iterator<Item = String> {
+    curves.missing.iter().map(NotCompared::to_string)
 }
 
 /// What a reader of the numbers should know.

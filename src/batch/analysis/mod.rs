@@ -20,7 +20,7 @@ pub(super) use verdicts::write_table as write_verdicts;
 pub(super) use write::{Layout, required_files, write};
 
 use super::{BatchError, Input};
-use crate::compare::{ReferenceCurve, References, SamplerVerdict};
+use crate::compare::{References, SamplerCurves, SamplerVerdict};
 use crate::detect::{Detections, FourierEstimate, fourier_spacing};
 use crate::image::Plane;
 use crate::mosaic::Mosaic;
@@ -28,7 +28,6 @@ use crate::report::tables::RoiRow;
 use crate::report::{LandmarkRecord, MosaicRecord};
 use crate::stats::{Functions, Maps, Measures, PowerSpectrum, functions, measure, spectrum};
 use measured::{distances, not_compared, warnings_of};
-use std::sync::Arc;
 use std::time::Instant;
 
 /// A mosaic to be analysed.
@@ -50,7 +49,7 @@ pub(super) struct Analysis {
     pub measures: Measures,
     pub record: MosaicRecord,
     pub warnings: Vec<String>,
-    pub curves: Arc<Vec<ReferenceCurve>>,
+    pub curves: SamplerCurves,
     pub verdicts: Vec<SamplerVerdict>,
     pub functions: Option<Functions>,
     pub spectrum: Option<PowerSpectrum>,
@@ -81,12 +80,12 @@ pub(super) fn analyse(
     let measured = clock.elapsed().as_secs_f64();
 
     let curves = match &measures.pcf {
-        Ok(_) => references.curves(mosaic.len(), mosaic.window()).unwrap_or_default(),
-        Err(_) => Arc::default(),
+        Ok(_) => references.curves(mosaic.len(), mosaic.window()),
+        Err(_) => SamplerCurves::default(),
     };
     let (verdicts, no_verdicts) =
         verdicts::verdicts_on(mosaic, &measures, &plan.samplers, plan.verdict.as_ref(), plan.seed);
-    let mut record = MosaicRecord::new(mosaic, &measures, distances(&measures, &curves)?);
+    let mut record = MosaicRecord::new(mosaic, &measures, distances(&measures, &curves.curves)?);
     record.verdicts = verdicts::records(&verdicts);
     let compared = clock.elapsed().as_secs_f64();
 
@@ -94,7 +93,7 @@ pub(super) fn analyse(
     if specimen.outside > 0 {
         warnings.push(format!("{} points outside the window are left out", specimen.outside));
     }
-    warnings.extend(not_compared(&measures, &plan.samplers, &curves));
+    warnings.extend(not_compared(&curves));
     warnings.extend(no_verdicts);
     plan.labels.of(path, mosaic.scale())?.put_on(&mut record, &mut warnings);
 

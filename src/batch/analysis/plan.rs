@@ -84,7 +84,18 @@ impl Plan {
         self.maps.is_some() || self.metrics.has_any_of(MetricGroup::Fourier, SummaryKind::Images)
     }
 
-    /// Returns the plan as JSON, for the record of a batch and for what tells two plans apart.
+    /// Returns what tells plans apart whose results differ: all but where scales and labels are from.
+    pub(in crate::batch) fn identity(&self) -> Value {
+        let mut identity = self.describe();
+        if let Some(identity) = identity.as_object_mut() {
+            identity.remove("scale");
+            identity.remove("manifest");
+            identity.insert("regions".into(), json!(self.rois.as_ref().map(|request| format!("{request:?}"))));
+        }
+        identity
+    }
+
+    /// Returns the plan as JSON, for the record of a batch.
     pub(in crate::batch) fn describe(&self) -> Value {
         json!({
             "measure": self.measure,

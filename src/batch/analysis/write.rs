@@ -54,10 +54,10 @@ pub(in crate::batch) fn write(
         Layout::Folder => file.to_owned(),
         Layout::Beside => format!("{name}.{file}"),
     };
-    folder.write(&called(PCF), &tables::pcf_csv(measures, &analysis.curves)?)?;
+    folder.write(&called(PCF), &tables::pcf_csv(measures, &analysis.curves.curves)?)?;
     if layout == Layout::Folder {
         let drawn =
-            figure::figure(name, specimen.image, mosaic, measures, &analysis.record, &analysis.curves)?;
+            figure::figure(name, specimen.image, mosaic, measures, &analysis.record, &analysis.curves.curves)?;
         folder.write(FIGURE, drawn.as_bytes())?;
     }
     if let Some(found) = &analysis.functions {

@@ -60,18 +60,17 @@ impl OutputFolder {
     /// `fill` fails, earlier results stay.
     ///
     /// # Errors
-    /// If the earlier folder holds files that the program has not written, but for those in
-    /// `given_up`, or if `fill` or the operating system refuses.
+    /// If the earlier folder holds files that the program has not written, or if `fill` or the
+    /// operating system refuses.
     pub fn replace_folder(
         &self,
         name: &str,
-        given_up: &[&str],
         fill: impl FnOnce(&Self) -> Result<(), BatchError>,
     ) -> Result<(), BatchError> {
         let (partial, place) = (self.join(format!(".{name}.partial")), self.join(name));
         let prefix = format!("{}{name}/", self.prefix);
         let refused = |source: io::Error| BatchError::Output { path: place.clone(), source };
-        if let Some(file) = self.foreign_in(name, given_up) {
+        if let Some(file) = self.foreign_in(name) {
             return Err(BatchError::ForeignFolder { path: place, file });
         }
         remove_folder(&partial).map_err(refused)?;
@@ -104,15 +103,19 @@ impl OutputFolder {
         }
     }
 
-    /// The first file of a sub-folder that the program has not written as it stands there.
-    pub fn foreign_in(&self, name: &str, given_up: &[&str]) -> Option<String> {
+    /// Tells whether a sub-folder holds results that the program has written.
+    pub fn has_results(&self, name: &str) -> bool {
+        self.join(name).is_dir() && self.ledger.knows_below(&format!("{}{name}/", self.prefix))
+    }
+
+    /// Returns the first file of a sub-folder whose name the ledger does not know.
+    fn foreign_in(&self, name: &str) -> Option<String> {
         let prefix = format!("{}{name}/", self.prefix);
         let mut names: Vec<String> = fs::read_dir(self.join(name))
             .into_iter()
             .flatten()
             .flatten()
             .map(|entry| entry.file_name().to_string_lossy().into_owned())
-            .filter(|file| !given_up.contains(&file.as_str()))
             .collect();
         names.sort_unstable();
         names.into_iter().find(|file| !self.ledger.knows(&format!("{prefix}{file}")))

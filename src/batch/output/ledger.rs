@@ -136,13 +136,39 @@ impl Ledger {
         self.earlier.contains_key(name) || self.now().written.contains_key(name)
     }
 
+    /// Tells whether the program has ever written a file whose path begins with `prefix`.
+    pub fn knows_below(&self, prefix: &str) -> bool {
+        self.earlier.keys().any(|name| name.starts_with(prefix))
+            || self.now().written.keys().any(|name| name.starts_with(prefix))
+    }
+
     /// Returns the result folder.
     pub fn root(&self) -> &Path {
         &self.root
     }
 
     /// Puts a file or folder of earlier results away, into a place of its own.
-    pub fn put_away(&self, name: &str) -> Result<PathBuf, BatchError> {
+    pub fn put_away(&self, name: &str) -> Result<(), BatchError> {
+        let from = self.root.join(name);
+        let to = self.free_place(name)?;
+        fs::rename(&from, &to).map_err(|source| BatchError::Output { path: to, source })?;
+        // a folder that is empty now goes too; one that is not stays
+        match from.parent() {
+            Some(parent) if parent != self.root => fs::remove_dir(parent).or(Ok(())),
+            _ => Ok(()),
+        }
+    }
+
+    /// Puts a copy of a file of earlier results away.
+    pub fn copy_away(&self, name: &str) -> Result<(), BatchError> {
+        let to = self.free_place(name)?;
+        fs::copy(self.root.join(name), &to)
+            .map(drop)
+            .map_err(|source| BatchError::Output { path: to, source })
+    }
+
+    /// Finds a free place for earlier results of that name, and makes its folder.
+    fn free_place(&self, name: &str) -> Result<PathBuf, BatchError> {
         let place = self.root.join(OWN).join(EARLIER);
         let refused = |source| BatchError::Output { path: place.clone(), source };
         let free = (1..).map(|k| if k == 1 { name.to_owned() } else { format!("{name}.{k}") });
@@ -151,7 +177,6 @@ impl Ledger {
         };
         let parent = to.parent().unwrap_or(&place);
         fs::create_dir_all(parent).map_err(refused)?;
-        fs::rename(self.root.join(name), &to).map_err(refused)?;
         Ok(to)
     }
 

@@ -49,6 +49,19 @@ impl ResultFolder {
         self.ledger.standing(name)
     }
 
+    /// Tells whether the program has ever written a file of this path.
+    pub fn knows(&self, name: &str) -> bool {
+        self.ledger.knows(name)
+    }
+
+    /// Puts a copy of a file away that is about to be replaced.
+    ///
+    /// # Errors
+    /// If it cannot be copied.
+    pub fn copy_away(&self, name: &str) -> Result<(), BatchError> {
+        self.ledger.copy_away(name)
+    }
+
     /// Counts the earlier files whose paths begin with `prefix` among the results of this run.
     pub fn keep(&self, prefix: &str) {
         self.ledger.keep(prefix);

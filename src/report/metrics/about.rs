@@ -64,7 +64,7 @@ pub(super) const FILE: &[Metric] = &[
         Plain,
         column("modality", "text", "How the image was taken to be made: confocal, split or histology.")
             .only(Part::Images)
-            .of(|s| s.image().map(|r| r.detection.modality.name()).into()),
+            .of(|s| s.detection().map(|d| d.modality.name()).into()),
     ),
     metric(About, Plain, column("n", "count", "Cones (points) in the window.").of(|s| s.mosaic().n.into())),
     metric(

@@ -35,7 +35,7 @@ pub(super) const DENSITY: &[Metric] = &[
         )
         .source("Yellott 1983")
         .only(Part::Images)
-        .of(|s| s.image().map(|r| r.detection.ring_spacing_px).into()),
+        .of(|s| s.detection().map(|d| d.ring_spacing_px).into()),
     ),
     metric(
         Density,

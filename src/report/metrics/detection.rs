@@ -7,9 +7,21 @@ pub(super) const DETECTION: &[Metric] = &[
     metric(
         Detection,
         Plain,
+        column(
+            "cones_from",
+            "text",
+            "Origin of the cones: detected by this program, given (marks from elsewhere), or corrected (found \
+             by this program and mended by a person). Columns about the detection are empty for the last two.",
+        )
+        .only(Part::Images)
+        .of(|s| s.image().map(|r| r.cones_from.name()).into()),
+    ),
+    metric(
+        Detection,
+        Plain,
         column("detector", "text", "Filters that found the cones: classical or learned.")
             .only(Part::Images)
-            .of(|s| s.image().map(|r| r.detection.detector.name()).into()),
+            .of(|s| s.detection().map(|d| d.detector.name()).into()),
     ),
     metric(
         Detection,
@@ -20,14 +32,14 @@ pub(super) const DETECTION: &[Metric] = &[
             "Probability that the modality is the true one; 1 if it was given.",
         )
         .only(Part::Images)
-        .of(|s| s.image().map(|r| r.detection.modality_confidence).into()),
+        .of(|s| s.detection().map(|d| d.modality_confidence).into()),
     ),
     metric(
         Detection,
         Plain,
         column("polarity", "text", "Which way round the contrast was taken to run.")
             .only(Part::Images)
-            .of(|s| s.image().map(|r| r.detection.polarity.name()).into()),
+            .of(|s| s.detection().map(|d| d.polarity.name()).into()),
     ),
     metric(
         Detection,
@@ -38,7 +50,7 @@ pub(super) const DETECTION: &[Metric] = &[
             "How many of the cones are expected to be none: sum of 1 − score.",
         )
         .only(Part::Images)
-        .of(|s| s.image().map(|r| r.detection.expected_false_alarms).into()),
+        .of(|s| s.detection().map(|d| d.expected_false_alarms).into()),
     ),
     metric(
         Detection,
@@ -50,14 +62,14 @@ pub(super) const DETECTION: &[Metric] = &[
                 scores.",
         )
         .only(Part::Images)
-        .of(|s| s.image().map(|r| r.detection.expected_misses).into()),
+        .of(|s| s.detection().map(|d| d.expected_misses).into()),
     ),
     metric(
         Detection,
         Plain,
         column("expected_error_rate", "0–1", "Both of these over the cones found.")
             .only(Part::Images)
-            .of(|s| s.image().map(|r| r.detection.expected_error_rate()).into()),
+            .of(|s| s.detection().map(|d| d.expected_error_rate()).into()),
     ),
     metric(
         Detection,
@@ -68,20 +80,20 @@ pub(super) const DETECTION: &[Metric] = &[
             "Probability that the spacing the detector worked with is within 15 % of the true one.",
         )
         .only(Part::Images)
-        .of(|s| s.image().map(|r| r.detection.spacing_confidence).into()),
+        .of(|s| s.detection().map(|d| d.spacing_confidence).into()),
     ),
     metric(
         Detection,
         Plain,
         column("spacing_min_px", "px", "Closest spacing the detector worked with, from place to place.")
             .only(Part::Images)
-            .of(|s| s.image().map(|r| r.detection.spacing_range_px[0]).into()),
+            .of(|s| s.detection().map(|d| d.spacing_range_px[0]).into()),
     ),
     metric(
         Detection,
         Plain,
         column("spacing_max_px", "px", "Widest spacing the detector worked with, from place to place.")
             .only(Part::Images)
-            .of(|s| s.image().map(|r| r.detection.spacing_range_px[1]).into()),
+            .of(|s| s.detection().map(|d| d.spacing_range_px[1]).into()),
     ),
 ];

@@ -57,6 +57,11 @@ impl<'a> Subject<'a> {
         }
     }
 
+    /// Returns how the cones of an image were found, if this program found them.
+    pub(super) fn detection(&self) -> Option<&'a DetectionRecord> {
+        self.image().and_then(|record| record.detection.as_ref())
+    }
+
     pub(super) const fn coordinates(&self) -> Option<&'a CoordinatesRecord> {
         match self {
             Self::Image(_) => None,

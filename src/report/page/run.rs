@@ -138,15 +138,15 @@ fn row(k: usize, record: &ImageRecord, shared: usize, scaled: bool, compared: bo
                 span.warning title=(record.warnings.join("; ")) { " ⚠" (record.warnings.len()) }
             }
         }
-        td.word { (record.detection.modality) }
+        td.word { (record.detection.as_ref().map_or_else(|| record.cones_from.name().to_owned(), |d| d.modality.to_string())) }
         td { (m.n) }
-        td { (number(if scaled { m.density_per_mm2() } else { Some(m.density) }, 4)) }
-        td { (length(m.spacing, um, scaled)) }
-        td { (length(Some(record.detection.ring_spacing_px), um, scaled)) }
-        td { (nearest(m.nearest.mean, 3)) " ± " (nearest(m.nearest.sd, 2)) }
-        td { (number(m.nearest.ri, 3)) }
-        td { (number(m.nearest_interior.ri, 3)) }
-        td { (expected_errors(&record.detection)) }
+        td { (number(if scaled { m.density_per_mm2() } else { Some(m.stats.density) }, 4)) }
+        td { (length(m.stats.spacing, um, scaled)) }
+        td { (length(record.detection.as_ref().map(|d| d.ring_spacing_px), um, scaled)) }
+        td { (nearest(m.stats.nearest.mean, 3)) " ± " (nearest(m.stats.nearest.sd, 2)) }
+        td { (number(m.stats.nearest.ri, 3)) }
+        td { (number(m.stats.nearest_interior.ri, 3)) }
+        td { (record.detection.as_ref().map_or("–".into(), expected_errors)) }
         @if compared {
             td.word { (Cell::from(m.closest_sampler()).readable()) }
             td { (distance.map_or("–".into(), two_decimals)) }

@@ -7,7 +7,7 @@ mod regularity;
 mod relaxation;
 
 use super::region::{Region, Relaxes};
-use super::{Density, Frame, Parameter, SampleError, Sampler, Values, Watch};
+use super::{Configure, Density, Frame, SampleError, Sampler, Settable, Setting, Watch};
 use crate::geometry::{Point, Window};
 use rand::Rng;
 
@@ -55,33 +55,6 @@ impl Default for Bnot {
 /// Steps after which points are taken to rest.
 const MOST_STEPS: usize = 1000;
 
-static PARAMETERS: [Parameter; 3] = [
-    Parameter {
-        name: "steps",
-        unit: "",
-        range: (0., 100_000.),
-        whole: true,
-        default: "until points rest",
-        meaning: "moves to the centroids of equal cells; 20 reproduce the published tables, and are what run and compare use",
-    },
-    Parameter {
-        name: "tolerance",
-        unit: "spacings",
-        range: (1e-9, 1.),
-        whole: false,
-        default: "0.00285",
-        meaning: "points rest when they are this near to the centroids (root mean square); at most 1000 steps",
-    },
-    Parameter {
-        name: "breaks",
-        unit: "",
-        range: (0., 100.),
-        whole: true,
-        default: "0",
-        meaning: "how often hexagonal crystals are shaken, with 20 steps after each (de Goes et al. 2012)",
-    },
-];
-
 impl Sampler for Bnot {
     fn name(&self) -> &'static str {
         "bnot"
@@ -89,6 +62,14 @@ impl Sampler for Bnot {
 
     fn about(&self) -> &'static str {
         "blue noise through optimal transport: equal power cells with points at their centroids; exactly n (de Goes et al. 2012)"
+    }
+
+    fn exact(&self) -> bool {
+        true
+    }
+
+    fn by_default(&self) -> bool {
+        true
     }
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
@@ -115,18 +96,8 @@ impl Sampler for Bnot {
         self.relax_window(n, window, rng, progress)
     }
 
-    fn parameters(&self) -> &'static [Parameter] {
-        &PARAMETERS
-    }
-
-    fn configure(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError> {
-        let values = Values::read(self.name(), &PARAMETERS, settings)?;
-        Ok(Box::new(Self {
-            steps: values.count("steps").or(self.steps),
-            tolerance: values.get("tolerance").unwrap_or(self.tolerance),
-            breaks: values.count("breaks").unwrap_or(self.breaks),
-            density: self.density.clone(),
-        }))
+    fn settable(&self) -> Option<&dyn Configure> {
+        Some(self)
     }
 
     fn with_density(&self, density: &Density) -> Option<Box<dyn Sampler>> {
@@ -136,6 +107,41 @@ impl Sampler for Bnot {
     fn as_reference(&self) -> Option<&'static dyn Sampler> {
         Some(&Self::PAPER)
     }
+}
+
+impl Settable for Bnot {
+    const SETTINGS: &'static [Setting<Self>] = &[
+        Setting {
+            name: "steps",
+            unit: "",
+            range: (0., 100_000.),
+            whole: true,
+            unset: "until points rest",
+            meaning: "moves to the centroids of equal cells; 20 reproduce the published tables, and are what run and compare use",
+            get: |s| s.steps.map(|steps| steps as f64),
+            set: |s, v| s.steps = Some(v as usize),
+        },
+        Setting {
+            name: "tolerance",
+            unit: "spacings",
+            range: (1e-9, 1.),
+            whole: false,
+            unset: "",
+            meaning: "points rest when they are this near to the centroids (root mean square); at most 1000 steps",
+            get: |s| Some(s.tolerance),
+            set: |s, v| s.tolerance = v,
+        },
+        Setting {
+            name: "breaks",
+            unit: "",
+            range: (0., 100.),
+            whole: true,
+            unset: "",
+            meaning: "how often hexagonal crystals are shaken, with 20 steps after each (de Goes et al. 2012)",
+            get: |s| Some(s.breaks as f64),
+            set: |s, v| s.breaks = v as usize,
+        },
+    ];
 }
 
 impl Relaxes for Bnot {

@@ -48,6 +48,10 @@ impl Sampler for Shaped {
         "uniform points moved until their pair correlation function is a given one; exactly n"
     }
 
+    fn exact(&self) -> bool {
+        true
+    }
+
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         Ok(self.moved(n, frame, rng).into_iter().map(|[x, y]| frame.place(x, y)).collect())
     }

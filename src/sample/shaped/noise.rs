@@ -24,6 +24,10 @@ impl Sampler for Noise {
         self.about
     }
 
+    fn exact(&self) -> bool {
+        true
+    }
+
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         self.shaped.fill(n, frame, rng)
     }

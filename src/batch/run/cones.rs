@@ -1,0 +1,207 @@
+//! Where the cones of an image come from: this program, marks from elsewhere, or this program and a
+//! person who corrected them.
+
+use super::{GivenCones, IMAGES, Job};
+use crate::batch::detect::{describe, detect_in, formatted};
+use crate::batch::output::Standing;
+use crate::batch::{BatchError, Input};
+use crate::detect::{DetectOptions, Detections, weights};
+use crate::geometry::{Point, Window};
+use crate::image::Plane;
+use crate::mosaic::io::{ReadOptions, format_points, read_coordinates};
+use crate::mosaic::{LengthUnit, Scale};
+use crate::report::{ConesFrom, counted};
+use sha2::{Digest, Sha256};
+use std::fs;
+use std::path::Path;
+
+/// The file of an image's cones in its folder.
+pub(super) const POINTS: &str = "points.csv";
+
+/// Where the cones of a run come from.
+#[derive(Clone, Debug)]
+pub enum ConeSource {
+    /// They are found in the image.
+    Detector(DetectOptions),
+    /// They were marked or found before.
+    Given(GivenCones),
+}
+
+/// The cones of one image.
+pub(super) struct Cones {
+    /// Centres within the window, px.
+    pub points: Vec<Point>,
+    /// Cones outside the window.
+    pub outside: usize,
+    /// Cones in all of the image.
+    pub all: usize,
+    /// How they were found, if that was now.
+    pub found: Option<Detections>,
+    /// Where they are from.
+    pub from: ConesFrom,
+    /// The content of `points.csv`.
+    pub csv: Vec<u8>,
+}
+
+impl Cones {
+    /// Tells a person in one line what was found.
+    pub fn line(&self) -> String {
+        match &self.found {
+            Some(found) => describe(found),
+            None => format!("{}, {}", counted(self.points.len(), "cone"), self.from.name()),
+        }
+    }
+}
+
+/// The origin of an image's cones, before they are read or found.
+pub(super) enum Origin<'a> {
+    Detector(&'a DetectOptions),
+    /// Bytes of the file, and its path.
+    Given(Vec<u8>, &'a Path),
+    /// Bytes of the corrected `points.csv`.
+    Corrected(Vec<u8>),
+}
+
+impl Origin<'_> {
+    /// Adds what tells these cones from others to a hash.
+    pub fn identify(&self, digest: &mut Sha256) -> Result<(), BatchError> {
+        match self {
+            Self::Detector(options) => {
+                digest.update(serde_json::to_vec(options)?);
+                weights().iter().for_each(|file| digest.update(file));
+            }
+            Self::Given(bytes, _) => {
+                digest.update("given");
+                digest.update(bytes);
+            }
+            Self::Corrected(bytes) => {
+                digest.update("corrected");
+                digest.update(bytes);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Job<'_> {
+    /// Decides where the cones of an image come from. A file that a person has corrected is used,
+    /// never replaced unasked.
+    ///
+    /// # Errors
+    /// If a correction would be replaced, or given cones are missing or cannot be read.
+    pub(super) fn origin(&self, input: &Input, image: &Plane) -> Result<Origin<'_>, BatchError> {
+        let corrected = match self.options.replace_corrections {
+            true => None,
+            false => self.correction(input, image)?,
+        };
+        if let Some(bytes) = corrected {
+            return match self.options.cones {
+                ConeSource::Detector(_) if !self.options.fresh => Ok(Origin::Corrected(bytes)),
+                _ => Err(BatchError::Corrected { path: self.images.join(&input.name).join(POINTS) }),
+            };
+        }
+        match &self.options.cones {
+            ConeSource::Detector(options) => Ok(Origin::Detector(options)),
+            ConeSource::Given(given) => {
+                let path = given.file_of(input)?;
+                let bytes = fs::read(path)
+                    .map_err(|source| BatchError::Unreadable { path: path.to_owned(), source })?;
+                Ok(Origin::Given(bytes, path))
+            }
+        }
+    }
+
+    /// Tells whether `points.csv` of an image's earlier results is not as the program wrote it, or was
+    /// corrected before an earlier run.
+    pub(super) fn is_corrected(&self, input: &Input) -> bool {
+        let listed = format!("{IMAGES}/{}/{POINTS}", input.name);
+        let before = || {
+            super::resume::cones_of(&self.images.join(&input.name)) == Some(ConesFrom::Corrected)
+        };
+        match self.out.standing(&listed) {
+            Standing::Missing => false,
+            Standing::Own => before(),
+            Standing::Changed => self.out.knows(&listed),
+        }
+    }
+
+    /// Returns `points.csv` of an image's earlier results if a person has corrected it, in this run's
+    /// folder or before an earlier run.
+    fn correction(&self, input: &Input, image: &Plane) -> Result<Option<Vec<u8>>, BatchError> {
+        if !self.is_corrected(input) {
+            return Ok(None);
+        }
+        let path = self.images.join(&input.name).join(POINTS);
+        let bytes = fs::read(&path).map_err(|source| BatchError::Unreadable { path, source })?;
+        // a file that was cut off ends within a line and is the beginning of what was written
+        if let (false, ConeSource::Detector(options)) = (bytes.ends_with(b"\n"), &self.options.cones) {
+            let found = detect_in(input, image, options)?;
+            let scale = self.options.plan.scales.scale_of(&input.path, image.ncols())?;
+            if formatted(&found.cones, scale).starts_with(&bytes) {
+                return Ok(None);
+            }
+        }
+        Ok(Some(bytes))
+    }
+}
+
+/// Finds or reads the cones of an image.
+///
+/// # Errors
+/// If nothing can be found in the image, or a file of cones cannot be read or is in µm and no scale
+/// is known.
+pub(super) fn cones_of(
+    origin: &Origin,
+    input: &Input,
+    image: &Plane,
+    window: &Window,
+    scale: Option<Scale>,
+    job: &Job,
+) -> Result<Cones, BatchError> {
+    match origin {
+        Origin::Detector(options) => {
+            let mut found = detect_in(input, image, options)?;
+            let all = found.cones.len();
+            found.cones.retain(|d| window.contains(d.centre));
+            let (points, csv) = (found.centres(), formatted(&found.cones, scale));
+            Ok(Cones { points, outside: 0, all, found: Some(found), from: ConesFrom::Detected, csv })
+        }
+        Origin::Given(_, path) => {
+            let read = match &job.options.cones {
+                ConeSource::Given(given) => given.read.clone(),
+                ConeSource::Detector(_) => ReadOptions::default(),
+            };
+            let (points, outside) = read_cones(path, &read, window, scale)?;
+            let csv = format_points(&points, None, scale).into_bytes();
+            let all = points.len() + outside;
+            Ok(Cones { points, outside, all, found: None, from: ConesFrom::Given, csv })
+        }
+        Origin::Corrected(bytes) => {
+            let path = job.images.join(&input.name).join(POINTS);
+            let (points, outside) = read_cones(&path, &ReadOptions::default(), window, scale)?;
+            let all = points.len() + outside;
+            Ok(Cones { points, outside, all, found: None, from: ConesFrom::Corrected, csv: bytes.clone() })
+        }
+    }
+}
+
+/// Reads cones in px, and counts those outside the window.
+fn read_cones(
+    path: &Path,
+    read: &ReadOptions,
+    window: &Window,
+    scale: Option<Scale>,
+) -> Result<(Vec<Point>, usize), BatchError> {
+    let file = read_coordinates(path, read)?;
+    let factor = match file.unit.unwrap_or(LengthUnit::Pixel) {
+        unit @ LengthUnit::Unit => return Err(BatchError::NotPixels { file: path.to_owned(), unit }),
+        unit => unit
+            .factor_to(LengthUnit::Pixel, scale)
+            .ok_or_else(|| BatchError::NoScale { what: "the file of cones", file: path.to_owned() })?,
+    };
+    let all = file.points.len();
+    let scaled = file.points.into_iter().map(|p| Point::new(p.x * factor, p.y * factor));
+    let inside: Vec<Point> = scaled.filter(|&p| window.contains(p)).collect();
+    let outside = all - inside.len();
+    Ok((inside, outside))
+}

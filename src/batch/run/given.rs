@@ -1,0 +1,88 @@
+use super::cones::POINTS;
+use crate::batch::input::image_name;
+use crate::batch::{BatchError, Input, coordinate_files};
+use crate::mosaic::io::ReadOptions;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Cones that were marked by hand, corrected or found by another program: a file per image.
+#[derive(Clone, Debug)]
+pub struct GivenCones {
+    /// How the files are to be understood.
+    pub read: ReadOptions,
+    /// Where they were looked for.
+    place: PathBuf,
+    /// Files by the name of the image that they belong to.
+    files: BTreeMap<String, Vec<PathBuf>>,
+}
+
+impl GivenCones {
+    /// Looks for files of cones at `place`, a folder or one file.
+    ///
+    /// A file belongs to the image of its name, less the extension and a final `_coords`;
+    /// `NAME/points.csv`, as this program writes it, to the image NAME.
+    ///
+    /// # Errors
+    /// If there is no such folder, or no coordinate file in it.
+    pub fn find(place: &Path, read: ReadOptions) -> Result<Self, BatchError> {
+        let mut files: BTreeMap<String, Vec<PathBuf>> = BTreeMap::new();
+        for found in coordinate_files(&[place.to_owned()], None)? {
+            files.entry(name_of(&found.path)).or_default().push(found.path);
+        }
+        Ok(Self { read, place: place.to_owned(), files })
+    }
+
+    /// Returns the file of an image's cones.
+    ///
+    /// # Errors
+    /// If there is none, or more than one.
+    pub(super) fn file_of(&self, input: &Input) -> Result<&Path, BatchError> {
+        let stem = input.path.file_stem().unwrap_or_default().to_string_lossy();
+        // a single file was meant for the image, whatever it is called
+        let only = self.place.is_file().then(|| self.files.values().next()).flatten();
+        let found = only.or_else(|| self.files.get(&input.name)).or_else(|| self.files.get(&*stem));
+        match found.map(Vec::as_slice) {
+            Some([one]) => Ok(one),
+            Some([first, second, ..]) => Err(BatchError::Pairing {
+                file: input.path.clone(),
+                problem: format!(
+                    "both {} and {} are called like it: leave one of them",
+                    first.display(),
+                    second.display()
+                ),
+            }),
+            _ => Err(BatchError::Pairing {
+                file: input.path.clone(),
+                problem: format!(
+                    "no file of cones for it in {}: expected {stem}.csv, {stem}_coords.csv or {stem}/{POINTS}",
+                    self.place.display()
+                ),
+            }),
+        }
+    }
+
+    /// Returns where the cones come from, in words.
+    pub(super) fn describe(&self) -> String {
+        self.place.display().to_string()
+    }
+}
+
+fn name_of(file: &Path) -> String {
+    let folder = file.parent().and_then(Path::file_name);
+    match (file.file_name(), folder) {
+        (Some(name), Some(folder)) if name == POINTS => folder.to_string_lossy().into_owned(),
+        _ => image_name(file),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_belong_to_the_image_of_their_name_or_folder() {
+        assert_eq!(name_of(Path::new("report/images/a.1/points.csv")), "a.1");
+        assert_eq!(name_of(Path::new("marks/a.1_coords.csv")), "a.1");
+        assert_eq!(name_of(Path::new("marks/a.1.csv")), "a.1");
+    }
+}

@@ -1,0 +1,92 @@
+//! Results of an earlier run that still hold: the same image, options, cones and program, and every
+//! file as it was written.
+
+use super::cones::{Origin, POINTS};
+use super::image::{Done, OVERLAY};
+use super::record::METRICS;
+use super::{FAILED, IMAGES, Job};
+use crate::batch::analysis::{Plan, required_files};
+use crate::batch::input::Label;
+use crate::batch::output::{Standing, hex};
+use crate::batch::{BatchError, Input};
+use crate::geometry::Window;
+use crate::mosaic::Scale;
+use crate::report::tables::RoiRow;
+use crate::report::{ConesFrom, ImageRecord, LandmarkRecord};
+use serde::Deserialize;
+use sha2::{Digest, Sha256};
+use std::fs;
+use std::path::Path;
+
+/// What of `metrics.json` stands outside the record and is wanted again.
+#[derive(Deserialize)]
+struct Kept {
+    #[serde(default)]
+    landmarks: Option<LandmarkRecord>,
+    #[serde(default)]
+    regions: Vec<RoiRow>,
+}
+
+/// Identifies everything but the image that its results depend on: the program with all its weights,
+/// the plan, scale, window, labels and the origin of the cones.
+pub(super) fn fingerprint(
+    plan: &Plan,
+    scale: Option<Scale>,
+    window: &Window,
+    label: &Label,
+    origin: &Origin,
+) -> Result<String, BatchError> {
+    let relevant = (BUILD, plan.identity(), scale, window, (&label.labels, label.place, &label.warning));
+    let mut digest = Sha256::new_with_prefix(serde_json::to_vec(&relevant)?);
+    origin.identify(&mut digest)?;
+    Ok(hex(&digest.finalize()))
+}
+
+/// A hash of the program's source and weights, made when it was built.
+const BUILD: &str = match option_env!("CONEMOSAIC_BUILD_HASH") {
+    Some(hash) => hash,
+    None => env!("CARGO_PKG_VERSION"),
+};
+
+/// Returns the results of an earlier run for an image, if they are complete, as they were written
+/// and belong to the same image and options.
+pub(super) fn earlier(job: &Job, input: &Input, sha256: &str, options_sha256: &str) -> Option<Done> {
+    let plan = &job.options.plan;
+    let folder = job.images.join(&input.name);
+    let text = fs::read(folder.join(METRICS)).ok()?;
+    let record: ImageRecord = serde_json::from_slice(&text).ok()?;
+    if record.sha256 != sha256 || record.options_sha256 != options_sha256 {
+        return None;
+    }
+    let names = required_files(plan, !record.mosaic.verdicts.is_empty());
+    let whole = names.into_iter().chain([POINTS, OVERLAY, METRICS]).all(|file| {
+        let listed = format!("{IMAGES}/{}/{file}", input.name);
+        let standing = job.out.standing(&listed);
+        // corrected cones are part of what the results were identified by
+        standing == Standing::Own || file == POINTS && record.cones_from == ConesFrom::Corrected
+    });
+    if !whole || record.fourier.is_none() && plan.wants_fourier() {
+        return None;
+    }
+    let Kept { landmarks, regions } = serde_json::from_slice(&text).ok()?;
+    if landmarks.is_some() != plan.maps.is_some() {
+        return None;
+    }
+    // an earlier failure is over; a note that cannot be removed harms nobody
+    let _ = fs::remove_file(folder.join(FAILED));
+    let file = input.path.display().to_string();
+    let landmarks = landmarks.map(|l| LandmarkRecord { file: file.clone(), ..l });
+    let regions = regions.into_iter().map(|r| RoiRow { file: file.clone(), ..r }).collect();
+    let record = ImageRecord { file, name: input.name.clone(), ..record };
+    Some(Done { record, landmarks, regions, seconds: None })
+}
+
+/// Returns where the cones of earlier results were from.
+pub(super) fn cones_of(folder: &Path) -> Option<ConesFrom> {
+    #[derive(Deserialize)]
+    struct Origin {
+        cones_from: ConesFrom,
+    }
+    let text = fs::read(folder.join(METRICS)).ok()?;
+    serde_json::from_slice::<Origin>(&text).ok().map(|o| o.cones_from)
+}

@@ -1,0 +1,121 @@
+use crate::geometry::{Point, Window};
+use crate::stats::{PcfOptions, StatsError, pcf};
+
+/// How near points come to the pair correlation function that they were to have.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TargetFit {
+    /// Distances at which both are known, in hexagonal spacings.
+    pub r: Vec<f64>,
+    /// The function that was wanted, between its rows by straight lines.
+    pub wanted: Vec<f64>,
+    /// The function of the points, estimated in their window by default options.
+    pub reached: Vec<f64>,
+    /// Greatest difference of the two.
+    pub l_infinity: f64,
+    /// Where that is, in hexagonal spacings.
+    pub worst_r: f64,
+}
+
+impl TargetFit {
+    /// Whether the greatest difference is where the target ends: pairs farther apart are left to chance, and disturb the
+    /// last ones.
+    pub fn at_the_end(&self) -> bool {
+        self.r.last().is_some_and(|last| *last < MOST - END && self.worst_r > last - END)
+    }
+}
+
+/// Pairs beyond the end of a target disturb those nearer than this to it, in hexagonal spacings.
+const END: f64 = 0.4;
+
+/// From here on two patterns are told apart at a glance: the distance under which Lanaro et al. take two distributions for the same.
+pub const POOR_FIT: f64 = 0.1;
+
+/// Compares the pair correlation function of `points` with the rows of r (in hexagonal spacings, rising) and g that they
+/// were to reach, over the distances of both: at most 6 spacings and half the shorter side of the window, beyond which
+/// [`crate::sample::Shaped`] controls nothing.
+///
+/// Measured: the mean g of 20 patterns of dart throwing, given up to 6 spacings, is missed by .065–.073 at 300 to 3000
+/// points, at the hard core's edge. Given up to 2.49 only it is missed by about .1, at 2.22: the last quarter of a spacing
+/// is not controlled ([`TargetFit::at_the_end`]).
+///
+/// # Errors
+/// If there are fewer than two points or rows, or the rows end where estimates begin, at .15 spacings.
+pub fn target_fit(points: &[Point], window: &Window, rows: &[[f64; 2]]) -> Result<TargetFit, StatsError> {
+    let usual = PcfOptions::default();
+    let ends = rows.first().zip(rows.last()).map_or([0., 0.], |(first, last)| [first[0], last[0]]);
+    let bounds = window.bounds();
+    let spacing = crate::mosaic::hexagonal_spacing(points.len(), window.area()).unwrap_or(f64::INFINITY);
+    let farthest = 0.5 * bounds.width().min(bounds.height()) / spacing;
+    let step = (usual.r_max - usual.r_min) / usual.bins as f64;
+    let r_min = ends[0].max(usual.r_min);
+    // left edges of bins: one more, so that the last row counts
+    let bins = ((ends[1].min(MOST).min(farthest) - r_min) / step + 1e-6).floor() + 1.;
+    let bins = bins.max(1.);
+    let options = PcfOptions { r_min, r_max: r_min + bins * step, bins: bins as usize, ..usual };
+    let reached = pcf(points, window, &options)?;
+    let wanted: Vec<f64> = reached.r.iter().map(|&r| at(rows, r)).collect();
+    let misses = wanted.iter().zip(&reached.g).map(|(a, b)| (a - b).abs());
+    let worst = misses.zip(&reached.r).max_by(|a, b| a.0.total_cmp(&b.0));
+    let (l_infinity, worst_r) = worst.map_or((f64::NAN, f64::NAN), |(miss, r)| (miss, *r));
+    Ok(TargetFit { r: reached.r, wanted, reached: reached.g, l_infinity, worst_r })
+}
+
+/// As far as points are moved for their pairs, in hexagonal spacings.
+const MOST: f64 = 6.;
+
+/// Linear between rows, constant beyond them.
+fn at(rows: &[[f64; 2]], r: f64) -> f64 {
+    let after = rows.partition_point(|row| row[0] <= r);
+    match (after.checked_sub(1).and_then(|i| rows.get(i)), rows.get(after)) {
+        (Some(&[a, g]), Some(&[b, h])) => g + (h - g) * (r - a) / (b - a),
+        (Some(&[_, g]), None) | (None, Some(&[_, g])) => g,
+        (None, None) => f64::NAN,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample::{Sampler, Shaped, TargetCurve, sampler};
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+
+    fn pattern(name: &str, n: usize) -> Vec<Point> {
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        sampler(name).unwrap().sample(n, &Window::unit_square(), &mut rng).unwrap()
+    }
+
+    fn rows(points: &[Point]) -> Vec<[f64; 2]> {
+        let g = pcf(points, &Window::unit_square(), &PcfOptions::default()).unwrap();
+        g.r.iter().zip(&g.g).map(|(r, g)| [*r, *g]).collect()
+    }
+
+    #[test]
+    fn points_fit_their_own_function_on_its_own_distances() {
+        let points = pattern("bridson", 500);
+        let rows = rows(&points);
+        let fit = target_fit(&points, &Window::unit_square(), &rows).unwrap();
+        assert_eq!(fit.r.len(), rows.len());
+        assert!(fit.l_infinity < 1e-9, "{}", fit.l_infinity);
+    }
+
+    #[test]
+    fn points_made_for_a_function_come_near_it_and_others_do_not() {
+        let rows = rows(&pattern("dart-throwing", 1000));
+        let shaped = Shaped { curve: TargetCurve::from_pcf(&rows).unwrap(), nearest: None };
+        let mut rng = ChaCha8Rng::seed_from_u64(5);
+        let made = shaped.sample(1000, &Window::unit_square(), &mut rng).unwrap();
+        let near = target_fit(&made, &Window::unit_square(), &rows).unwrap();
+        assert!(near.l_infinity < POOR_FIT, "{} at {}", near.l_infinity, near.worst_r);
+        let far = target_fit(&pattern("uniform", 1000), &Window::unit_square(), &rows).unwrap();
+        assert!(far.l_infinity > 0.5 && far.worst_r < 0.8, "{} at {}", far.l_infinity, far.worst_r);
+    }
+
+    #[test]
+    fn only_distances_that_the_target_and_the_window_have_count() {
+        let points = pattern("uniform", 300);
+        let fit = target_fit(&points, &Window::unit_square(), &[[0.5, 1.], [1.2, 1.]]).unwrap();
+        assert!((fit.r[0] - 0.5).abs() < 1e-12 && *fit.r.last().unwrap() <= 1.2);
+        assert!(target_fit(&points[..1], &Window::unit_square(), &[[0.5, 1.], [1.2, 1.]]).is_err());
+    }
+}
