@@ -32,8 +32,8 @@ impl<'a> PcfRow<'a> {
 pub static PCF: Table<PcfRow> = Table {
     file: "NAME.pcf.csv",
     commands: "measure, compare, run (images/NAME/pcf.csv)",
-    about: "One row per distance; no rows where the function is not defined. Edge rule as chosen \
-            by --edge, by default division by the set covariance of the window (Lanaro et al. \
+    about: "One row per distance; no rows where the function is not defined. Edge rule as chosen, \
+            by default division by the set covariance of the window (Lanaro et al. \
             2020).",
     columns: &[
         column(
@@ -53,7 +53,7 @@ pub static PCF: Table<PcfRow> = Table {
         column(
             "g_inhomogeneous",
             "ratio",
-            "The same for a density that varies, only where the trend is \
+            "Pair correlation function for a density that varies, only where the trend is \
                 significant.",
         )
         .edge(Own)
@@ -63,7 +63,7 @@ pub static PCF: Table<PcfRow> = Table {
         column(
             "g_locally_scaled",
             "ratio",
-            "The same with distances in local spacings, only where the trend is \
+            "Pair correlation function of distances in local spacings, only where the trend is \
                 significant.",
         )
         .edge(Own)

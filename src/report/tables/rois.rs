@@ -9,9 +9,9 @@ pub struct RoiRow {
     pub file: String,
     /// Name of the region.
     pub roi: String,
-    /// Its box, after it has grown.
+    /// The box, after it has grown.
     pub frame: Rectangle,
-    /// What is to be said of it: `edge`, `few`, `outside`, or several.
+    /// Remarks: `edge`, `few`, `outside`, or several.
     pub flag: String,
     /// The points in it as a mosaic of their own; `None` outside the window.
     pub record: Option<CoordinatesRecord>,
