@@ -39,8 +39,7 @@ pub static PCF: Table<PcfRow> = Table {
         column(
             "r",
             "spacings",
-            "Left edge of the bin, in hexagonal spacings of the mosaic's density; g is its mean \
-                over the bin.",
+            "Left edge of the bin, at which g is taken, in hexagonal spacings of the mosaic's density.",
         )
         .of(|p| p.pcf.r.get(p.index).copied().into()),
         column(
@@ -132,8 +131,12 @@ pub static ENVELOPE: Table<EnvelopeRow> = Table {
     commands: "compare, run --verdict (images/NAME/envelope.csv)",
     about: "One row per distance; three columns per sampler.",
     columns: &[
-        column("r", "spacings", "Left edge of the bin, in hexagonal spacings of the mosaic's density.")
-            .of(|e| e.pcf.r.get(e.index).copied().into()),
+        column(
+            "r",
+            "spacings",
+            "Left edge of the bin, at which g is taken, in hexagonal spacings of the mosaic's density.",
+        )
+        .of(|e| e.pcf.r.get(e.index).copied().into()),
         column("g", "ratio", "Pair correlation function of the mosaic.")
             .edge(Own)
             .of(|e| e.pcf.g.get(e.index).copied().into()),
