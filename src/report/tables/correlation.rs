@@ -39,7 +39,8 @@ pub static PCF: Table<PcfRow> = Table {
         column(
             "r",
             "spacings",
-            "Left edge of the bin, at which g is taken, in hexagonal spacings of the mosaic's density.",
+            "Left edge of the bin, at which g is taken, in hexagonal spacings of the mosaic's \
+                density.",
         )
         .of(|p| p.pcf.r.get(p.index).copied().into()),
         column(
@@ -134,7 +135,8 @@ pub static ENVELOPE: Table<EnvelopeRow> = Table {
         column(
             "r",
             "spacings",
-            "Left edge of the bin, at which g is taken, in hexagonal spacings of the mosaic's density.",
+            "Left edge of the bin, at which g is taken, in hexagonal spacings of the mosaic's \
+                density.",
         )
         .of(|e| e.pcf.r.get(e.index).copied().into()),
         column("g", "ratio", "Pair correlation function of the mosaic.")
