@@ -121,7 +121,7 @@ fn clark_evans_is_that_of_spatstat() {
         let Some(sites) = table(&format!("{mosaic}.points.csv")) else { return };
         let window = Window::rectangle(0.5, 0.5, 150.5, 150.5).unwrap();
         let found = Mosaic::new(points(&sites), window, LengthUnit::Pixel, None).unwrap().0;
-        let ours = measure(&found, &MeasureOptions::default()).clark_evans;
+        let ours = measure(&found, &MeasureOptions::default()).summary.clark_evans;
         // six decimals are what there is to compare with
         assert!((ours.naive.unwrap() - naive).abs() < 1e-6, "{ours:?}");
         assert!((ours.donnelly.unwrap() - donnelly).abs() < 1e-6, "{ours:?}");
@@ -183,20 +183,20 @@ fn cells_and_neighbours_are_those_of_metricks() {
         let window = Window::rectangle(0., 0., 150., 150.).unwrap();
         let found = Mosaic::new(inside, window, LengthUnit::Pixel, None).unwrap().0;
         let ours = measure(&found, &MeasureOptions::default());
-        let cells = &ours.voronoi;
+        let cells = &ours.summary.voronoi;
         assert_eq!((found.len(), cells.bound), (n, bound));
         let ours = [
             cells.density.unwrap() * 1e6 / (um * um),
-            ours.nearest_bound.mean.unwrap() * um,
+            ours.summary.nearest_bound.mean.unwrap() * um,
             cells.inter_cell.mean.unwrap() * um,
             cells.furthest.mean.unwrap() * um,
             cells.area.mean.unwrap() * um * um,
             cells.six_sided_percent.unwrap(),
             cells.area.ri.unwrap(),
             cells.sides.ri.unwrap(),
-            ours.nearest.ri.unwrap(),
+            ours.summary.nearest.ri.unwrap(),
             cells.inter_cell.ri.unwrap(),
-            ours.nearest.mean.unwrap() * um,
+            ours.summary.nearest.mean.unwrap() * um,
             cells.inter_cell_all.mean.unwrap() * um,
             cells.furthest_all.mean.unwrap() * um,
         ];

@@ -222,9 +222,9 @@ fn clark_evans_is_that_of_spatstat() {
             ("n", Some(mosaic.len() as f64)),
             ("area", Some(mosaic.window().area())),
             ("perimeter", Some(mosaic.window().perimeter())),
-            ("clark_evans_naive", ours.clark_evans.naive),
-            ("clark_evans_donnelly", ours.clark_evans.donnelly),
-            ("clark_evans_cdf", ours.clark_evans.cdf),
+            ("clark_evans_naive", ours.summary.clark_evans.naive),
+            ("clark_evans_donnelly", ours.summary.clark_evans.donnelly),
+            ("clark_evans_cdf", ours.summary.clark_evans.cdf),
         ];
         for (what, value) in ours {
             let Some(theirs) = theirs[what][0] else {

@@ -9,13 +9,13 @@ const NO_MEASURE: [&str; 6] =
 
 /// Numbers of the same images by one grader, session or program: a `summary.csv`, or any CSV with a column `name` or `file`.
 pub(in crate::batch) struct Readings {
-    /// What it is called.
+    /// Name of the grader.
     pub label: String,
     /// Names of all columns.
     pub columns: Vec<String>,
     /// The unit of the coordinates of all rows, if the table says it and it is one.
     pub unit: Option<String>,
-    /// By image, the value of every column; `None` where it is no number.
+    /// Values by image: the value of every column; `None` where it is no number.
     pub items: BTreeMap<String, Vec<Option<f64>>>,
 }
 
@@ -77,13 +77,13 @@ impl Readings {
         Ok(Self { label: named.to_string_lossy().into_owned(), columns: header, unit, items })
     }
 
-    /// Whether any image has a number in a column.
+    /// Returns whether any image has a number in a column.
     fn has_numbers(&self, column: &str) -> bool {
         let k = self.columns.iter().position(|c| c == column);
         k.is_some_and(|k| self.items.values().any(|v| v.get(k).copied().flatten().is_some()))
     }
 
-    /// The name by which it has a column of one unit, with numbers.
+    /// Returns the name by which it has a column of one unit, with numbers.
     fn name_of(&self, names: &ColumnNames) -> Option<String> {
         let pixels = self.unit.as_deref() == Some("px");
         let plain = names.in_pixels.iter().copied().filter(|_| pixels);
@@ -91,7 +91,7 @@ impl Readings {
         all.find(|name| self.has_numbers(name)).map(str::to_owned)
     }
 
-    /// What it has for an image; `None` where it has none or no number.
+    /// Returns the value of an image; `None` where it has none or no number.
     pub fn value(&self, item: &str, column: &str) -> Option<f64> {
         let k = self.columns.iter().position(|c| c == column)?;
         self.items.get(item)?.get(k).copied().flatten()
@@ -101,9 +101,9 @@ impl Readings {
 /// A column to compare, and where each table has it.
 #[derive(Clone, Debug)]
 pub(in crate::batch) struct Chosen {
-    /// What it is called in the results: with its unit, where tables name it differently.
+    /// Name in the results: with its unit, where tables name it differently.
     pub name: String,
-    /// Its name in each table.
+    /// Name in each table.
     pub named: Vec<String>,
 }
 

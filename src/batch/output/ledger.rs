@@ -22,7 +22,7 @@ const LIST: &str = "files.sha256";
 /// Where results of earlier runs go that the present one does not replace.
 const EARLIER: &str = "earlier";
 /// Stands in a folder whose tables may not belong together yet.
-pub(in crate::batch) const MARKER: &str = "INCOMPLETE.txt";
+const MARKER: &str = "INCOMPLETE.txt";
 /// Holds times, so that its bytes are never the same.
 const VOLATILE: &str = "run.json";
 

@@ -19,5 +19,5 @@ pub(super) use failures::write_failures;
 pub(super) use figures::write_figure;
 pub(super) use folder::OutputFolder;
 pub(super) use for_each::{Worked, for_each};
-pub(super) use ledger::{MARKER, Standing, hex};
+pub(super) use ledger::{Standing, hex};
 pub(super) use results::ResultFolder;

@@ -62,7 +62,7 @@ pub(super) const FILE: &[Metric] = &[
     metric(
         About,
         Plain,
-        column("modality", "text", "How the image was taken to be made: confocal, split or histology.")
+        column("modality", "text", "Modality that the image was taken for: confocal, split or histology.")
             .only(Part::Images)
             .of(|s| s.detection().map(|d| d.modality.name()).into()),
     ),
@@ -73,7 +73,7 @@ pub(super) const FILE: &[Metric] = &[
         column(
             "outside_window",
             "count",
-            "Points of the file outside the window, which are left out; not those that --crop \
+            "Points of the file outside the window, which are left out; not those that a crop \
                 leaves out.",
         )
         .only(Part::Coordinates)
@@ -82,7 +82,7 @@ pub(super) const FILE: &[Metric] = &[
     metric(
         About,
         Plain,
-        column("warnings", "text", "What a reader of the numbers should know, separated by semicolons.")
+        column("warnings", "text", "Remarks that a reader of the numbers needs, separated by semicolons.")
             .of(|s| s.warnings().join("; ").as_str().into()),
     ),
 ];

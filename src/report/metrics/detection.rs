@@ -37,20 +37,16 @@ pub(super) const DETECTION: &[Metric] = &[
     metric(
         Detection,
         Plain,
-        column("polarity", "text", "Which way round the contrast was taken to run.")
+        column("polarity", "text", "Sign of the contrast that the cones were taken to have.")
             .only(Part::Images)
             .of(|s| s.detection().map(|d| d.polarity.name()).into()),
     ),
     metric(
         Detection,
         Plain,
-        column(
-            "expected_false_alarms",
-            "count",
-            "How many of the cones are expected to be none: sum of 1 − score.",
-        )
-        .only(Part::Images)
-        .of(|s| s.detection().map(|d| d.expected_false_alarms).into()),
+        column("expected_false_alarms", "count", "Expected number of cones that are none: sum of 1 − score.")
+            .only(Part::Images)
+            .of(|s| s.detection().map(|d| d.expected_false_alarms).into()),
     ),
     metric(
         Detection,
@@ -58,7 +54,7 @@ pub(super) const DETECTION: &[Metric] = &[
         column(
             "expected_misses",
             "count",
-            "How many cones are expected among the candidates that were rejected: sum of their \
+            "Expected number of cones among the candidates that were rejected: sum of their \
                 scores.",
         )
         .only(Part::Images)
@@ -67,9 +63,13 @@ pub(super) const DETECTION: &[Metric] = &[
     metric(
         Detection,
         Plain,
-        column("expected_error_rate", "0–1", "Both of these over the cones found.")
-            .only(Part::Images)
-            .of(|s| s.detection().map(|d| d.expected_error_rate()).into()),
+        column(
+            "expected_error_rate",
+            "0–1",
+            "Sum of expected_false_alarms and expected_misses over the cones found.",
+        )
+        .only(Part::Images)
+        .of(|s| s.detection().map(|d| d.expected_error_rate()).into()),
     ),
     metric(
         Detection,

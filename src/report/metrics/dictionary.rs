@@ -50,12 +50,12 @@ static DICTIONARY: Table<DictionaryRow> = Table {
     columns: &[
         column("table", "text", "The file.").of(|r| r.table.into()),
         column("column", "text", "The column.").of(|r| r.column.as_str().into()),
-        column("group", "text", "What it is chosen with; of the summary only.").of(|r| r.group.into()),
-        column("unit", "text", "Its unit.").of(|r| r.unit.into()),
-        column("edge_rule", "text", "What is done about the border.").of(|r| r.edge.into()),
+        column("group", "text", "Group that it is chosen with; of the summary only.").of(|r| r.group.into()),
+        column("unit", "text", "Unit of the column.").of(|r| r.unit.into()),
+        column("edge_rule", "text", "Edge rule.").of(|r| r.edge.into()),
         column("commands", "text", "The commands that write it.").of(|r| r.commands.as_str().into()),
-        column("definition", "text", "What it is.").of(|r| r.definition.into()),
-        column("source", "text", "Who defined it.").of(|r| r.source.into()),
+        column("definition", "text", "Definition of the value.").of(|r| r.definition.into()),
+        column("source", "text", "Author and year of the definition.").of(|r| r.source.into()),
     ],
 };
 

@@ -1,8 +1,8 @@
 use crate::report::tables::{Column, Part, Row};
-use crate::report::{CoordinatesRecord, ImageRecord, MosaicRecord};
+use crate::report::{CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord};
 use crate::stats;
 
-/// What a row of a summary is about.
+/// The record that a row of a summary is made from.
 #[derive(Clone, Copy)]
 pub enum Subject<'a> {
     /// An image whose cones this program found.
@@ -73,9 +73,9 @@ impl<'a> Subject<'a> {
 /// Kinds of summaries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SummaryKind {
-    /// Of `run`: one row per image.
+    /// Summaries of `run`: one row per image.
     Images,
-    /// Of `measure`: one row per file of coordinates.
+    /// Summaries of `measure`: one row per file of coordinates.
     Coordinates,
 }
 
@@ -89,12 +89,12 @@ impl SummaryKind {
     }
 }
 
-/// What is chosen together.
+/// Metrics that are chosen together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MetricGroup {
-    /// Which file it is, and what is worth knowing before its numbers.
+    /// The file, and what is worth knowing before its numbers.
     About,
-    /// How the cones were found.
+    /// Detection of the cones.
     Detection,
     /// Cones per area, and the spacing that belongs to it.
     Density,
@@ -114,12 +114,12 @@ pub enum MetricGroup {
     Fourier,
     /// Evenness of density.
     Evenness,
-    /// What is expected at that place of the retina.
+    /// Values expected at that place of the retina.
     Expected,
 }
 
 impl MetricGroup {
-    /// All, in the order of the columns.
+    /// The groups, in the order of the columns.
     pub const ALL: [Self; 12] = [
         Self::About,
         Self::Density,
@@ -135,7 +135,7 @@ impl MetricGroup {
         Self::Expected,
     ];
 
-    /// As it is written in options.
+    /// Returns the name, as it is written in options.
     pub const fn name(self) -> &'static str {
         match self {
             Self::About => "about",
@@ -153,7 +153,7 @@ impl MetricGroup {
         }
     }
 
-    /// A heading for it.
+    /// Returns a heading.
     pub const fn title(self) -> &'static str {
         match self {
             Self::About => "About the file",
@@ -187,9 +187,9 @@ pub enum Quantity {
 
 /// A column of a summary, or several that differ in nothing but their unit.
 pub struct Metric {
-    /// What it is chosen with.
+    /// The group that it is chosen with.
     pub group: MetricGroup,
-    /// Its dimension; values are in the unit of the coordinates.
+    /// Dimension; values are in the unit of the coordinates.
     pub quantity: Quantity,
     /// Name (less the unit), definition and value.
     pub column: Column<Subject<'static>>,
@@ -205,7 +205,7 @@ pub(super) const fn metric(
 }
 
 impl Metric {
-    /// Whether a summary has it.
+    /// Returns whether a summary of this kind has it.
     pub fn is_of(&self, kind: SummaryKind) -> bool {
         self.column.words.part.is_none_or(|only| only == kind.part())
     }

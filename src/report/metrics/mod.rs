@@ -14,9 +14,9 @@ mod order;
 mod regularity;
 mod selection;
 mod summary;
-mod unit;
 #[cfg(test)]
-mod values;
+mod tests;
+mod unit;
 mod voronoi;
 mod words;
 
@@ -47,29 +47,4 @@ pub fn metrics() -> impl Iterator<Item = &'static Metric> {
     ]
     .into_iter()
     .flatten()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::collections::HashSet;
-
-    #[test]
-    fn every_metric_has_its_own_name_a_definition_and_stands_with_its_group() {
-        let mut names = HashSet::new();
-        let mut groups = Vec::new();
-        for metric in metrics() {
-            assert!(names.insert(metric.column.words.name), "{} twice", metric.column.words.name);
-            assert!(
-                metric.column.words.definition.ends_with('.'),
-                "{}: {}",
-                metric.column.words.name,
-                metric.column.words.definition
-            );
-            if groups.last() != Some(&metric.group) {
-                groups.push(metric.group);
-            }
-        }
-        assert_eq!(groups, MetricGroup::ALL);
-    }
 }

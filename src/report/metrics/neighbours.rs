@@ -55,9 +55,13 @@ pub(super) const NEAREST: &[Metric] = &[
     metric(
         Nearest,
         Plain,
-        column("n_interior", "count", "How many such points there are.")
-            .edge(Interior)
-            .of(|s| s.stats().nearest_interior.n.into()),
+        column(
+            "n_interior",
+            "count",
+            "Number of points at least as far from the border as from their nearest neighbour.",
+        )
+        .edge(Interior)
+        .of(|s| s.stats().nearest_interior.n.into()),
     ),
     metric(
         Nearest,

@@ -124,7 +124,7 @@ pub(super) const ORIENTATION: &[Metric] = &[
         column(
             "anisotropy_axis_deg",
             "degrees, counter-clockwise from the x axis",
-            "Direction of its longer half axis, 0–180; empty where both are equal.",
+            "Direction of the longer half axis of that ellipse, 0–180; empty where both are equal.",
         )
         .edge(Bound)
         .source("Curcio & Sloan 1992; Cooper et al. 2016")
@@ -136,7 +136,7 @@ pub(super) const ORIENTATION: &[Metric] = &[
         column(
             "neighbour_ellipse_major",
             "",
-            "Its longer half axis, √2 × the root mean square along it: the spacing of a triangular \
+            "Longer half axis of that ellipse, √2 × the root mean square along it: the spacing of a triangular \
                 lattice.",
         )
         .edge(Bound)
@@ -146,7 +146,7 @@ pub(super) const ORIENTATION: &[Metric] = &[
     metric(
         Orientation,
         Length,
-        column("neighbour_ellipse_minor", "", "Its shorter half axis.")
+        column("neighbour_ellipse_minor", "", "Shorter half axis of that ellipse.")
             .edge(Bound)
             .source("Curcio & Sloan 1992; Cooper et al. 2016")
             .of(|s| s.stats().orientation.ellipse.map(|e| e.minor).into()),

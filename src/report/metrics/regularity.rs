@@ -24,7 +24,7 @@ pub(super) const REGULARITY: &[Metric] = &[
         column(
             "clark_evans_donnelly",
             "ratio",
-            "The same with the expectation corrected for the border by its length; empty on a \
+            "Clark–Evans index with the expectation corrected for the border by its length; empty on a \
                 torus.",
         )
         .edge(Own)
@@ -37,7 +37,7 @@ pub(super) const REGULARITY: &[Metric] = &[
         column(
             "clark_evans_cdf",
             "ratio",
-            "The same with the mean taken from the Kaplan–Meier estimate of the distribution of \
+            "Clark–Evans index with the mean taken from the Kaplan–Meier estimate of the distribution of \
                 the distances.",
         )
         .edge(Own)
@@ -73,13 +73,13 @@ pub(super) const EVENNESS: &[Metric] = &[
     metric(
         Evenness,
         Plain,
-        column("density_variation_low", "ratio", "Lower end of its 98 % interval.")
+        column("density_variation_low", "ratio", "Lower end of the 98 % interval of density_variation.")
             .of(|s| s.stats().trend.variation_interval.map(|i| i.0).into()),
     ),
     metric(
         Evenness,
         Plain,
-        column("density_variation_high", "ratio", "Upper end of its 98 % interval.")
+        column("density_variation_high", "ratio", "Upper end of that interval.")
             .of(|s| s.stats().trend.variation_interval.map(|i| i.1).into()),
     ),
     metric(

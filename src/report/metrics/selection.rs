@@ -4,7 +4,7 @@ use super::{Metric, MetricGroup, SummaryKind, metrics};
 use crate::sample::samplers;
 use std::str::FromStr;
 
-/// Which metrics a summary has: all, or those of some groups or names. The file, the number of cones and
+/// Metrics that a summary has: all, or those of some groups or names. The file, the number of cones and
 /// the warnings are always there.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct MetricSelection {
@@ -15,40 +15,40 @@ pub struct MetricSelection {
 /// Columns that no summary is without.
 const ALWAYS: [&str; 4] = ["file", "unit", "n", "warnings"];
 
-/// Both kinds of summaries.
+/// The kinds of summaries.
 const KINDS: [SummaryKind; 2] = [SummaryKind::Images, SummaryKind::Coordinates];
 
 impl MetricSelection {
-    /// Whether all metrics are wanted.
+    /// Returns whether all metrics are wanted.
     pub fn is_all(&self) -> bool {
         self.wanted.is_empty()
     }
 
-    /// Whether a summary of this kind has any column of a group.
+    /// Returns whether a summary of this kind has any column of a group.
     pub fn has_any_of(&self, group: MetricGroup, kind: SummaryKind) -> bool {
         metrics()
             .filter(|m| m.group == group && m.is_of(kind))
             .any(|m| columns(m, kind, &[]).any(|c| self.has(m, &c.name)))
     }
 
-    /// Whether a column of a metric is in the summary.
+    /// Returns whether a column of a metric is in the summary.
     pub(super) fn has(&self, metric: &Metric, column: &str) -> bool {
         self.is_all() || ALWAYS.contains(&metric.column.words.name) || self.names(metric, column)
     }
 
-    /// Whether a column was asked for, by its group, its metric or its own name.
+    /// Returns whether a column was asked for, by its group, its metric or its own name.
     pub(super) fn names(&self, metric: &Metric, column: &str) -> bool {
         let names = [metric.group.name(), metric.column.words.name, column];
         self.wanted.iter().any(|w| names.contains(&w.as_str()))
     }
 
-    /// Whether a column was asked for by its own name.
+    /// Returns whether a column was asked for by its own name.
     pub(super) fn names_column(&self, column: &str) -> bool {
         self.wanted.iter().any(|w| w == column)
     }
 }
 
-/// Whether a word names a group, a metric or a column, of any sampler too.
+/// Returns whether a word names a group, a metric or a column, of any sampler too.
 fn is_known(word: &str) -> bool {
     let every: Vec<String> = samplers().iter().map(|s| s.name().to_owned()).collect();
     let names = |m: &'static Metric, kind| {

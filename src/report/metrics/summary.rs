@@ -64,7 +64,8 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Of a kind, with the metrics chosen, the samplers compared with, and the columns of a manifest behind them.
+    /// Makes a summary with the metrics chosen, the samplers compared with, and the columns of a manifest
+    /// behind them.
     pub fn new(
         kind: SummaryKind,
         selection: &MetricSelection,
@@ -82,12 +83,12 @@ impl Summary {
         Self { kind, selection: selection.clone(), columns, labels }
     }
 
-    /// Names of the columns.
+    /// Returns the names of the columns.
     pub fn header(&self) -> Vec<String> {
         self.columns.iter().map(|c| c.name.clone()).chain(self.labels.iter().cloned()).collect()
     }
 
-    /// The row of one image or file, under [`Self::header`].
+    /// Returns the row of one image or file, under [`Self::header`].
     pub fn row(&self, subject: &Subject) -> Vec<Cell> {
         let labels = &subject.mosaic().labels;
         let label = |k: usize| labels.get(k).map(String::as_str).filter(|text| !text.is_empty()).into();
@@ -103,7 +104,7 @@ impl Summary {
         sheet(&self.header(), &rows)
     }
 
-    /// A row as a JSON object: numbers in full, `null` where there is none.
+    /// Returns a row as a JSON object: numbers in full, `null` where there is none.
     ///
     /// # Errors
     /// If a number cannot be written.
@@ -113,7 +114,7 @@ impl Summary {
         Ok(serde_json::Value::Object(pairs.collect::<Result<_, serde_json::Error>>()?))
     }
 
-    /// The numbers that can be averaged over images, by column: name, unit, value of each subject.
+    /// Returns the numbers that can be averaged over images, by column: name, unit, value of each subject.
     pub fn numbers(&self, subjects: &[Subject]) -> Vec<(String, &'static str, Vec<Option<f64>>)> {
         let of = |column: &Column| {
             let number = |subject: &Subject| match column.cell(subject) {
@@ -127,7 +128,8 @@ impl Summary {
         self.columns.iter().filter_map(of).collect()
     }
 
-    /// What was asked for, as a table to be read: headers with units and rows; `None` if everything was.
+    /// Returns the columns asked for as a table to be read: headers with units, and rows; `None` if all
+    /// columns were.
     pub fn readable(&self, subjects: &[Subject]) -> Option<(Vec<String>, Vec<Vec<String>>)> {
         if self.selection.is_all() {
             return None;

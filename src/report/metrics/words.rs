@@ -14,35 +14,34 @@ const NAMES: [(&str, &str); 6] = [
 /// Returns what a column of a summary measures and its unit (empty without one), in words for the axis of a figure. A
 /// column that no summary of this crate has keeps its name.
 pub fn column_in_words(column: &str) -> (String, String) {
-    let Some((metric, unit, kind)) = find(column) else { return (column.replace('_', " "), String::new()) };
-    let name = NAMES.iter().find(|n| n.0 == metric.name).map_or(metric.name, |n| n.1);
-    (name.replace('_', " "), unit_in_words(metric, unit, kind).to_owned())
+    let Some((metric, unit)) = find(column) else { return (column.replace('_', " "), String::new()) };
+    let name = NAMES.iter().find(|n| n.0 == metric.column.words.name).map_or(metric.column.words.name, |n| n.1);
+    (name.replace('_', " "), unit_in_words(metric, unit).to_owned())
 }
 
-/// Returns the metric, the unit and the summary that a column belongs to.
-fn find(column: &str) -> Option<(&'static Metric, Unit, SummaryKind)> {
+/// Returns the metric and the unit that a column belongs to.
+fn find(column: &str) -> Option<(&'static Metric, Unit)> {
     let kinds = [SummaryKind::Images, SummaryKind::Coordinates];
     kinds.into_iter().find_map(|kind| {
         metrics().filter(|m| m.is_of(kind)).find_map(|metric| {
-            let rest = column.strip_prefix(metric.name)?;
-            let unit = Unit::ALL.into_iter().find(|unit| unit.suffix(metric.quantity, kind) == rest)?;
-            Some((metric, unit, kind))
+            let rest = column.strip_prefix(metric.column.words.name)?;
+            let mut units = Unit::all(metric.quantity, kind);
+            let unit = units.find(|unit| unit.suffix(metric.quantity) == rest)?;
+            Some((metric, unit))
         })
     })
 }
 
-fn unit_in_words(metric: &Metric, unit: Unit, kind: SummaryKind) -> &'static str {
-    match (metric.quantity, unit, kind) {
-        (Quantity::Plain("text" | "count" | "ratio" | "0–1"), ..) => "",
-        (Quantity::Length, Unit::Coordinates, SummaryKind::Coordinates) => "in the unit of the coordinates",
-        (Quantity::Area | Quantity::Density, Unit::Coordinates, SummaryKind::Coordinates) => {
-            "by the squared unit of the coordinates"
-        }
-        (Quantity::Density, Unit::Coordinates, SummaryKind::Images) => "cones/px²",
+fn unit_in_words(metric: &Metric, unit: Unit) -> &'static str {
+    match (metric.quantity, unit, metric.column.words.unit) {
+        (Quantity::Plain, _, "text" | "count" | "ratio" | "0–1") => "",
+        (Quantity::Length, Unit::Coordinates, _) => "in the unit of the coordinates",
+        (Quantity::Area | Quantity::Density, Unit::Coordinates, _) => "by the squared unit of the coordinates",
+        (Quantity::Density, Unit::Pixels, _) => "cones/px²",
         (Quantity::Density, Unit::Micrometres, _) => "cones/mm²",
         (Quantity::Density, Unit::Degrees, _) => "cones/degree²",
         (Quantity::Density, Unit::Arcminutes, _) => "cones/arcmin²",
-        (quantity, ..) => unit.words(quantity, kind),
+        (quantity, _, plain) => unit.words(quantity, plain),
     }
 }
 

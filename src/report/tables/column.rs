@@ -39,15 +39,15 @@ impl EdgeRule {
 /// Columns that only some files of a kind have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// Where the scale is known.
+    /// Files whose scale is known.
     Scaled,
-    /// Where density varies across the window.
+    /// Files of mosaics whose density varies across the window.
     Varying,
-    /// Where two detectors or graders are compared.
+    /// Files that compare two detectors or graders.
     Versus,
-    /// In summaries of images (`run`).
+    /// Summaries of images (`run`).
     Images,
-    /// In summaries of coordinates (`measure`).
+    /// Summaries of coordinates (`measure`).
     Coordinates,
 }
 
@@ -74,11 +74,11 @@ impl<R: Row> Copy for Value<R> {}
 pub struct ColumnWords {
     /// Name in the header; `SAMPLER` stands for that of each sampler.
     pub name: &'static str,
-    /// Its unit; “unit” is that of the coordinates.
+    /// Unit of the value; “unit” is that of the coordinates.
     pub unit: &'static str,
-    /// What is done about the border.
+    /// Edge rule.
     pub edge: EdgeRule,
-    /// What the value is, and when it is not defined.
+    /// Definition of the value, and when there is none.
     pub definition: &'static str,
     /// Author and year of the definition; empty where it needs none.
     pub source: &'static str,
@@ -88,9 +88,9 @@ pub struct ColumnWords {
 
 /// A column of a table: what it means, and its value. Header, data dictionary and cells all come from here.
 pub struct Column<R: Row> {
-    /// Its name and what it means.
+    /// Name and meaning.
     pub words: ColumnWords,
-    /// How its value is taken from a row.
+    /// The way from a row to its cell.
     pub value: Value<R>,
 }
 
@@ -100,7 +100,7 @@ pub const fn column(name: &'static str, unit: &'static str, definition: &'static
 }
 
 impl ColumnWords {
-    /// Sets what is done about the border.
+    /// Sets the edge rule.
     #[must_use]
     pub const fn edge(self, edge: EdgeRule) -> Self {
         Self { edge, ..self }

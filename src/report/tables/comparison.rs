@@ -3,7 +3,7 @@ use super::{Row, Table, column};
 use crate::report::{CoordinatesRecord, FindingRecord, VerdictRecord};
 use crate::stats::{Deviation, Moments};
 
-/// What simulations of a sampler say of the mosaic of a file.
+/// The verdict on the mosaic of a file by simulations of a sampler.
 #[derive(Clone, Copy, Debug)]
 pub struct VerdictRow<'a> {
     /// The file, as given.
@@ -41,23 +41,23 @@ pub static VERDICTS: Table<VerdictRow> = Table {
             .edge(Own)
             .source("Lanaro et al. 2020")
             .of(|v| v.verdict.l_infinity.into()),
-        column("p_l_infinity", "0–1", "p-value of it: the mosaic's rank among the simulations.")
+        column("p_l_infinity", "0–1", "p-value of l_infinity: the mosaic's rank among the simulations.")
             .edge(Own)
             .of(|v| v.verdict.p_l_infinity.into()),
         column(
             "l_infinity_usual",
             "ratio",
-            "Median of it for one simulation against the mean of all other curves.",
+            "Median l_infinity of one simulation against the mean of all other curves.",
         )
         .edge(Own)
         .of(|v| v.verdict.l_infinity_usual.into()),
-        column("l_infinity_95_percent", "ratio", "What 95 % of the simulations stay within.")
+        column("l_infinity_95_percent", "ratio", "The l_infinity that 95 % of the simulations stay within.")
             .edge(Own)
             .of(|v| v.verdict.l_infinity_most.into()),
         column("ri_mean", "ratio", "Mean regularity index of the simulations (all points, n − 1).")
             .edge(All)
             .of(|v| v.verdict.ri_mean.into()),
-        column("ri_sd", "ratio", "Its standard deviation over the simulations.")
+        column("ri_sd", "ratio", "Standard deviation of that index over the simulations.")
             .edge(All)
             .of(|v| v.verdict.ri_sd.into()),
         column("simulations", "count", "Number of simulations.").of(|v| v.verdict.simulations.into()),
@@ -153,9 +153,9 @@ pub static L_INFINITY: Table<CoordinatesRecord> = Table {
         column("ri", "ratio", "Regularity index of all points.")
             .edge(All)
             .of(|r| r.mosaic.stats.nearest.ri.into()),
-        column("sd_kind", "text", "Its divisor: sample (n − 1) or population (n).")
+        column("sd_kind", "text", "Divisor of its variance: sample (n − 1) or population (n).")
             .of(|r| r.mosaic.stats.deviation.name().into()),
-        column("warnings", "text", "What a reader of the numbers should know.")
+        column("warnings", "text", "Remarks that a reader of the numbers needs, separated by semicolons.")
             .of(|r| r.warnings.join("; ").as_str().into()),
     ],
 };
@@ -175,7 +175,8 @@ pub static FINDING: Table<FindingRecord> = Table {
         column("spearman_rho_of_ri_and_l_infinity", "−1–1", "Rank correlation.")
             .source("Spearman 1904")
             .of(|f| f.correlation.map(|c| c.rho).into()),
-        column("p_value", "0–1", "Two-sided p-value of it.").of(|f| f.correlation.map(|c| c.p_value).into()),
+        column("p_value", "0–1", "Two-sided p-value of that correlation.")
+            .of(|f| f.correlation.map(|c| c.p_value).into()),
         column("in_words", "text", "The correlation in words.").of(|f| f.words().as_str().into()),
     ],
 };

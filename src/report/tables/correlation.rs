@@ -32,15 +32,15 @@ impl<'a> PcfRow<'a> {
 pub static PCF: Table<PcfRow> = Table {
     file: "NAME.pcf.csv",
     commands: "measure, compare, run (images/NAME/pcf.csv)",
-    about: "One row per distance; no rows where the function is not defined. Edge rule as chosen \
-            by --edge, by default division by the set covariance of the window (Lanaro et al. \
+    about: "One row per distance; no rows where the function is not defined. Edge rule as chosen, \
+            by default division by the set covariance of the window (Lanaro et al. \
             2020).",
     columns: &[
         column(
             "r",
             "spacings",
-            "Left edge of the bin, in hexagonal spacings of the mosaic's density; g is its mean \
-                over the bin.",
+            "Left edge of the bin, at which g is taken, in hexagonal spacings of the mosaic's \
+                density.",
         )
         .of(|p| p.pcf.r.get(p.index).copied().into()),
         column(
@@ -53,7 +53,7 @@ pub static PCF: Table<PcfRow> = Table {
         column(
             "g_inhomogeneous",
             "ratio",
-            "The same for a density that varies, only where the trend is \
+            "Pair correlation function for a density that varies, only where the trend is \
                 significant.",
         )
         .edge(Own)
@@ -63,7 +63,7 @@ pub static PCF: Table<PcfRow> = Table {
         column(
             "g_locally_scaled",
             "ratio",
-            "The same with distances in local spacings, only where the trend is \
+            "Pair correlation function of distances in local spacings, only where the trend is \
                 significant.",
         )
         .edge(Own)
@@ -132,8 +132,13 @@ pub static ENVELOPE: Table<EnvelopeRow> = Table {
     commands: "compare, run --verdict (images/NAME/envelope.csv)",
     about: "One row per distance; three columns per sampler.",
     columns: &[
-        column("r", "spacings", "Left edge of the bin, in hexagonal spacings of the mosaic's density.")
-            .of(|e| e.pcf.r.get(e.index).copied().into()),
+        column(
+            "r",
+            "spacings",
+            "Left edge of the bin, at which g is taken, in hexagonal spacings of the mosaic's \
+                density.",
+        )
+        .of(|e| e.pcf.r.get(e.index).copied().into()),
         column("g", "ratio", "Pair correlation function of the mosaic.")
             .edge(Own)
             .of(|e| e.pcf.g.get(e.index).copied().into()),

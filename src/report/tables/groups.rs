@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 /// An image or file in a group.
 #[derive(Clone, Copy)]
 pub struct GroupMember<'a> {
-    /// Its record.
+    /// The record of its mosaic.
     pub record: Subject<'a>,
     /// The person it is of, if known.
     pub person: Option<&'a str>,
@@ -41,7 +41,7 @@ pub static GROUPS: Table<GroupRow> = Table {
             .of(|g| g.group.into()),
         column("images", "count", "Images (files) of the group.").of(|g| g.images.into()),
         column("column", "text", "The column of summary.csv.").of(|g| g.column.as_str().into()),
-        column("unit", "text", "Its unit.").of(|g| g.unit.into()),
+        column("unit", "text", "Unit of that column.").of(|g| g.unit.into()),
         column("n", "count", "Images of the group that have a value there.").of(|g| g.over_images.n.into()),
         column("mean", "column “unit”", "Mean of these.").of(|g| g.over_images.mean.into()),
         column("sd", "column “unit”", "Standard deviation (n − 1) of these; empty for fewer than two.")

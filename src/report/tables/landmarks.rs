@@ -64,23 +64,23 @@ pub static LANDMARKS: Table<LandmarkRecord> = Table {
         column("ellipse_y", "unit", "y of the centre of that ellipse.")
             .edge(Bound)
             .of(|r| r.ellipse.map(|e| e.centre.y).into()),
-        column("ellipse_semi_major", "unit", "Its longer half axis.")
+        column("ellipse_semi_major", "unit", "Longer half axis of that ellipse.")
             .edge(Bound)
             .of(|r| r.ellipse.map(|e| e.semi_major).into()),
-        column("ellipse_semi_minor", "unit", "Its shorter half axis.")
+        column("ellipse_semi_minor", "unit", "Shorter half axis of that ellipse.")
             .edge(Bound)
             .of(|r| r.ellipse.map(|e| e.semi_minor).into()),
         column(
             "ellipse_degrees",
             "degrees",
-            "Direction of its longer axis, 0–180° from +x towards +y (down in a picture).",
+            "Direction of the longer axis, 0–180° from +x towards +y (down in a picture).",
         )
         .edge(Bound)
         .of(|r| r.ellipse.map(|e| e.degrees).into()),
         column(
             "note",
             "text",
-            "Why there is no map or region, or that the region is cut by the edge of the map.",
+            "Reason why there is no map or region, or that the region is cut by the edge of the map.",
         )
         .of(|r| r.note.as_str().into()),
     ],

@@ -164,7 +164,7 @@ pub static FOURIER_MAP: Table<FourierRow> = Table {
         column("spacing_px", "px", "Distance of neighbours by the ring.").of(|f| f.spacing.into()),
         column("spacing_um", "µm", "spacing_px in µm; empty without a scale.")
             .of(|f| length(Some(f.spacing), f.um_per_px).into()),
-        column("confidence", "0–1", "How clearly the ring stands out of the spectrum's background.")
+        column("confidence", "0–1", "Share of the variance of the spectrum that the ring explains.")
             .of(|f| f.confidence.into()),
     ],
 };

@@ -47,7 +47,7 @@ pub use validation::{
     validation_csv,
 };
 
-/// All tables, in the order in which a user meets them.
+/// The tables, in the order in which a user meets them.
 pub static TABLES: [&dyn Described; 32] = [
     &DETECTIONS,
     &PCF,

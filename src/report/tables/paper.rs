@@ -26,20 +26,20 @@ pub static PAPER_TABLE_1: Table<MadeRow> = Table {
         column("mean_printed", "unit", "Mean nearest-neighbour distance, as printed.")
             .of(|r| r.printed.mean.into()),
         column("mean", "unit", "Mean over patterns of the mean distance.").of(|r| r.mean.mean.into()),
-        column("mean_sd", "unit", "Its standard deviation.").of(|r| r.mean.sd.into()),
+        column("mean_sd", "unit", "Standard deviation of that mean.").of(|r| r.mean.sd.into()),
         column("sd_printed", "unit", "Standard deviation of the distances (n), as printed.")
             .of(|r| r.printed.sd.into()),
         column("sd", "unit", "Mean over patterns of the standard deviation (n).").of(|r| r.sd.mean.into()),
-        column("sd_sd", "unit", "Its standard deviation.").of(|r| r.sd.sd.into()),
+        column("sd_sd", "unit", "Standard deviation of that deviation.").of(|r| r.sd.sd.into()),
         column("ri_printed", "ratio", "Regularity index, as printed.").of(|r| r.printed.ri.into()),
         column("ri", "ratio", "Mean over patterns of the regularity index.").of(|r| r.ri.mean.into()),
-        column("ri_sd", "ratio", "Its standard deviation.").of(|r| r.ri.sd.into()),
+        column("ri_sd", "ratio", "Standard deviation of that index.").of(|r| r.ri.sd.into()),
         column("deviations", "ratio", "ri_printed − ri in standard deviations ri_sd.")
             .of(|r| r.deviations().into()),
-        column("agrees", "yes or no", "Whether these are at most 2.").of(|r| yes(r.agrees())),
+        column("agrees", "yes or no", "yes where these are at most 2.").of(|r| yes(r.agrees())),
         column("points_by_printed_mean", "count", "Points that mean_printed would belong to.")
             .of(|r| r.points_by_mean_distance().map(|p| p.0).into()),
-        column("points_sd", "count", "Its standard deviation.")
+        column("points_sd", "count", "Standard deviation of that number.")
             .of(|r| r.points_by_mean_distance().map(|p| p.1).into()),
     ],
 };
@@ -66,7 +66,7 @@ pub static PAPER_TABLE_2: Table<PaperDistance> = Table {
         column("second", "text", "The second.").of(|d| d.between[1].into()),
         column("l_infinity", "ratio", "Greatest difference of their mean pair correlation functions.")
             .of(|d| d.found.l_infinity.into()),
-        column("standard_error", "ratio", "Its standard error.").of(|d| d.found.error.into()),
+        column("standard_error", "ratio", "Standard error of l_infinity.").of(|d| d.found.error.into()),
         column("least_allowed_by_table_2", "ratio", "The least distance that all printed rows allow.")
             .of(|d| d.allowed[0].into()),
         column("most_allowed_by_table_2", "ratio", "The greatest distance that they allow.")
@@ -102,7 +102,7 @@ pub static PAPER_TRIANGLE: Table<TriangleRow> = Table {
             .of(|t| t.tightest.room.into()),
         column("tightest_between", "text", "The pair of samplers of that inequality.")
             .of(|t| t.tightest.between.map(|c| TABLE_2_SAMPLERS[c]).join(" – ").as_str().into()),
-        column("holds", "yes or no", "Whether room is not negative.").of(|t| yes(t.tightest.room >= 0.)),
+        column("holds", "yes or no", "yes where room is not negative.").of(|t| yes(t.tightest.room >= 0.)),
     ],
 };
 

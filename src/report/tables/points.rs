@@ -8,7 +8,7 @@ use crate::stats::{Cell as VoronoiCell, Measures};
 /// A cone that the detector found.
 #[derive(Clone, Copy, Debug)]
 pub struct DetectedCone {
-    /// Its centre, px.
+    /// Centre of the cone, px.
     pub centre: Point,
     /// Probability that a person would mark it.
     pub score: f64,
@@ -85,7 +85,7 @@ pub static POINTS: Table<PointRow> = Table {
             .edge(All)
             .of(|p| p.cell.area.into()),
         column("sides", "count", "Sides of the Voronoi cell.").edge(All).of(|p| p.cell.sides.into()),
-        column("bound", "0 or 1", "Whether the cell is finite with every vertex strictly inside the window.")
+        column("bound", "0 or 1", "1 where the cell is finite with every vertex strictly inside the window.")
             .source("Cooper et al. 2016")
             .of(|p| usize::from(p.cell.bound).into()),
         column("icd", "unit", "Mean distance to the Delaunay neighbours.")

@@ -1,17 +1,18 @@
 use super::{Layout, Row, Table, column, sheet};
 use crate::geometry::Rectangle;
 use crate::report::{Cell, CoordinatesRecord, ReportError, Subject, Summary};
+use serde::{Deserialize, Serialize};
 
 /// A region of interest of a mosaic.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct RoiRow {
     /// The file of the mosaic, as given.
     pub file: String,
     /// Name of the region.
     pub roi: String,
-    /// Its box, after it has grown.
+    /// The box, after it has grown.
     pub frame: Rectangle,
-    /// What is to be said of it: `edge`, `few`, `outside`, or several.
+    /// Remarks: `edge`, `few`, `outside`, or several.
     pub flag: String,
     /// The points in it as a mosaic of their own; `None` outside the window.
     pub record: Option<CoordinatesRecord>,

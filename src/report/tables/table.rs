@@ -7,13 +7,13 @@ pub struct Table<R: Row + 'static> {
     pub file: &'static str,
     /// The commands that write it.
     pub commands: &'static str,
-    /// What a row is, and what holds for all columns.
+    /// Description of a row, and of what holds for all columns.
     pub about: &'static str,
     /// The columns, in their order.
     pub columns: &'static [Column<R>],
 }
 
-/// What differs between files of one kind.
+/// Differences between files of one kind.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Layout<'s> {
     /// Samplers for which columns are repeated.
@@ -89,9 +89,9 @@ pub struct TableWords {
     pub file: &'static str,
     /// The commands that write it.
     pub commands: &'static str,
-    /// What a row is.
+    /// Description of a row.
     pub about: &'static str,
-    /// Its columns.
+    /// The columns, without their values.
     pub columns: Vec<ColumnWords>,
 }
 

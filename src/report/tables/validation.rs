@@ -54,7 +54,8 @@ pub static VALIDATION: Table<ValidationRow> = Table {
     columns: &[
         column("file", "text", "The detections or image, as given.").of(|r| r.file.as_str().into()),
         column("name", "text", "Name of the image.").of(|r| r.name.as_str().into()),
-        column("group", "text", "Its group; empty without groups.").of(|r| r.group.as_deref().into()),
+        column("group", "text", "Group of the image; empty without groups.")
+            .of(|r| r.group.as_deref().into()),
         column("tp", "count", "Hits: marks with a detection.").of(|r| r.score.rates.tp.into()),
         column("fn", "count", "Misses: marks without.").of(|r| r.score.rates.fn_.into()),
         column("fp", "count", "False alarms: detections without a mark.").of(|r| r.score.rates.fp.into()),
@@ -68,9 +69,9 @@ pub static VALIDATION: Table<ValidationRow> = Table {
             .of(|r| r.score.localisation_um().into()),
         column("localisation_s", "spacings", "localisation_px in hexagonal spacings of the marks.")
             .of(|r| r.score.localisation_s.into()),
-        column("offset_x_px", "px", "Mean way from mark to detection, to the right.")
+        column("offset_x_px", "px", "Mean displacement from mark to detection, to the right.")
             .of(|r| r.score.offset_px.map(|o| o[0]).into()),
-        column("offset_y_px", "px", "Mean way from mark to detection, down.")
+        column("offset_y_px", "px", "Mean displacement from mark to detection, down.")
             .of(|r| r.score.offset_px.map(|o| o[1]).into()),
         column("marks_inside", "count", "Marks outside the border.").of(|r| r.score.marks_inside.into()),
         column("detections_inside", "count", "Detections outside the border.")
@@ -87,7 +88,7 @@ pub static VALIDATION: Table<ValidationRow> = Table {
         column("n_marks", "count", "Marks, border included.").of(|r| r.score.n_marks.into()),
         column("n_detections", "count", "Detections, border included.").of(|r| r.score.n_detections.into()),
         column("limit_px", "px", "Greatest distance of a pair.").of(|r| r.score.limit_px.into()),
-        column("assignment", "text", "Who got whom where several were near.")
+        column("assignment", "text", "Rule by which marks and detections are paired where several are near.")
             .of(|r| r.score.assignment.name().into()),
         column("versus_dice", "0–1", "Dice coefficient of the second.")
             .only(Part::Versus)
@@ -198,7 +199,7 @@ pub static RELIABILITY: Table<ReliabilityBin> = Table {
     about: "One row per tenth of the range of scores.",
     columns: &[
         column("score_from", "0–1", "Least score of the bin.").of(|b| b.from.into()),
-        column("score_to", "0–1", "Its upper end.").of(|b| b.to.into()),
+        column("score_to", "0–1", "Upper end of the bin.").of(|b| b.to.into()),
         column("n", "count", "Detections in it.").of(|b| b.n.into()),
         column("mean_score", "0–1", "Their mean score.").of(|b| b.mean_score.into()),
         column("hits", "0–1", "Share of them that are hits.").of(|b| b.hits.into()),
@@ -221,7 +222,7 @@ pub static COMPARISON: Table<Difference> = Table {
     commands: "validate --versus",
     about: "One row per measure: the same images by two detectors or graders.",
     columns: &[
-        column("measure", "text", "What is compared.").of(|d| d.measure.into()),
+        column("measure", "text", "The measure compared.").of(|d| d.measure.into()),
         column("images", "count", "Images for which both have a value.").of(|d| d.images.into()),
         column("first", "of the measure", "Mean over images of the first.").of(|d| d.first.into()),
         column("second", "of the measure", "Mean over images of the second.").of(|d| d.second.into()),

@@ -3,6 +3,7 @@
 
 mod mosaic;
 mod paper;
+mod records;
 mod scores;
 
 use super::{Described, TABLES, sheet};
@@ -59,8 +60,8 @@ fn every_column_of_every_table_is_the_value_that_its_name_says() {
     mosaic::functions_of_distance(&mut held);
     mosaic::maps_and_profiles(&mut held);
     mosaic::spectra_of_tiles(&mut held);
-    mosaic::records(&mut held);
-    mosaic::regions_groups_and_failures(&mut held);
+    records::records(&mut held);
+    records::regions_groups_and_failures(&mut held);
     scores::validation(&mut held);
     scores::curves_of_scores(&mut held);
     scores::agreement(&mut held);

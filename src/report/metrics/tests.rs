@@ -1,7 +1,7 @@
 //! Every column of the summaries is held to the value of the record that its name says. All numbers of the
 //! record differ, so that exchanging the values of two columns cannot pass.
 
-use super::{MetricSelection, Quantity, Subject, Summary, SummaryKind, metrics};
+use super::{MetricGroup, MetricSelection, Quantity, Subject, Summary, SummaryKind, metrics};
 use crate::detect::{Detector, FourierEstimate, FourierSpacing, Modality, Polarity};
 use crate::geometry::{Point, Rectangle, Window};
 use crate::mosaic::{LengthUnit, Meridian, Mosaic, RetinalPlace, Scale};
@@ -9,7 +9,7 @@ use crate::report::{Cell, CoordinatesRecord, DetectionRecord, ImageRecord, Mosai
 use crate::stats::measure;
 use rand::{RngExt, SeedableRng};
 use serde_json::Value;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 /// Columns in the unit of the image, or without a unit, and where `metrics.json` has their values.
 const COLUMNS: [(&str, &str); 76] = [
@@ -250,4 +250,23 @@ fn coordinates_have_the_columns_of_images_and_each_in_their_own_unit_too() {
     in_um.mosaic.um_per_image_px = None;
     let row = row_of(SummaryKind::Coordinates, &Subject::Coordinates(&in_um));
     assert_eq!((&row["nn_mean_px"], &row["um_per_px"]), (&Cell::Missing, &Cell::Missing));
+}
+
+#[test]
+fn every_metric_has_its_own_name_a_definition_and_stands_with_its_group() {
+    let mut names = HashSet::new();
+    let mut groups = Vec::new();
+    for metric in metrics() {
+        assert!(names.insert(metric.column.words.name), "{} twice", metric.column.words.name);
+        assert!(
+            metric.column.words.definition.ends_with('.'),
+            "{}: {}",
+            metric.column.words.name,
+            metric.column.words.definition
+        );
+        if groups.last() != Some(&metric.group) {
+            groups.push(metric.group);
+        }
+    }
+    assert_eq!(groups, MetricGroup::ALL);
 }
