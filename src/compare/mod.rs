@@ -1,39 +1,24 @@
 //! A mosaic against samplers; detections against reference marks.
 
 mod agreement;
-mod assignment;
-mod bootstrap;
-mod comparison;
-mod curves;
-mod froc;
-mod groups;
-mod intraclass;
-mod l_infinity;
-mod matching;
+mod marks;
 pub mod paper;
-mod reference;
-mod reliability;
-mod sign_flip;
-mod summary;
-mod validation;
-mod verdict;
+mod samplers;
 
-pub use agreement::{Agreement, agreement};
-pub use bootstrap::{Interval, RESAMPLES, bootstrap};
-pub use comparison::{Difference, compare_scores};
-pub use curves::mean_curve;
-pub(crate) use curves::{curve, draw, of_sampler};
-pub use froc::{Froc, FrocPoint, Judged, JudgedImage, Verdict, froc, judge};
-pub use groups::{GroupSummary, MeanOverGroups, by_group, clusters, mean_over_groups};
-pub use intraclass::{Intraclass, intraclass};
-pub use l_infinity::{CompareError, l_infinity};
-pub use matching::{Assignment, MatchError, MatchOptions, Matching, Pair, match_points};
-pub use reference::{ReferenceCurve, References};
-pub use reliability::{Reliability, ReliabilityBin, reliability};
-pub use sign_flip::sign_flip_test;
-pub use summary::{Summary, intervals, summarise};
-pub use validation::{Rates, Score, validate};
-pub use verdict::{Envelope, SamplerVerdict, VerdictOptions, verdict};
+pub use agreement::{
+    Agreement, Interval, Intraclass, RESAMPLES, agreement, bootstrap, intraclass, sign_flip_test,
+};
+pub use marks::{
+    Assignment, Difference, Froc, FrocPoint, GroupSummary, Judged, JudgedImage, MatchError, MatchOptions,
+    Matching, MeanOverGroups, Pair, Rates, Reliability, ReliabilityBin, Score, Summary, Verdict, by_group,
+    clusters, compare_scores, froc, intervals, judge, match_points, mean_over_groups, reliability, summarise,
+    validate,
+};
+pub use samplers::{
+    CompareError, Envelope, ReferenceCurve, References, SamplerVerdict, VerdictOptions, l_infinity,
+    mean_curve, verdict,
+};
+pub(crate) use samplers::{curve, draw, of_sampler};
 
 /// The middle value, or the mean of the two middle ones; `None` without values.
 fn median(values: &mut [f64]) -> Option<f64> {

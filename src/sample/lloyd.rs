@@ -1,4 +1,4 @@
-use super::region::{Region, Relaxes};
+use super::relaxed_region::{Region, Relaxes};
 use super::{Density, Frame, Parameter, SampleError, Sampler, Values, Watch};
 use crate::geometry::power::PowerSites;
 use crate::geometry::{Point, Window};

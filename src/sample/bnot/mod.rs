@@ -6,7 +6,7 @@ mod multigrid;
 mod regularity;
 mod relaxation;
 
-use super::region::{Region, Relaxes};
+use super::relaxed_region::{Region, Relaxes};
 use super::{Density, Frame, Parameter, SampleError, Sampler, Values, Watch};
 use crate::geometry::{Point, Window};
 use rand::Rng;
