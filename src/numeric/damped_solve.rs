@@ -1,34 +1,17 @@
-/// The y of (A + μ) y = b for a symmetric, not negative A, μ being `damping` times the mean of its diagonal: by Cholesky's
+use super::cholesky::Cholesky;
+
+/// Solves (A + μ) y = b for a symmetric, not negative A, μ being `damping` times the mean of its diagonal: by Cholesky's
 /// decomposition. `None` if that breaks down.
 pub(crate) fn solve(a: &[f64], damping: f64, b: &[f64]) -> Option<Vec<f64>> {
     let n = b.len();
     let trace: f64 = (0..n).map(|i| a[i * n + i]).sum();
     let mu = damping * trace / n as f64;
-    let mut l = a.to_vec();
-    for i in 0..n {
-        let (above, row) = l.split_at_mut(i * n);
-        for j in 0..i {
-            let earlier = &above[j * n..=j * n + j];
-            let sum: f64 = row[..j].iter().zip(earlier).map(|(x, y)| x * y).sum();
-            row[j] = (row[j] - sum) / earlier[j];
-        }
-        let sum: f64 = row[..i].iter().map(|x| x * x).sum();
-        let pivot = row[i] + mu - sum;
-        if !(pivot.is_finite() && pivot > 0.) {
-            return None;
-        }
-        row[i] = pivot.sqrt();
-    }
+    let entry = |i: usize, k: usize| if i == k { a[i * n + k] + mu } else { a[i * n + k] };
+    let factor = Cholesky::new(n, 0., entry);
     let mut y = b.to_vec();
-    for i in 0..n {
-        let sum: f64 = (0..i).map(|k| l[i * n + k] * y[k]).sum();
-        y[i] = (y[i] - sum) / l[i * n + i];
-    }
-    for i in (0..n).rev() {
-        let sum: f64 = (i + 1..n).map(|k| l[k * n + i] * y[k]).sum();
-        y[i] = (y[i] - sum) / l[i * n + i];
-    }
-    Some(y)
+    factor.forward(&mut y);
+    factor.backward(&mut y);
+    factor.is_whole().then_some(y)
 }
 
 #[cfg(test)]

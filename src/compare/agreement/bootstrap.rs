@@ -1,4 +1,5 @@
 use crate::compare::mean;
+use crate::numeric::linear_quantile;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use statrs::distribution::{ContinuousCDF, Normal};
@@ -75,14 +76,7 @@ fn bca(estimate: f64, drawn: &mut [f64], left_out: &[f64], normal: &Normal) -> O
         // All resamples on one side of the estimate leave the correction undefined, and the plain percentile.
         if bias.is_finite() && corrected.is_finite() { corrected } else { tail }
     };
-    Some([quantile(drawn, tail(TAIL))?, quantile(drawn, tail(1. - TAIL))?])
-}
-
-/// Quantile of sorted values, interpolated linearly between them (type 7 of Hyndman & Fan 1996).
-fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
-    let place = share.clamp(0., 1.) * sorted.len().checked_sub(1)? as f64;
-    let (low, high) = (sorted.get(place.floor() as usize)?, sorted.get(place.ceil() as usize)?);
-    Some(low + (high - low) * place.fract())
+    Some([linear_quantile(drawn, tail(TAIL))?, linear_quantile(drawn, tail(1. - TAIL))?])
 }
 
 #[cfg(test)]
@@ -138,12 +132,5 @@ mod tests {
             .count();
         println!("{covered} of 400 cover the mean");
         assert!((368..=392).contains(&covered), "{covered}");
-    }
-
-    #[test]
-    fn quantiles_lie_between_the_values() {
-        let values = [1., 2., 4., 8.];
-        assert_eq!([0., 0.5, 1.].map(|q| quantile(&values, q)), [Some(1.), Some(3.), Some(8.)]);
-        assert_eq!(quantile(&[], 0.5), None);
     }
 }

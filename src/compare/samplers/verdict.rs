@@ -1,5 +1,6 @@
 use super::{CompareError, curve, draw, l_infinity};
 use crate::geometry::Window;
+use crate::numeric::stepped_quantile;
 use crate::sample::Sampler;
 use crate::stats::{Deviation, Moments, Pcf, PcfOptions, moments, nearest_neighbours, rank_envelope};
 use rand::SeedableRng;
@@ -164,8 +165,8 @@ pub fn verdict(
         simulations: simulations.len(),
         points: (made().min().unwrap_or(0), made().max().unwrap_or(0)),
         l_infinity: distance,
-        l_infinity_usual: quantile(&usual, 0.5),
-        l_infinity_most: quantile(&usual, 0.95),
+        l_infinity_usual: stepped_quantile(&usual, 0.5),
+        l_infinity_most: stepped_quantile(&usual, 0.95),
         p_l_infinity: (as_far + 1) as f64 / (usual.len() + 1) as f64,
         p_envelope: envelope.p_value,
         level: options.level,
@@ -173,12 +174,6 @@ pub fn verdict(
         ri: moments(&indexes, Deviation::Sample),
         envelope: Envelope { r: mosaic.r.clone(), mean, low: envelope.low, high: envelope.high },
     })
-}
-
-/// The smallest of the rising values that a share `q` of them does not exceed.
-fn quantile(rising: &[f64], q: f64) -> f64 {
-    let index = (q * rising.len() as f64).ceil() as usize;
-    rising.get(index.saturating_sub(1)).copied().unwrap_or(f64::NAN)
 }
 
 fn seed_of(sampler: &str, n: usize, window: &Window, seed: u64) -> Sha256 {

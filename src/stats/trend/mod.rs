@@ -1,9 +1,15 @@
-mod polygon;
+//! The trend of density across a window.
 
-use crate::geometry::{Point, Polygon, Window};
+mod polygon;
+mod size;
+mod surface;
+mod waves;
+
+use self::size::Size;
+use self::surface::DensityFit;
+use self::waves::mean_square;
+use crate::geometry::{Point, Window};
 use serde::{Deserialize, Serialize};
-use statrs::distribution::{ContinuousCDF, Normal};
-use std::f64::consts::{PI, SQRT_2};
 
 /// Chance of calling a variation of [`TREND_TOLERANCE`] significant, and of either end of the interval of its size.
 pub const TREND_LEVEL: f64 = 0.01;
@@ -19,12 +25,8 @@ const FEWEST: usize = 20;
 const NOISE_ALONG_AXIS: std::ops::RangeInclusive<usize> = 3..=8;
 /// Waves along both axes that do the same.
 const NOISE_ACROSS: usize = 12;
-/// Degrees of freedom of the scatter: 2/(2·(4/5)²/12 + 2·(1/5)²/12), rounded down (Satterthwaite 1946).
-const NOISE_FREEDOM: f64 = 17.;
 /// The slowest waves, in half periods along x and y: together they can follow a linear or quadratic trend.
 const TREND_WAVES: [(usize, usize); 5] = [(1, 0), (0, 1), (2, 0), (1, 1), (0, 2)];
-/// The fitted density is not let below this share of its maximum, where a ratio would mean nothing.
-const LEAST_SHARE: f64 = 0.01;
 
 /// Whether the density of a pattern varies across its window, and by how much.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -120,146 +122,6 @@ fn noise_across(aspect: f64) -> Vec<(usize, usize)> {
     modes.sort_by(|a, b| frequency(a).total_cmp(&frequency(b)).then(a.cmp(b)));
     modes.truncate(NOISE_ACROSS);
     modes
-}
-
-/// Mean square of the points' sums over waves √2cos(jπx) · √2cos(kπy), each of mean square 1 over the unit square.
-fn mean_square(unit: &[(f64, f64)], modes: &[(usize, usize)]) -> f64 {
-    let most = modes.iter().map(|&(j, k)| j.max(k)).max().unwrap_or(0);
-    let (mut across, mut down) = (vec![1.; most + 1], vec![1.; most + 1]);
-    let mut sums = vec![0.; modes.len()];
-    for &(u, v) in unit {
-        waves(u, &mut across);
-        waves(v, &mut down);
-        for (sum, &(j, k)) in sums.iter_mut().zip(modes) {
-            *sum += across[j] * down[k];
-        }
-    }
-    sums.iter().map(|s| s * s).sum::<f64>() / modes.len() as f64
-}
-
-/// 1, √2cos(πu), √2cos(2πu) …, by cos((j+1)t) = 2 cos t cos jt − cos((j−1)t).
-pub(super) fn waves(u: f64, values: &mut [f64]) {
-    let cosine = (PI * u).cos();
-    let (mut before, mut now) = (cosine, 1.);
-    for (j, value) in values.iter_mut().enumerate() {
-        *value = if j == 0 { 1. } else { SQRT_2 * now };
-        (before, now) = (now, 2. * cosine * now - before);
-    }
-}
-
-/// Density over its mean, 1 + Σ c P_j(2x−1) P_k(2y−1) with 1 ≤ j + k ≤ 2.
-struct DensityFit {
-    /// Of 1, x, y, x², xy, y².
-    coefficients: [f64; 6],
-}
-
-impl DensityFit {
-    const DEGREES: [(i32, i32); 6] = [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)];
-
-    fn term((j, k): (i32, i32), (u, v): (f64, f64)) -> f64 {
-        let legendre = |degree: i32, t: f64| match degree {
-            0 => 1.,
-            1 => t,
-            _ => 1.5 * t * t - 0.5,
-        };
-        legendre(j, 2. * u - 1.) * legendre(k, 2. * v - 1.)
-    }
-
-    fn new(unit: &[(f64, f64)]) -> Self {
-        let coefficients = Self::DEGREES.map(|(j, k)| {
-            let norm = f64::from((2 * j + 1) * (2 * k + 1));
-            norm * unit.iter().map(|&at| Self::term((j, k), at)).sum::<f64>() / unit.len() as f64
-        });
-        Self { coefficients }
-    }
-
-    /// The same for a polygon, over which the terms are not orthogonal.
-    fn within(polygon: &Polygon, unit: &[(f64, f64)]) -> Self {
-        let means =
-            Self::DEGREES.map(|d| unit.iter().map(|&at| Self::term(d, at)).sum::<f64>() / unit.len() as f64);
-        let fitted =
-            polygon::least_squares(polygon, Self::DEGREES.map(|d| move |at| Self::term(d, at)), means);
-        Self { coefficients: fitted.unwrap_or([1., 0., 0., 0., 0., 0.]) }
-    }
-
-    /// Greatest over least density at the places of a grid that are `inside`.
-    fn ratio(&self, inside: impl Fn((f64, f64)) -> bool) -> f64 {
-        let steps = 32;
-        let (mut least, mut greatest) = (f64::INFINITY, 0f64);
-        for (i, j) in (0..=steps).flat_map(|i| (0..=steps).map(move |j| (i, j))) {
-            let at = (f64::from(i) / f64::from(steps), f64::from(j) / f64::from(steps));
-            if !inside(at) {
-                continue;
-            }
-            let density: f64 =
-                Self::DEGREES.iter().zip(&self.coefficients).map(|(&d, c)| c * Self::term(d, at)).sum();
-            least = least.min(density);
-            greatest = greatest.max(density);
-        }
-        // a polygon so thin that the grid misses it
-        if greatest <= 0. { 1. } else { greatest / least.max(LEAST_SHARE * greatest) }
-    }
-}
-
-/// How much density varies, from the trend's waves and those of the noise, in shares of the mean density.
-struct Size {
-    /// Root mean square of the variation that the sums over the trend's waves amount to, chance included.
-    observed: f64,
-    /// What chance adds to its square: five times the noise of a single wave.
-    chance: f64,
-}
-
-impl Size {
-    const WAVES: f64 = TREND_WAVES.len() as f64;
-
-    /// From mean squares of the sums of `n` points over the trend's and the noise's waves.
-    fn new(strength: f64, scatter: f64, n: usize) -> Self {
-        let per_square = Self::WAVES / (n as f64).powi(2);
-        Self { observed: (per_square * strength).sqrt(), chance: per_square * scatter }
-    }
-
-    fn estimate(&self) -> f64 {
-        (12. * (self.observed.powi(2) - self.chance)).max(0.).sqrt()
-    }
-
-    /// Standard normal deviate of the observation if density varies by `variation`.
-    ///
-    /// The sum of squares over the trend's waves is 5 + λ noises on average, of variance 10 + 4λ, where λ measures the variation:
-    /// a gamma variable of the same two moments (Patnaik 1949). What it is compared with, λ known and 5 noises estimated, has
-    /// 17(1 + λ/5)² degrees of freedom (Satterthwaite 1946). Their ratio's F is made normal by Paulson (1942); at 1 %, F(5, 17)
-    /// comes out at 1.01 %.
-    fn deviate(&self, variation: f64) -> f64 {
-        let square = variation.powi(2) / 12.;
-        // a lattice that fits its window leaves no noise but rounding
-        let chance = self.chance.max(1e-9 * square).max(1e-24);
-        let ratio = (self.observed.powi(2) / (square + chance)).cbrt();
-        let excess = square / chance;
-        let above = 2. / 9. * (1. + 2. * excess) / (Self::WAVES * (1. + excess).powi(2));
-        let below = 2. / 9. / (NOISE_FREEDOM * (1. + excess).powi(2));
-        ((1. - below) * ratio - (1. - above)) / (below * ratio.powi(2) + above).sqrt()
-    }
-
-    /// Chance of an observation as strong in a pattern whose density varies by `variation`.
-    fn chance_of_more(&self, variation: f64) -> f64 {
-        Normal::standard().sf(self.deviate(variation))
-    }
-
-    /// The variations for which the observation is neither too strong nor too weak, each at [`TREND_LEVEL`].
-    fn interval(&self) -> (f64, f64) {
-        let limit = -Normal::standard().inverse_cdf(TREND_LEVEL);
-        let most = 12f64.sqrt() * (self.observed + 20. * self.chance.sqrt());
-        (self.variation_at(limit, most), self.variation_at(-limit, most))
-    }
-
-    /// The variation, at most `most`, at which the deviate, which falls with it, is `value`; 0 if it is below that everywhere.
-    fn variation_at(&self, value: f64, most: f64) -> f64 {
-        let (mut low, mut high) = (0., most);
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if self.deviate(middle) > value { low = middle } else { high = middle }
-        }
-        low
-    }
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
-use super::waves;
+use super::waves::waves;
 use crate::geometry::{Point, Polygon};
+use crate::numeric::Cholesky;
 use std::f64::consts::{PI, SQRT_2};
 
 /// Pieces of the shorter side of the bounds on which integrands are smooth.
@@ -29,7 +30,7 @@ pub(super) fn mean_squares<const N: usize>(
             *sum += across[j] * down[k];
         }
     }
-    let factor = Cholesky::new(modes.len(), gram);
+    let factor = Cholesky::new(modes.len(), LEAST_OWN, gram);
     factor.forward(&mut sums);
     let mut first = 1;
     groups.map(|group| {
@@ -62,7 +63,7 @@ pub(super) fn least_squares<const N: usize>(
     }
     let bounds = polygon.bounds();
     let area = polygon.area() / bounds.area();
-    let factor = Cholesky::new(N, |a, b| gram[a][b] / area);
+    let factor = Cholesky::new(N, LEAST_OWN, |a, b| gram[a][b] / area);
     let mut solution = means;
     factor.forward(&mut solution);
     factor.backward(&mut solution);
@@ -116,53 +117,6 @@ impl CosineIntegrals {
             [(j.abs_diff(l), k.abs_diff(m)), (j + l, k.abs_diff(m)), (j.abs_diff(l), k + m), (j + l, k + m)];
         let sum: f64 = four.iter().map(|&(a, b)| mean(a, b)).sum();
         norm(j) * norm(k) * norm(l) * norm(m) * sum / 4.
-    }
-}
-
-/// The lower triangle L of a symmetric matrix L Lᵀ. A row that depends on earlier ones is left out.
-struct Cholesky {
-    n: usize,
-    lower: Vec<f64>,
-    own: Vec<bool>,
-}
-
-impl Cholesky {
-    fn new(n: usize, matrix: impl Fn(usize, usize) -> f64) -> Self {
-        let mut lower = vec![0.; n * n];
-        let mut own = vec![true; n];
-        for i in 0..n {
-            for j in 0..=i {
-                let dot: f64 = (0..j).map(|k| lower[i * n + k] * lower[j * n + k]).sum();
-                let rest = matrix(i, j) - dot;
-                if i == j {
-                    own[i] = rest > LEAST_OWN * matrix(i, i);
-                    lower[i * n + i] = if own[i] { rest.sqrt() } else { 1. };
-                } else {
-                    lower[i * n + j] = if own[j] { rest / lower[j * n + j] } else { 0. };
-                }
-            }
-        }
-        Self { n, lower, own }
-    }
-
-    fn is_own(&self, k: usize) -> bool {
-        self.own[k]
-    }
-
-    /// x ← L⁻¹ x.
-    fn forward(&self, x: &mut [f64]) {
-        for i in 0..self.n {
-            let dot: f64 = (0..i).map(|k| self.lower[i * self.n + k] * x[k]).sum();
-            x[i] = (x[i] - dot) / self.lower[i * self.n + i];
-        }
-    }
-
-    /// x ← L⁻ᵀ x.
-    fn backward(&self, x: &mut [f64]) {
-        for i in (0..self.n).rev() {
-            let dot: f64 = (i + 1..self.n).map(|k| self.lower[k * self.n + i] * x[k]).sum();
-            x[i] = (x[i] - dot) / self.lower[i * self.n + i];
-        }
     }
 }
 
