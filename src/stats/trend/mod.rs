@@ -127,6 +127,7 @@ fn noise_across(aspect: f64) -> Vec<(usize, usize)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Polygon;
     use crate::sample::{Lloyd, Sampler, sampler};
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
