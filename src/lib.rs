@@ -14,6 +14,7 @@ pub mod files;
 pub mod geometry;
 pub mod image;
 pub mod mosaic;
+mod numeric;
 pub mod render;
 pub mod report;
 pub mod sample;

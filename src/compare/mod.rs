@@ -1,52 +1,27 @@
 //! A mosaic against samplers; detections against reference marks.
 
 mod agreement;
-mod assignment;
-mod bootstrap;
-mod clustered;
-mod comparison;
-mod curve_class;
-mod curves;
-mod froc;
-mod groups;
-mod intraclass;
-mod l_infinity;
-mod matching;
+mod marks;
 pub mod paper;
-mod realisation;
-mod reference;
-mod reliability;
-mod shared_work;
-mod shipped;
-mod shipped_codec;
-mod sign_flip;
-mod subjects;
-mod summary;
-mod target_fit;
-mod validation;
-mod verdict;
+mod samplers;
 
-pub use agreement::{Agreement, agreement};
-pub use bootstrap::{Interval, RESAMPLES, bootstrap};
-pub use clustered::{ClusteredAgreement, agreement_of_clusters};
-pub use comparison::{Difference, compare_scores};
-pub use curves::mean_curve;
-pub(crate) use curves::{curve, draw, of_sampler};
-pub use froc::{Froc, FrocPoint, Judged, JudgedImage, Verdict, froc, judge};
-pub use groups::{GroupSummary, MeanOverGroups, by_group, clusters, mean_over_groups};
-pub use intraclass::{Intraclass, intraclass};
-pub use l_infinity::{CompareError, l_infinity};
-pub use matching::{Assignment, MatchError, MatchOptions, Matching, Pair, match_points};
-pub use reference::{NotCompared, ReferenceCurve, References, SamplerCurves};
-pub use reliability::{Reliability, ReliabilityBin, reliability};
+pub use agreement::{
+    Agreement, ClusteredAgreement, Interval, Intraclass, RESAMPLES, SubjectMean, agreement,
+    agreement_of_clusters, bootstrap, intraclass, least_p, mean_over_subjects, sign_flip_test,
+};
+pub use marks::{
+    Assignment, Difference, Froc, FrocPoint, GroupSummary, Judged, JudgedImage, MatchError, MatchOptions,
+    Matching, MeanOverGroups, Pair, Rates, Reliability, ReliabilityBin, Score, Summary, Verdict, by_group,
+    clusters, compare_scores, froc, intervals, judge, match_points, mean_over_groups, reliability, summarise,
+    validate,
+};
 #[doc(hidden)]
-pub use shipped::make_table;
-pub use sign_flip::{least_p, sign_flip_test};
-pub use subjects::{SubjectMean, mean_over_subjects};
-pub use summary::{Summary, intervals, summarise};
-pub use target_fit::{POOR_FIT, TargetFit, target_fit};
-pub use validation::{Rates, Score, validate};
-pub use verdict::{Envelope, SamplerVerdict, VerdictOptions, verdict};
+pub use samplers::make_table;
+pub use samplers::{
+    CompareError, Envelope, NotCompared, POOR_FIT, ReferenceCurve, References, SamplerCurves, SamplerVerdict,
+    TargetFit, VerdictOptions, l_infinity, mean_curve, target_fit, verdict,
+};
+pub(crate) use samplers::{curve, draw, of_sampler};
 
 /// The middle value, or the mean of the two middle ones; `None` without values.
 fn median(values: &mut [f64]) -> Option<f64> {

@@ -3,6 +3,7 @@
 mod cell_area;
 mod covariance;
 mod edge_tree;
+pub(crate) mod index;
 mod lattice;
 mod neighbours;
 mod point;

@@ -1,4 +1,4 @@
-use super::region::{Region, Relaxes};
+use super::relaxed_region::{Region, Relaxes};
 use super::{Configure, Density, Frame, SampleError, Sampler, Settable, Setting, Watch};
 use crate::geometry::power::PowerSites;
 use crate::geometry::{Point, Window};

@@ -4,62 +4,35 @@
 //! pattern has no border of its own; a bounded window then cuts it off as an image cuts off a mosaic. A polygon is cut
 //! out of a pattern of its bounds.
 
-mod ahumada;
 mod bnot;
-mod bridson;
-mod curcio_sloan;
-mod dart_throwing;
-mod darts;
-mod deering;
 mod density;
+mod disk;
 mod error;
 mod frame;
-mod green;
-mod hash_grid;
 mod jittered;
 mod lattice;
 mod lloyd;
-mod minimal_spacing;
-mod normal;
-mod outward;
+mod normal_deviate;
 mod parameter;
-mod pink;
-mod poisson_disk;
-mod region;
-mod retina;
+mod relaxed_region;
+mod retinal;
 mod sampler;
 mod shaped;
-mod square;
-mod step;
-mod torus_cells;
-mod torus_grid;
-mod triangular;
 mod uniform;
-mod wang;
 
-pub use ahumada::Ahumada;
 pub use bnot::Bnot;
-pub use bridson::Bridson;
-pub use curcio_sloan::CurcioSloan;
-pub use dart_throwing::DartThrowing;
-pub use deering::Deering;
 pub use density::Density;
+pub use disk::{Bridson, DartThrowing, PoissonDisk};
 pub use error::SampleError;
 pub use frame::Frame;
-pub use green::GREEN;
 pub use jittered::Jittered;
+pub use lattice::{Square, Triangular};
 pub use lloyd::Lloyd;
-pub use minimal_spacing::MinimalSpacing;
 pub use parameter::{Configure, Parameter, Settable, Setting};
-pub use pink::PINK;
-pub use poisson_disk::PoissonDisk;
 pub use sampler::{Sampler, Watch};
-pub use shaped::{NearestTarget, Noise, Shaped, TargetCurve};
-pub use square::Square;
-pub use step::Step;
-pub use triangular::Triangular;
+pub use retinal::{Ahumada, CurcioSloan, Deering, MinimalSpacing, Wang};
+pub use shaped::{GREEN, NearestTarget, Noise, PINK, Shaped, Step, TargetCurve};
 pub use uniform::Uniform;
-pub use wang::Wang;
 
 use self::sampler::{cut, nearest_in_number};
 

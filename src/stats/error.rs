@@ -37,7 +37,9 @@ pub enum StatsError {
         y: f64,
     },
     /// The window is a polygon.
-    #[error("{statistic} needs a rectangular window: choose one with --window X0,Y0,X1,Y1")]
+    #[error(
+        "{statistic} needs a rectangular window: give the rectangle X0, Y0, X1, Y1 that is to be measured"
+    )]
     NotRectangular {
         /// What was to be computed.
         statistic: &'static str,

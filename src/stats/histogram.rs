@@ -1,3 +1,4 @@
+use crate::numeric::nearest_rank;
 use serde::{Deserialize, Serialize};
 
 /// Bounds on the number of bins: fewer hide the shape, more show only noise.
@@ -26,7 +27,7 @@ impl Histogram {
             let half = (low.abs() * 0.005).max(f64::MIN_POSITIVE);
             return Self { edges: vec![low - half, low + half], counts: vec![sorted.len()] };
         }
-        let quantile = |q: f64| sorted[((sorted.len() - 1) as f64 * q).round() as usize];
+        let quantile = |q: f64| nearest_rank(&sorted, q).unwrap_or(low);
         let width = 2. * (quantile(0.75) - quantile(0.25)) / (sorted.len() as f64).cbrt();
         // Without a spread of the middle half, 1 + log₂ n bins (Sturges 1926).
         let ideal =

@@ -18,7 +18,6 @@ mod nearest;
 mod orientation;
 mod pairs;
 mod pcf;
-mod polygon_waves;
 mod rank_correlation;
 mod rank_envelope;
 mod rois;

@@ -195,13 +195,7 @@ fn in_range(
 
 /// The quantile of values in rising order, between two of them linearly; infinite if there are none.
 fn quantile(rising: &[f64], part: f64) -> f64 {
-    let place = part * rising.len().saturating_sub(1) as f64;
-    let (low, t) = (place.floor() as usize, place.fract());
-    match (rising.get(low), rising.get(low + 1)) {
-        (Some(a), Some(b)) => a + t * (b - a),
-        (Some(a), None) => *a,
-        _ => f64::INFINITY,
-    }
+    crate::numeric::linear_quantile(rising, part).unwrap_or(f64::INFINITY)
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! How far apart the cones are: first from Yellott's ring, then from the density of what was found; from place to place where
 //! it varies.
 
+mod bins;
 mod fourier;
 mod map;
 mod refine;

@@ -1,16 +1,11 @@
 use super::SPACING_RANGE;
+use super::bins::{BINS, CANDIDATES, LONGEST_PERIOD, PER_OCTAVE, bin_of, candidate};
 use super::ring_network;
 use crate::image::{Plane, Spectrum, crop, signed_frequency};
 use std::sync::OnceLock;
 
 /// Side of the transform, in px.
 pub(super) const SIZE: usize = 512;
-/// Log-frequency bins per octave.
-const PER_OCTAVE: f64 = 24.;
-/// Period of the lowest bin, in px; bin b holds the period 64 / 2^(b/24).
-const LONGEST_PERIOD: f64 = 64.;
-/// Up to half a cycle per pixel.
-pub(super) const BINS: usize = 121;
 /// A ring of fewer periods than this across the image cannot be told from uneven illumination.
 pub(in crate::detect) const PERIODS: f64 = 5.;
 /// Probability that the true spacing is closer than the least that a count may show: below it, more cones are more likely noise.
@@ -244,20 +239,6 @@ impl RingProfile {
             (-2..=2).map(|j| at(middle + f64::from(j))).sum::<f64>() / 5. - mean
         })
     }
-}
-
-/// Where among the bins a period, px, lies.
-fn bin_of(period: f64) -> f64 {
-    PER_OCTAVE * (LONGEST_PERIOD / period).log2()
-}
-
-/// The bin of the widest spacing looked for (40.3 px), and how many there are down to the closest (4 px): as the network was trained.
-pub(super) const FIRST: usize = 16;
-pub(super) const CANDIDATES: usize = 81;
-
-/// The spacing, px, of a candidate.
-fn candidate(k: f64) -> f64 {
-    LONGEST_PERIOD / ((FIRST as f64 + k) / PER_OCTAVE).exp2()
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! A small network that reads the spacing off a spectrum: three convolutions along log-frequency, so that a ring looks the same at
 //! any spacing. Trained by scripts/train-ring on hand-marked and simulated images of all modalities, clear, noisy and blurred.
 
-use super::ring::{BINS, CANDIDATES, FIRST};
+use super::bins::{BINS, CANDIDATES, FIRST};
 use std::sync::OnceLock;
 
 /// Bins that a convolution looks at.

@@ -6,7 +6,7 @@ mod multigrid;
 mod regularity;
 mod relaxation;
 
-use super::region::{Region, Relaxes};
+use super::relaxed_region::{Region, Relaxes};
 use super::{Configure, Density, Frame, SampleError, Sampler, Settable, Setting, Watch};
 use crate::geometry::{Point, Window};
 use rand::Rng;

@@ -1,5 +1,5 @@
 use crate::geometry::power::PowerDiagram;
-use crate::sample::region::Region;
+use crate::sample::relaxed_region::Region;
 use rand::Rng;
 use rand_distr::{Distribution, StandardNormal};
 

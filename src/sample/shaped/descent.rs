@@ -1,6 +1,6 @@
 use super::features::Features;
 use super::neighbours::NeighbourList;
-use super::normal::solve;
+use crate::numeric::solve;
 
 /// Most steps, and most tries to shorten one that raises the misses.
 const STEPS: usize = 30;

@@ -3,15 +3,20 @@
 mod curve;
 mod descent;
 mod features;
+mod green;
 mod neighbours;
 mod noise;
-mod normal;
+mod pink;
 mod spline;
+mod step;
 mod waves;
 
 pub use curve::TargetCurve;
 pub use features::NearestTarget;
+pub use green::GREEN;
 pub use noise::Noise;
+pub use pink::PINK;
+pub use step::Step;
 
 use self::features::Features;
 use super::{Frame, SampleError, Sampler, Watch, nearest_in_number};

@@ -1,0 +1,61 @@
+use super::{Interval, agreement};
+use crate::compare::clusters;
+
+/// A mean over subjects of whom some have several images.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SubjectMean {
+    /// Subjects; `None` where none is named, so that every image counts as a subject of its own.
+    pub subjects: Option<usize>,
+    /// Mean of the subjects' means; `None` without values.
+    pub mean: Option<f64>,
+    /// Standard deviation (n − 1) of the subjects' means over √n; `None` for fewer than two.
+    pub standard_error: Option<f64>,
+    /// 95 % interval of the mean, mean ± t(n − 1) standard errors.
+    pub interval: Option<Interval>,
+}
+
+/// Averages finite values, each with the name of its subject. Values of one subject are not independent:
+/// every subject counts once, with the mean of its values. A value without a name stands alone.
+pub fn mean_over_subjects(values: &[(Option<&str>, f64)]) -> SubjectMean {
+    let names: Vec<Option<&str>> = values.iter().map(|(name, _)| *name).collect();
+    let of_subject = |images: &Vec<usize>| {
+        images.iter().filter_map(|&i| values.get(i)).map(|(_, value)| value).sum::<f64>()
+            / images.len() as f64
+    };
+    let means: Vec<f64> = clusters(&names).iter().map(of_subject).collect();
+    let subjects = names.iter().any(Option::is_some).then_some(means.len());
+    // mean and interval are those of the bias of as many differences
+    let Some(found) = agreement(&means) else { return SubjectMean { subjects, ..SubjectMean::default() } };
+    SubjectMean {
+        subjects,
+        mean: Some(found.bias),
+        standard_error: found.sd.map(|sd| sd / (found.n as f64).sqrt()),
+        interval: found.bias_interval(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn images_of_one_subject_count_as_one() {
+        let named = [(Some("a"), 1.), (Some("a"), 3.), (Some("b"), 6.), (Some("c"), 10.)];
+        let found = mean_over_subjects(&named);
+        // means 2, 6, 10: SD 4, t(2) = 4.3027
+        assert_eq!((found.subjects, found.mean), (Some(3), Some(6.)));
+        let error = found.standard_error.unwrap();
+        assert!((error - 4. / 3f64.sqrt()).abs() < 1e-12, "{error}");
+        let [low, high] = found.interval.unwrap();
+        assert!((low - (6. - 4.302_652_7 * error)).abs() < 1e-5 && (low + high - 12.).abs() < 1e-9);
+    }
+
+    #[test]
+    fn without_names_every_image_stands_alone() {
+        let found = mean_over_subjects(&[(None, 1.), (None, 3.)]);
+        assert_eq!((found.subjects, found.mean, found.standard_error), (None, Some(2.), Some(1.)));
+        assert_eq!(mean_over_subjects(&[]), SubjectMean::default());
+        let one = mean_over_subjects(&[(Some("a"), 1.), (Some("a"), 3.)]);
+        assert_eq!((one.subjects, one.mean, one.standard_error), (Some(1), Some(2.), None));
+    }
+}

@@ -1,0 +1,84 @@
+use super::{Score, Summary, summarise};
+use crate::compare::mean;
+use crate::stats::{Deviation, moments};
+use serde::Serialize;
+
+/// The scores of a subject's images, or of any other group of images.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct GroupSummary {
+    /// Its name.
+    pub group: String,
+    /// Means over its images and pooled rates.
+    #[serde(flatten)]
+    pub summary: Summary,
+    /// Standard deviation (n − 1) of its images' Dice coefficients; `None` of a single image.
+    pub dice_sd: Option<f64>,
+}
+
+/// What groups have in common, every group counting once.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct MeanOverGroups {
+    /// Number of groups.
+    pub groups: usize,
+    /// Mean of the groups' mean sensitivities.
+    pub sensitivity: f64,
+    /// Mean of the groups' mean false discovery rates.
+    pub fdr: f64,
+    /// Mean of the groups' mean precisions.
+    pub precision: f64,
+    /// Mean of the groups' mean Dice coefficients.
+    pub dice: f64,
+    /// Standard deviation (n − 1) of the groups' mean Dice coefficients; `None` of a single group.
+    pub dice_sd: Option<f64>,
+}
+
+/// The images of every group, by index: groups in order of name, without names every image its own.
+pub fn clusters(names: &[Option<&str>]) -> Vec<Vec<usize>> {
+    let mut clusters: Vec<(Option<&str>, Vec<usize>)> = Vec::new();
+    let mut order: Vec<usize> = (0..names.len()).collect();
+    order.sort_by_key(|&i| (names[i], i));
+    for i in order {
+        match clusters.last_mut() {
+            Some((name, members)) if name.is_some() && *name == names[i] => members.push(i),
+            _ => clusters.push((names[i], vec![i])),
+        }
+    }
+    clusters.into_iter().map(|(_, members)| members).collect()
+}
+
+/// The summary of every group, in order of name. Images without a group are in none.
+pub fn by_group(names: &[Option<&str>], scores: &[Score]) -> Vec<GroupSummary> {
+    let summary_of = |members: Vec<usize>| {
+        let group = names[*members.first()?]?.to_owned();
+        let scores: Vec<Score> = members.iter().filter_map(|&i| scores.get(i).copied()).collect();
+        let dice: Vec<f64> = scores.iter().map(|s| s.rates.dice).collect();
+        let dice_sd = moments(&dice, Deviation::Sample).sd;
+        Some(GroupSummary { group, summary: summarise(&scores)?, dice_sd })
+    };
+    clusters(names).into_iter().filter_map(summary_of).collect()
+}
+
+/// Means over groups; `None` without groups.
+pub fn mean_over_groups(groups: &[GroupSummary]) -> Option<MeanOverGroups> {
+    let values = |value: fn(&Summary) -> f64| groups.iter().map(|g| value(&g.summary)).collect::<Vec<_>>();
+    Some(MeanOverGroups {
+        groups: groups.len(),
+        sensitivity: mean(&values(|s| s.sensitivity))?,
+        fdr: mean(&values(|s| s.fdr))?,
+        precision: mean(&values(|s| s.precision))?,
+        dice: mean(&values(|s| s.dice))?,
+        dice_sd: moments(&values(|s| s.dice), Deviation::Sample).sd,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn images_of_a_name_are_together_and_images_without_alone() {
+        let names = [Some("b"), None, Some("a"), Some("b"), None];
+        assert_eq!(clusters(&names), [vec![1], vec![4], vec![2], vec![0, 3]]);
+        assert!(clusters(&[]).is_empty());
+    }
+}

@@ -1,0 +1,117 @@
+use super::{Rates, Score};
+use crate::compare::{Agreement, Interval, agreement, bootstrap};
+use rand_chacha::ChaCha8Rng;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// How well detections agree with hand marks over several images.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// Number of images.
+    pub images: usize,
+    /// Mean of the images' sensitivities.
+    pub sensitivity: f64,
+    /// Mean of the images' false discovery rates.
+    pub fdr: f64,
+    /// Mean of the images' precisions.
+    pub precision: f64,
+    /// Mean of the images' Dice coefficients (F1).
+    pub dice: f64,
+    /// Mean of the images' localisation errors in px, over images with a hit.
+    pub localisation_px: Option<f64>,
+    /// The same in µm, over images whose scale is known.
+    pub localisation_um: Option<f64>,
+    /// The same in hexagonal spacings.
+    pub localisation_s: Option<f64>,
+    /// Mean of the images' mean ways from mark to detection, in px to the right and down.
+    pub offset_px: Option<[f64; 2]>,
+    /// All images' points counted together.
+    pub pooled: Rates,
+    /// Detections − marks, both outside the border, in cones per image.
+    pub count: Option<Agreement>,
+    /// The difference of density as a percentage of the mean of both: 100 (detections − marks) / ½ (detections + marks).
+    pub density_percent: Option<Agreement>,
+}
+
+/// Means over images, pooled rates and agreement; `None` without images.
+pub fn summarise(scores: &[Score]) -> Option<Summary> {
+    let values = |value: &dyn Fn(&Score) -> Option<f64>| scores.iter().filter_map(value).collect::<Vec<_>>();
+    let mean = |value: &dyn Fn(&Score) -> Option<f64>| crate::compare::mean(&values(value));
+    let offset = |axis: usize| mean(&|s| s.offset_px.map(|o| o[axis]));
+    let total = |count: fn(&Rates) -> usize| scores.iter().map(|s| count(&s.rates)).sum();
+    Some(Summary {
+        images: scores.len(),
+        sensitivity: mean(&|s| Some(s.rates.sensitivity))?,
+        fdr: mean(&|s| Some(s.rates.fdr))?,
+        precision: mean(&|s| Some(s.rates.precision))?,
+        dice: mean(&|s| Some(s.rates.dice))?,
+        localisation_px: mean(&|s| s.localisation_px),
+        localisation_um: mean(&Score::localisation_um),
+        localisation_s: mean(&|s| s.localisation_s),
+        offset_px: offset(0).zip(offset(1)).map(|(x, y)| [x, y]),
+        pooled: Rates::new(total(|r| r.tp), total(|r| r.fn_), total(|r| r.fp)),
+        count: agreement(&values(&|s| Some(s.detections_inside as f64 - s.marks_inside as f64))),
+        density_percent: agreement(&values(&|s| {
+            percent_of_mean(s.detections_inside as f64, s.marks_inside as f64)
+        })),
+    })
+}
+
+/// The difference of two numbers as a percentage of their mean; `None` if both are zero.
+pub(super) fn percent_of_mean(first: f64, second: f64) -> Option<f64> {
+    (first + second > 0.).then(|| 200. * (first - second) / (first + second))
+}
+
+type Value = fn(&Summary) -> Option<f64>;
+
+/// What has an interval, by its name in `validation.json`.
+const VALUES: &[(&str, Value)] = &[
+    ("sensitivity", |s| Some(s.sensitivity)),
+    ("fdr", |s| Some(s.fdr)),
+    ("precision", |s| Some(s.precision)),
+    ("dice", |s| Some(s.dice)),
+    ("localisation_px", |s| s.localisation_px),
+    ("localisation_um", |s| s.localisation_um),
+    ("localisation_s", |s| s.localisation_s),
+    ("pooled.sensitivity", |s| Some(s.pooled.sensitivity)),
+    ("pooled.fdr", |s| Some(s.pooled.fdr)),
+    ("pooled.precision", |s| Some(s.pooled.precision)),
+    ("pooled.dice", |s| Some(s.pooled.dice)),
+    ("count.bias", |s| Some(s.count?.bias)),
+    ("count.lower_limit", |s| Some(s.count?.limits?[0])),
+    ("count.upper_limit", |s| Some(s.count?.limits?[1])),
+    ("density_percent.bias", |s| Some(s.density_percent?.bias)),
+    ("density_percent.lower_limit", |s| Some(s.density_percent?.limits?[0])),
+    ("density_percent.upper_limit", |s| Some(s.density_percent?.limits?[1])),
+];
+
+/// 95 % intervals of the values of [`summarise`], by their names in `validation.json`; values without an interval are
+/// missing. They are [`bootstrap()`] intervals over `clusters`; but where every image stands alone, bias and limits of
+/// agreement have the intervals that follow from t (see [`Agreement`]).
+pub fn intervals(
+    scores: &[Score],
+    clusters: &[Vec<usize>],
+    resamples: usize,
+    rng: &mut ChaCha8Rng,
+) -> BTreeMap<&'static str, Interval> {
+    let statistics = |indexes: &[usize]| {
+        let drawn: Vec<Score> = indexes.iter().filter_map(|&i| scores.get(i).copied()).collect();
+        let summary = summarise(&drawn);
+        VALUES.iter().map(|(_, value)| summary.as_ref().and_then(value)).collect()
+    };
+    let drawn = bootstrap(clusters, resamples, rng, statistics);
+    let mut found: BTreeMap<&str, Interval> =
+        VALUES.iter().zip(drawn).filter_map(|((name, _), interval)| Some((*name, interval?))).collect();
+    if clusters.iter().all(|c| c.len() == 1)
+        && let Some(summary) = summarise(scores)
+    {
+        let count = ["count.bias", "count.lower_limit", "count.upper_limit"];
+        let density = ["density_percent.bias", "density_percent.lower_limit", "density_percent.upper_limit"];
+        for (names, agreement) in [(count, summary.count), (density, summary.density_percent)] {
+            let exact = agreement.and_then(|a| a.bias_interval().zip(a.limit_intervals()));
+            let intervals = exact.into_iter().flat_map(|(bias, [low, high])| [bias, low, high]);
+            found.extend(names.into_iter().zip(intervals));
+        }
+    }
+    found
+}

@@ -1,0 +1,21 @@
+//! A mosaic against samplers: curves, their distance and the verdict of a test.
+
+mod curve_class;
+mod curves;
+mod l_infinity;
+mod realisation;
+mod reference;
+mod shared_work;
+mod shipped;
+mod shipped_codec;
+mod target_fit;
+mod verdict;
+
+pub use curves::mean_curve;
+pub(crate) use curves::{curve, draw, of_sampler};
+pub use l_infinity::{CompareError, l_infinity};
+pub use reference::{NotCompared, ReferenceCurve, References, SamplerCurves};
+#[doc(hidden)]
+pub use shipped::make_table;
+pub use target_fit::{POOR_FIT, TargetFit, target_fit};
+pub use verdict::{Envelope, SamplerVerdict, VerdictOptions, verdict};

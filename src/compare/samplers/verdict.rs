@@ -1,0 +1,271 @@
+use super::{CompareError, curve, draw, l_infinity};
+use crate::geometry::Window;
+use crate::numeric::stepped_quantile;
+use crate::sample::Sampler;
+use crate::stats::{Deviation, Moments, Pcf, PcfOptions, moments, nearest_neighbours, rank_envelope};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+/// Differences of g below this are none to the envelope: nobody could see them, though where no pair is possible the
+/// simulations agree to the last digit.
+const RESOLUTION: f64 = 1e-3;
+
+/// How a verdict is reached.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VerdictOptions {
+    /// Simulations of each sampler: 39–9999, default 199. The smallest p-value is one over this plus 1.
+    pub simulations: usize,
+    /// A mosaic differs from a sampler if its p-value is not above this; default .05, the envelope's level too.
+    pub level: f64,
+}
+
+impl Default for VerdictOptions {
+    fn default() -> Self {
+        Self { simulations: 199, level: 0.05 }
+    }
+}
+
+impl VerdictOptions {
+    /// # Errors
+    /// If an option is out of its range; the error says the range.
+    pub fn validate(&self) -> Result<(), CompareError> {
+        if (39..=9_999).contains(&self.simulations) && self.level > 0. && self.level < 0.5 {
+            return Ok(());
+        }
+        Err(CompareError::Simulations { found: self.simulations })
+    }
+}
+
+/// What a mosaic's pair correlation function is worth among those of simulations of a sampler.
+///
+/// Two realisations of one process differ, the more the fewer points they have: at 300 points by .08–.09 in l-infinity. So
+/// no fixed distance means “the same”; the simulations, at the mosaic's own n and window, say what is usual.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SamplerVerdict {
+    /// Name of the sampler.
+    pub sampler: String,
+    /// Simulations that entered.
+    pub simulations: usize,
+    /// Fewest and most points of a simulation: some samplers make the nearest number they can.
+    pub points: (usize, usize),
+    /// l-infinity between the mosaic and the mean of all simulations.
+    pub l_infinity: f64,
+    /// Median l-infinity between one simulation and the mean of all other curves.
+    pub l_infinity_usual: f64,
+    /// The value that 95 % of those stay within.
+    pub l_infinity_most: f64,
+    /// Share of curves, the mosaic's among them, that are at least as far from the mean of the others as the mosaic's is.
+    pub p_l_infinity: f64,
+    /// p-value of the global envelope test (extreme rank length), which weighs every distance by what is usual there; g to
+    /// three decimals.
+    pub p_envelope: f64,
+    /// The level it was held against.
+    pub level: f64,
+    /// Distances, in hexagonal spacings, from–to, at which the mosaic's g lies outside the envelope.
+    pub outside: Vec<(f64, f64)>,
+    /// Regularity index of the simulations (all points, sample deviation): mean and standard deviation over them.
+    pub ri: Moments,
+    /// The band that simulations stay within.
+    pub envelope: Envelope,
+}
+
+/// A global envelope of pair correlation functions, on the grid of the mosaic's.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Envelope {
+    /// Distances in hexagonal spacings.
+    pub r: Vec<f64>,
+    /// Mean of the simulations.
+    pub mean: Vec<f64>,
+    /// Lower edge.
+    pub low: Vec<f64>,
+    /// Upper edge.
+    pub high: Vec<f64>,
+}
+
+impl SamplerVerdict {
+    /// Whether the mosaic could be a realisation of the sampler, as far as g tells.
+    pub fn alike(&self) -> bool {
+        self.p_envelope > self.level
+    }
+}
+
+/// One simulation: its curve, its points and their regularity.
+struct Simulation {
+    pcf: Pcf,
+    n: usize,
+    ri: Option<f64>,
+}
+
+/// Holds the pair correlation function of a mosaic of `n` points in `window` against simulations of `sampler` there.
+///
+/// All curves, the mosaic's among them, are treated alike, so that both p-values are exact Monte Carlo p-values (Barnard
+/// 1963; Myllymäki et al. 2017). Simulation k has a generator of its own, seeded by a hash of `seed`, the sampler's
+/// name, n, the window and k: the same for any number of threads.
+///
+/// # Errors
+/// If an option is out of range, the sampler cannot fill the window, or the mosaic's curve is of another kind than
+/// `pcf_options` make.
+pub fn verdict(
+    mosaic: &Pcf,
+    n: usize,
+    window: &Window,
+    sampler: &dyn Sampler,
+    pcf_options: &PcfOptions,
+    options: &VerdictOptions,
+    seed: u64,
+) -> Result<SamplerVerdict, CompareError> {
+    options.validate()?;
+    let base = seed_of(sampler.name(), n, window, seed);
+    let simulations = (0..options.simulations)
+        .into_par_iter()
+        .map(|k| {
+            let mut rng =
+                ChaCha8Rng::from_seed(base.clone().chain_update((k as u64).to_le_bytes()).finalize().into());
+            let points = draw(sampler, n, window, &mut rng)?;
+            let pcf = curve(sampler, &points, window, pcf_options)?;
+            let nearest = nearest_neighbours(&points, window);
+            let ri = moments(&nearest.distances, Deviation::Sample).ri;
+            Ok(Simulation { pcf, n: points.len(), ri })
+        })
+        .collect::<Result<Vec<_>, _>>()?;
+
+    let curves: Vec<&[f64]> = simulations.iter().map(|s| s.pcf.g.as_slice()).collect();
+    let sums: Vec<f64> = (0..mosaic.g.len())
+        .map(|bin| curves.iter().filter_map(|g| g.get(bin)).sum::<f64>() + mosaic.g[bin])
+        .collect();
+    let others = simulations.len() as f64;
+    let from_others = |g: &[f64]| {
+        let away = g.iter().zip(&sums).map(|(g, sum)| (g - (sum - g) / others).abs());
+        away.fold(0., f64::max)
+    };
+    let mean: Vec<f64> = sums.iter().zip(&mosaic.g).map(|(sum, g)| (sum - g) / others).collect();
+    let mean_pcf = match simulations.first() {
+        Some(first) => Pcf { g: mean.clone(), ..first.pcf.clone() },
+        None => return Err(CompareError::Simulations { found: 0 }),
+    };
+    // also refuses curves that do not compare
+    let distance = l_infinity(mosaic, &mean_pcf)?;
+    let mut usual: Vec<f64> = curves.iter().map(|g| from_others(g)).collect();
+    usual.sort_unstable_by(f64::total_cmp);
+    let as_far = usual.len() - usual.partition_point(|&d| d < distance);
+    let seen = |g: &[f64]| g.iter().map(|g| (g / RESOLUTION).round() * RESOLUTION).collect::<Vec<f64>>();
+    let (mosaic_seen, curves_seen) = (seen(&mosaic.g), curves.iter().map(|g| seen(g)).collect::<Vec<_>>());
+    let curves_seen: Vec<&[f64]> = curves_seen.iter().map(Vec::as_slice).collect();
+    let Some(envelope) = rank_envelope(&mosaic_seen, &curves_seen, options.level) else {
+        return Err(CompareError::Simulations { found: curves.len() });
+    };
+    let outside = envelope.outside(&mosaic_seen).into_iter().map(|(from, to)| (mosaic.r[from], mosaic.r[to]));
+    let indexes: Vec<f64> = simulations.iter().filter_map(|s| s.ri).collect();
+    let made = || simulations.iter().map(|s| s.n);
+    Ok(SamplerVerdict {
+        sampler: sampler.name().to_owned(),
+        simulations: simulations.len(),
+        points: (made().min().unwrap_or(0), made().max().unwrap_or(0)),
+        l_infinity: distance,
+        l_infinity_usual: stepped_quantile(&usual, 0.5),
+        l_infinity_most: stepped_quantile(&usual, 0.95),
+        p_l_infinity: (as_far + 1) as f64 / (usual.len() + 1) as f64,
+        p_envelope: envelope.p_value,
+        level: options.level,
+        outside: outside.collect(),
+        ri: moments(&indexes, Deviation::Sample),
+        envelope: Envelope { r: mosaic.r.clone(), mean, low: envelope.low, high: envelope.high },
+    })
+}
+
+fn seed_of(sampler: &str, n: usize, window: &Window, seed: u64) -> Sha256 {
+    let bounds = window.bounds();
+    let mut hash = Sha256::new_with_prefix(b"verdict");
+    hash.update(seed.to_le_bytes());
+    hash.update((sampler.len() as u64).to_le_bytes());
+    hash.update(sampler);
+    hash.update((n as u64).to_le_bytes());
+    [bounds.x0(), bounds.y0(), bounds.x1(), bounds.y1()].iter().for_each(|v| hash.update(v.to_le_bytes()));
+    match window {
+        Window::Polygon(polygon) => hash.update(polygon.bytes()),
+        Window::Rectangle(_) | Window::Torus(_) => hash.update([u8::from(window.is_torus())]),
+    }
+    hash
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point;
+    use crate::sample::{SampleError, sampler};
+    use crate::stats::{StatsError, pcf};
+
+    const N: usize = 150;
+
+    fn pattern(name: &str, seed: u64) -> Result<Vec<Point>, SampleError> {
+        sampler(name)?.sample(N, &Window::unit_square(), &mut ChaCha8Rng::seed_from_u64(seed))
+    }
+
+    fn curve(name: &str, seed: u64) -> Result<Pcf, StatsError> {
+        pcf(&pattern(name, seed).unwrap_or_default(), &Window::unit_square(), &PcfOptions::default())
+    }
+
+    fn judge(mosaic: &Pcf, name: &str, simulations: usize) -> SamplerVerdict {
+        let options = VerdictOptions { simulations, ..VerdictOptions::default() };
+        let window = Window::unit_square();
+        verdict(mosaic, N, &window, sampler(name).unwrap(), &mosaic.options, &options, 1).unwrap()
+    }
+
+    #[test]
+    fn a_sampler_s_own_patterns_are_as_it_is_in_nineteen_of_twenty() {
+        let rejected = |p: fn(&SamplerVerdict) -> f64| {
+            move |found: &[SamplerVerdict]| found.iter().filter(|v| p(v) <= 0.05).count()
+        };
+        let found: Vec<SamplerVerdict> =
+            (0..60).map(|seed| judge(&curve("bridson", seed).unwrap(), "bridson", 39)).collect();
+        // 3 expected of 60; 9 or more happen once in 300
+        assert!(rejected(|v| v.p_envelope)(&found) < 9);
+        assert!(rejected(|v| v.p_l_infinity)(&found) < 9);
+    }
+
+    #[test]
+    fn another_process_is_told_apart_and_it_is_said_where() {
+        let found = judge(&curve("jittered", 1).unwrap(), "dart-throwing", 99);
+        assert_eq!((found.p_envelope, found.p_l_infinity), (0.01, 0.01));
+        assert!(!found.alike());
+        // below its radius dart throwing has no pairs, a jittered grid has
+        let (from, to) = found.outside[0];
+        assert!(from < 0.3 && to > 0.4, "{:?}", found.outside);
+        assert!((found.ri.mean.unwrap() - 12.).abs() < 2., "{:?}", found.ri);
+    }
+
+    #[test]
+    fn usual_distance_is_that_of_two_patterns_of_one_process() {
+        let found = judge(&curve("dart-throwing", 3).unwrap(), "dart-throwing", 199);
+        // measured: .16 at 100 points, .08–.09 at 300
+        assert!((0.08..0.16).contains(&found.l_infinity_usual), "{}", found.l_infinity_usual);
+        assert!(found.l_infinity_most > found.l_infinity_usual);
+        assert_eq!(found.points, (N, N));
+    }
+
+    #[test]
+    fn threads_do_not_matter() {
+        let mosaic = curve("bridson", 5).unwrap();
+        let expected = judge(&mosaic, "jittered", 39);
+        for threads in [1, 3] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            assert_eq!(pool.install(|| judge(&mosaic, "jittered", 39)), expected);
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_judged_says_why() {
+        let mosaic = curve("uniform", 1).unwrap();
+        let few = VerdictOptions { simulations: 10, ..VerdictOptions::default() };
+        let uniform = sampler("uniform").unwrap();
+        let window = Window::unit_square();
+        let error = verdict(&mosaic, N, &window, uniform, &mosaic.options, &few, 1).unwrap_err();
+        assert!(error.to_string().contains("39"), "{error}");
+        let other = PcfOptions { bins: 100, ..mosaic.options };
+        let error = verdict(&mosaic, N, &window, uniform, &other, &VerdictOptions::default(), 1);
+        assert!(matches!(error, Err(CompareError::NotComparable { .. })), "{error:?}");
+    }
+}

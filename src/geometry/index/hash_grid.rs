@@ -1,0 +1,42 @@
+use std::collections::HashMap;
+
+type Cell = (i64, i64);
+
+/// Points of the plane by square cells, to find those within the side of a cell.
+pub(crate) struct HashGrid {
+    side: f64,
+    /// Index and place of each point.
+    cells: HashMap<Cell, Vec<(usize, [f64; 2])>>,
+}
+
+impl HashGrid {
+    /// An empty grid that finds points within `reach`.
+    pub(crate) fn new(reach: f64) -> Self {
+        Self { side: reach, cells: HashMap::new() }
+    }
+
+    fn cell(&self, [x, y]: [f64; 2]) -> Cell {
+        ((x / self.side).floor() as i64, (y / self.side).floor() as i64)
+    }
+
+    pub(crate) fn insert(&mut self, index: usize, point: [f64; 2]) {
+        self.cells.entry(self.cell(point)).or_default().push((index, point));
+    }
+
+    /// Every point within reach of `point` and some that are farther, in an order that depends on nothing but the cells.
+    pub(crate) fn near(&self, point: [f64; 2]) -> impl Iterator<Item = (usize, [f64; 2])> {
+        let (column, row) = self.cell(point);
+        (-1..=1)
+            .flat_map(move |dy| (-1..=1).map(move |dx| (column + dx, row + dy)))
+            .filter_map(|cell| self.cells.get(&cell))
+            .flatten()
+            .copied()
+    }
+}
+
+/// Distance of two places.
+pub(crate) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    let (dx, dy) = (a[0] - b[0], a[1] - b[1]);
+    // lengths here are in spacings: no square overflows
+    (dx * dx + dy * dy).sqrt()
+}

@@ -1,0 +1,147 @@
+/// Points on the torus [0, width) × [0, height), at most one a cell: a cell's diagonal is at most the Poisson-disk
+/// radius. Empty cells hold infinity, so that they lie farther than any reach without a test of their own.
+pub(crate) struct TorusGrid {
+    width: f64,
+    height: f64,
+    columns: usize,
+    rows: usize,
+    cell_width: f64,
+    cell_height: f64,
+    cells: Vec<[f64; 2]>,
+}
+
+const EMPTY: [f64; 2] = [f64::INFINITY; 2];
+
+impl TorusGrid {
+    pub(crate) fn new(width: f64, height: f64, radius: f64) -> Self {
+        let cells_along = |side: f64| ((side * 2f64.sqrt() / radius).ceil() as usize).max(1);
+        let (columns, rows) = (cells_along(width), cells_along(height));
+        Self {
+            width,
+            height,
+            columns,
+            rows,
+            cell_width: width / columns as f64,
+            cell_height: height / rows as f64,
+            cells: vec![EMPTY; columns * rows],
+        }
+    }
+
+    pub(crate) fn columns(&self) -> usize {
+        self.columns
+    }
+
+    pub(crate) fn rows(&self) -> usize {
+        self.rows
+    }
+
+    pub(crate) fn cell_size(&self) -> (f64, f64) {
+        (self.cell_width, self.cell_height)
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.cells.fill(EMPTY);
+    }
+
+    pub(crate) fn insert(&mut self, x: f64, y: f64) {
+        let column = ((x / self.cell_width) as usize).min(self.columns - 1);
+        let row = ((y / self.cell_height) as usize).min(self.rows - 1);
+        self.cells[row * self.columns + column] = [x, y];
+    }
+
+    /// Every image, in the plane around (x, y), of a point nearer to it than `reach`.
+    #[inline]
+    pub(crate) fn gather(&self, x: f64, y: f64, reach: f64, near: &mut Nearby) {
+        let reach2 = reach * reach;
+        let cells_from = |low: f64, size: f64| (low / size).floor() as isize;
+        let (left, right) = (cells_from(x - reach, self.cell_width), cells_from(x + reach, self.cell_width));
+        let (top, bottom) =
+            (cells_from(y - reach, self.cell_height), cells_from(y + reach, self.cell_height));
+        near.clear(((right - left + 1) * (bottom - top + 1)) as usize);
+        let (columns, rows) = (self.columns as isize, self.rows as isize);
+        for unwrapped_row in top..=bottom {
+            let turns = if (0..rows).contains(&unwrapped_row) { 0 } else { unwrapped_row.div_euclid(rows) };
+            let row = (unwrapped_row - turns * rows) as usize;
+            let shift_y = turns as f64 * self.height;
+            let cells = &self.cells[row * self.columns..(row + 1) * self.columns];
+            let mut keep = |p: [f64; 2], shift_x: f64| {
+                let (px, py) = (p[0] + shift_x, p[1] + shift_y);
+                near.push_if((px - x) * (px - x) + (py - y) * (py - y) < reach2, px, py);
+            };
+            if left >= 0 && right < columns {
+                for &p in &cells[left as usize..=right as usize] {
+                    keep(p, 0.);
+                }
+            } else {
+                for unwrapped in left..=right {
+                    let turns = unwrapped.div_euclid(columns);
+                    keep(cells[(unwrapped - turns * columns) as usize], turns as f64 * self.width);
+                }
+            }
+        }
+        near.pad();
+    }
+}
+
+const LANES: usize = 16;
+
+/// Points gathered around a place, padded with infinity to whole lanes so that tests run on several at once.
+#[derive(Default)]
+pub(crate) struct Nearby {
+    xs: Vec<f64>,
+    ys: Vec<f64>,
+    length: usize,
+}
+
+impl Nearby {
+    /// Empty, with room for `most` points.
+    #[inline]
+    fn clear(&mut self, most: usize) {
+        self.length = 0;
+        if self.xs.len() < most + LANES {
+            self.xs.resize(most + LANES, f64::INFINITY);
+            self.ys.resize(most + LANES, f64::INFINITY);
+        }
+    }
+
+    /// Writes in any case and counts only what is kept: few cells hold a point in reach, unpredictably which.
+    #[inline]
+    fn push_if(&mut self, kept: bool, x: f64, y: f64) {
+        self.xs[self.length] = x;
+        self.ys[self.length] = y;
+        self.length += usize::from(kept);
+    }
+
+    #[inline]
+    fn pad(&mut self) {
+        let padded = self.length..self.length.next_multiple_of(LANES);
+        self.xs[padded.clone()].fill(f64::INFINITY);
+        self.ys[padded].fill(f64::INFINITY);
+    }
+
+    /// Whether one of them is nearer to (x, y) than the root of `radius2`.
+    #[inline]
+    pub(crate) fn any_nearer(&self, x: f64, y: f64, radius2: f64) -> bool {
+        let padded = self.length.next_multiple_of(LANES);
+        let lanes = self.xs[..padded].chunks_exact(LANES).zip(self.ys[..padded].chunks_exact(LANES));
+        for (xs, ys) in lanes {
+            let mut hit = false;
+            for (px, py) in xs.iter().zip(ys) {
+                hit |= (px - x) * (px - x) + (py - y) * (py - y) < radius2;
+            }
+            if hit {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Whether the disk of one of them covers the rectangle around (x, y) with these half sides.
+    #[inline]
+    pub(crate) fn any_covers(&self, x: f64, y: f64, half: [f64; 2], radius2: f64) -> bool {
+        self.xs[..self.length].iter().zip(&self.ys[..self.length]).any(|(px, py)| {
+            let (dx, dy) = ((px - x).abs() + half[0], (py - y).abs() + half[1]);
+            dx * dx + dy * dy < radius2
+        })
+    }
+}

@@ -1,0 +1,117 @@
+use crate::geometry::index::{Nearby, TorusGrid};
+use rand::{Rng, RngExt};
+
+/// Squares halved this often count as covered: their share of the area is below 2⁻⁵⁰.
+const DEEPEST: usize = 25;
+
+/// Darts no two of which are nearer than `radius` on the torus, until there are `n` or the torus is full.
+///
+/// Darts are thrown only over squares of a quadtree that may still have room (White, Cline & Egbert 2007): a square in
+/// which a dart missed is cut in four, and quarters that one disk covers are dropped. Dropped squares could never
+/// have taken a dart and the dart within the rest is uniform, so the points have exactly the law of plain darts.
+pub(super) fn throw(n: usize, radius: f64, grid: &mut TorusGrid, rng: &mut dyn Rng) -> Vec<[f64; 2]> {
+    grid.clear();
+    let radius2 = radius * radius;
+    let mut squares = Squares::new(grid);
+    let mut points = Vec::with_capacity(n.min(grid.columns() * grid.rows()));
+    let mut near = Nearby::default();
+    while points.len() < n {
+        let Some((level, [left, top])) = squares.take(rng) else { break };
+        let (width, height) = squares.size(level);
+        let half = [width / 2., height / 2.];
+        let reach = radius + half[0].hypot(half[1]);
+        grid.gather(left + half[0], top + half[1], reach, &mut near);
+        let (u, v): (f64, f64) = (rng.random(), rng.random());
+        let dart = [left + u * width, top + v * height];
+        if !near.any_nearer(dart[0], dart[1], radius2) {
+            // The square is gone with its dart: a disk covers any square of its grid cell.
+            grid.insert(dart[0], dart[1]);
+            points.push(dart);
+            continue;
+        }
+        if level == DEEPEST {
+            continue;
+        }
+        for (column, row) in [(0., 0.), (1., 0.), (0., 1.), (1., 1.)] {
+            let corner = [left + column * half[0], top + row * half[1]];
+            let quarter = [half[0] / 2., half[1] / 2.];
+            let covered = near.any_covers(corner[0] + quarter[0], corner[1] + quarter[1], quarter, radius2);
+            if !covered {
+                squares.put(level + 1, corner);
+            }
+        }
+    }
+    points
+}
+
+/// Squares (rectangles of the grid's proportions) that may have room, by how often they were halved.
+struct Squares {
+    corners: Vec<Vec<[f64; 2]>>,
+    /// Deepest level that ever held a square.
+    deepest: usize,
+    width: f64,
+    height: f64,
+}
+
+impl Squares {
+    fn new(grid: &TorusGrid) -> Self {
+        let (width, height) = grid.cell_size();
+        let mut corners = vec![Vec::new(); DEEPEST + 1];
+        corners[0] = (0..grid.rows())
+            .flat_map(|row| {
+                (0..grid.columns()).map(move |column| [column as f64 * width, row as f64 * height])
+            })
+            .collect();
+        Self { corners, deepest: 0, width, height }
+    }
+
+    fn size(&self, level: usize) -> (f64, f64) {
+        let scale = 0.5f64.powi(level as i32);
+        (self.width * scale, self.height * scale)
+    }
+
+    fn put(&mut self, level: usize, corner: [f64; 2]) {
+        self.corners[level].push(corner);
+        self.deepest = self.deepest.max(level);
+    }
+
+    /// Removes a square chosen with probability proportional to its area.
+    fn take(&mut self, rng: &mut dyn Rng) -> Option<(usize, [f64; 2])> {
+        let mut areas = [0.; DEEPEST + 1];
+        let (mut total, mut share) = (0., 1.);
+        for (area, squares) in areas.iter_mut().zip(&self.corners[..=self.deepest]) {
+            *area = share * squares.len() as f64;
+            total += *area;
+            share /= 4.;
+        }
+        let mut left = rng.random::<f64>() * total;
+        let mut chosen = None;
+        for (level, area) in areas.iter().enumerate().filter(|(_, area)| **area > 0.) {
+            chosen = Some(level);
+            left -= area;
+            if left < 0. {
+                break;
+            }
+        }
+        let level = chosen?;
+        let squares = &mut self.corners[level];
+        let picked = rng.random_range(0..squares.len());
+        Some((level, squares.swap_remove(picked)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+
+    #[test]
+    fn full_window_is_an_error_that_says_how_many_fitted() {
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        let mut grid = TorusGrid::new(1., 1., 0.2);
+        let placed = throw(1000, 0.2, &mut grid, &mut rng).len();
+        // A saturated torus holds between the loosest maximal packing and the densest.
+        assert!((8..29).contains(&placed), "{placed}");
+    }
+}

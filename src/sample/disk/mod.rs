@@ -1,0 +1,10 @@
+//! Samplers that keep points a least distance apart: dart throwing and its faster kin.
+
+mod bridson;
+mod dart_throwing;
+mod darts;
+mod poisson_disk;
+
+pub use bridson::Bridson;
+pub use dart_throwing::DartThrowing;
+pub use poisson_disk::PoissonDisk;

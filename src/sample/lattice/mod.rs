@@ -1,0 +1,9 @@
+//! Lattices, with jitter or without.
+
+mod rows;
+mod square;
+mod triangular;
+
+pub(super) use rows::Lattice;
+pub use square::Square;
+pub use triangular::Triangular;

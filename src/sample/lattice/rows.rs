@@ -1,0 +1,131 @@
+use crate::geometry::Point;
+use crate::sample::{Frame, Setting};
+use rand::{Rng, RngExt};
+use rand_distr::StandardNormal;
+
+/// Offsets tried in a bounded window for the one whose number of points is nearest to n.
+const OFFSETS: usize = 32;
+
+/// Standard deviations of jitter within which points outside a bounded window may be carried into it.
+const CARRIED: f64 = 5.;
+
+/// What the lattices let a user set.
+pub(super) const fn jitter<S>(get: fn(&S) -> Option<f64>, set: fn(&mut S, f64)) -> Setting<S> {
+    Setting {
+        name: "jitter",
+        unit: "spacings",
+        range: (0., 1.),
+        whole: false,
+        unset: "",
+        meaning: "standard deviation of each point's displacement in x and y",
+        get,
+        set,
+    }
+}
+
+/// Rows of points `step` apart; rows `row_step` apart; every other row moved by `shift` × `step`; then each point
+/// displaced by a normal deviate of standard deviation `jitter` in x and y.
+#[derive(Clone, Copy)]
+pub(in crate::sample) struct Lattice {
+    pub(in crate::sample) step: f64,
+    pub(in crate::sample) row_step: f64,
+    pub(in crate::sample) shift: f64,
+    pub(in crate::sample) jitter: f64,
+}
+
+impl Lattice {
+    /// The undeformed lattice where the window has a border (its spacing is that of density n/A and the border cuts
+    /// it, so the number is near n); on a torus the nearest lattice that closes on itself.
+    pub(in crate::sample) fn fill(self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Vec<Point> {
+        if n == 0 {
+            return Vec::new();
+        }
+        if frame.torus {
+            let (columns, rows) = self.closing(n, frame);
+            let closed = Self {
+                step: frame.width / columns as f64,
+                row_step: frame.height / rows as f64,
+                // A single row closes on itself only unshifted.
+                shift: if rows == 1 { 0. } else { self.shift },
+                jitter: self.jitter,
+            };
+            let (x, y) = (rng.random::<f64>() * closed.step, rng.random::<f64>() * closed.row_step);
+            return (0..rows)
+                .flat_map(|row| (0..columns).map(move |column| (row, column)))
+                .map(|(row, column)| {
+                    let moved = x + closed.shift * closed.step * (row % 2) as f64;
+                    let (x, y) = (moved + column as f64 * closed.step, y + row as f64 * closed.row_step);
+                    let [x, y] = closed.jittered([x, y], rng);
+                    frame.place(x.rem_euclid(frame.width), y.rem_euclid(frame.height))
+                })
+                .collect();
+        }
+        let mut best = (f64::INFINITY, 0., 0.);
+        for _ in 0..OFFSETS {
+            // Two rows are a period, so that either kind of row may come first.
+            let (x, y) = (rng.random::<f64>() * self.step, rng.random::<f64>() * 2. * self.row_step);
+            let count: usize =
+                self.rows(x, y, [frame.width, frame.height]).map(|(_, _, columns)| columns).sum();
+            let miss = (count as f64 - n as f64).abs();
+            if miss < best.0 {
+                best = (miss, x, y);
+            }
+            if miss == 0. {
+                break;
+            }
+        }
+        let margin = CARRIED * self.jitter;
+        let (x, y, sides) = (best.1 + margin, best.2 + margin, [frame.width, frame.height]);
+        self.rows(x, y, sides.map(|side| side + 2. * margin))
+            .flat_map(|(x, y, columns)| (0..columns).map(move |i| [x + i as f64 * self.step, y]))
+            .map(|[x, y]| self.jittered([x - margin, y - margin], rng))
+            .filter(|[x, y]| self.jitter == 0. || (0. ..sides[0]).contains(x) && (0. ..sides[1]).contains(y))
+            .map(|[x, y]| frame.place(x, y))
+            .collect()
+    }
+
+    fn jittered(self, [x, y]: [f64; 2], rng: &mut dyn Rng) -> [f64; 2] {
+        if self.jitter == 0. {
+            return [x, y];
+        }
+        let (dx, dy): (f64, f64) = (rng.sample(StandardNormal), rng.sample(StandardNormal));
+        [x + self.jitter * dx, y + self.jitter * dy]
+    }
+
+    /// First x, y, and number of points, of every row inside a window of these sides when the point (x, y) is in the lattice.
+    fn rows(self, x: f64, y: f64, [width, height]: [f64; 2]) -> impl Iterator<Item = (f64, f64, usize)> {
+        let first = -(y / self.row_step).floor();
+        (0..)
+            .map(move |i| {
+                let row = first + i as f64;
+                let moved = x + self.shift * self.step * row.rem_euclid(2.);
+                let start = moved - (moved / self.step).floor() * self.step;
+                let columns = ((width - start) / self.step).ceil().max(0.) as usize;
+                (start, y + row * self.row_step, columns)
+            })
+            .take_while(move |&(_, y, _)| y < height)
+    }
+
+    /// Columns and rows of the least deformed lattice of about n points that closes on the torus.
+    fn closing(self, n: usize, frame: &Frame) -> (usize, usize) {
+        let (columns, rows) = (frame.width / self.step, frame.height / self.row_step);
+        let around = |ideal: f64| {
+            let low = (ideal.floor() as usize).saturating_sub(2).max(1);
+            low..low + 6
+        };
+        let mut best = (f64::INFINITY, 1, 1);
+        for r in around(rows) {
+            if r > 1 && r % 2 == 1 && self.shift != 0. {
+                continue;
+            }
+            for c in around(columns) {
+                let number = ((c * r) as f64 / n as f64).ln().abs();
+                let shape = ((c as f64 / columns) / (r as f64 / rows)).ln().abs();
+                if number + shape < best.0 {
+                    best = (number + shape, c, r);
+                }
+            }
+        }
+        (best.1, best.2)
+    }
+}

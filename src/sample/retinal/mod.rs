@@ -1,0 +1,15 @@
+//! Models of the retina from the literature.
+
+mod ahumada;
+mod curcio_sloan;
+mod deering;
+mod minimal_spacing;
+mod outward;
+mod retina;
+mod wang;
+
+pub use ahumada::Ahumada;
+pub use curcio_sloan::CurcioSloan;
+pub use deering::Deering;
+pub use minimal_spacing::MinimalSpacing;
+pub use wang::Wang;

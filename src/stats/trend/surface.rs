@@ -1,0 +1,59 @@
+use super::polygon;
+use crate::geometry::Polygon;
+
+/// The fitted density is not let below this share of its maximum, where a ratio would mean nothing.
+const LEAST_SHARE: f64 = 0.01;
+
+/// Density over its mean, 1 + Σ c P_j(2x−1) P_k(2y−1) with 1 ≤ j + k ≤ 2.
+pub(super) struct DensityFit {
+    /// Of 1, x, y, x², xy, y².
+    pub(super) coefficients: [f64; 6],
+}
+
+impl DensityFit {
+    const DEGREES: [(i32, i32); 6] = [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)];
+
+    fn term((j, k): (i32, i32), (u, v): (f64, f64)) -> f64 {
+        let legendre = |degree: i32, t: f64| match degree {
+            0 => 1.,
+            1 => t,
+            _ => 1.5 * t * t - 0.5,
+        };
+        legendre(j, 2. * u - 1.) * legendre(k, 2. * v - 1.)
+    }
+
+    pub(super) fn new(unit: &[(f64, f64)]) -> Self {
+        let coefficients = Self::DEGREES.map(|(j, k)| {
+            let norm = f64::from((2 * j + 1) * (2 * k + 1));
+            norm * unit.iter().map(|&at| Self::term((j, k), at)).sum::<f64>() / unit.len() as f64
+        });
+        Self { coefficients }
+    }
+
+    /// The same for a polygon, over which the terms are not orthogonal.
+    pub(super) fn within(polygon: &Polygon, unit: &[(f64, f64)]) -> Self {
+        let means =
+            Self::DEGREES.map(|d| unit.iter().map(|&at| Self::term(d, at)).sum::<f64>() / unit.len() as f64);
+        let fitted =
+            polygon::least_squares(polygon, Self::DEGREES.map(|d| move |at| Self::term(d, at)), means);
+        Self { coefficients: fitted.unwrap_or([1., 0., 0., 0., 0., 0.]) }
+    }
+
+    /// Greatest over least density at the places of a grid that are `inside`.
+    pub(super) fn ratio(&self, inside: impl Fn((f64, f64)) -> bool) -> f64 {
+        let steps = 32;
+        let (mut least, mut greatest) = (f64::INFINITY, 0f64);
+        for (i, j) in (0..=steps).flat_map(|i| (0..=steps).map(move |j| (i, j))) {
+            let at = (f64::from(i) / f64::from(steps), f64::from(j) / f64::from(steps));
+            if !inside(at) {
+                continue;
+            }
+            let density: f64 =
+                Self::DEGREES.iter().zip(&self.coefficients).map(|(&d, c)| c * Self::term(d, at)).sum();
+            least = least.min(density);
+            greatest = greatest.max(density);
+        }
+        // a polygon so thin that the grid misses it
+        if greatest <= 0. { 1. } else { greatest / least.max(LEAST_SHARE * greatest) }
+    }
+}
