@@ -1,4 +1,4 @@
-use super::common::Common;
+use super::args::Common;
 use super::{Done, short_table};
 use anyhow::Result;
 use clap::Args;

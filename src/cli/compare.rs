@@ -1,13 +1,13 @@
-use super::Done;
-use super::common::Common;
-use super::measure::{MosaicArgs, marked, say_failures, warned};
-use super::short_table;
+use super::args::{Common, Defaults, PlanArgs};
+use super::measure::{marked, say_failures, warned};
+use super::mosaic_args::MosaicArgs;
+use super::{Done, ending_words, short_table};
 use anyhow::Result;
 use clap::Args;
-use conemosaic::batch::{CompareOptions, CoordinatesOutcome, compare_files, coordinate_files};
+use conemosaic::batch::{CoordinatesOutcome, compare_files, coordinate_files};
 use conemosaic::compare::VerdictOptions;
 use conemosaic::report::{FindingRecord, VerdictRecord, significant};
-use conemosaic::sample::{Sampler, samplers_named};
+use conemosaic::sample::Sampler;
 use std::path::PathBuf;
 
 /// Compares mosaics with point samplers: distances of pair correlation functions, and what they are worth
@@ -22,11 +22,11 @@ mosaic's own number of points and window, and the verdict says whether the mosai
   as bridson: p = 0.31                                 its g(r) lies among the simulations
   differs from bnot: p = 0.005, at r = 0.90–1.10 s     it leaves their 95 % envelope there (s: hexagonal spacing)
 
-Writes to compared/:
+Writes to compared/, beside what `conemosaic measure` writes:
   regularity.csv     nearest neighbours: mean, standard deviation, regularity index (as Table 1 of Lanaro et al.)
-  l_infinity.csv     one row a file, one column a sampler (as their Table 2)
+  l_infinity.csv     one row per file, one column per sampler (as their Table 2)
   finding.csv        their main finding on these mosaics: rank correlation of the two, with p-value (5 mosaics or more)
-  verdicts.csv       one row a file and sampler: p-values, where it differs, what is usual; its l-infinity is to the mean of
+  verdicts.csv       one row per file and sampler: p-values, where it differs, what is usual; its l-infinity is to the mean of
                      those simulations, that of l_infinity.csv to the mean curve for mosaics of about this size
   NAME.envelope.csv  g(r) of the mosaic; mean and envelope of each sampler
   NAME.verdict.svg   the same as a figure
@@ -38,10 +38,6 @@ pub struct Compare {
     /// Folder for the results
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Samplers to compare with, separated by commas; all is every one, slow ones included; none is none [default: those marked * by
-    /// `conemosaic sample --list`]
-    #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
-    samplers: Vec<String>,
     /// Simulations of each sampler for a verdict (39–9999); the smallest p-value is 1/(N + 1)
     #[arg(long, value_name = "N", default_value_t = VerdictOptions::default().simulations)]
     simulations: usize,
@@ -50,21 +46,21 @@ pub struct Compare {
     no_verdict: bool,
     #[command(flatten)]
     mosaic: MosaicArgs,
+    #[command(flatten)]
+    plan: PlanArgs,
 }
 
 impl Compare {
     pub fn execute(self, common: &Common) -> Result<Done> {
-        let options = self.mosaic.options()?;
         let verdict = VerdictOptions { simulations: self.simulations, ..VerdictOptions::default() };
-        let with = CompareOptions {
-            samplers: samplers_named(&self.samplers)?,
-            verdict: (!self.no_verdict).then_some(verdict),
-            seed: common.seed,
-        };
+        let verdict = (!self.no_verdict).then_some(verdict);
+        let read = self.mosaic.read()?;
+        let plan = self.plan.plan(&read, Defaults { compare: true, verdict, seed: common.seed })?;
+        let options = self.mosaic.options(plan, read);
         let inputs = coordinate_files(&self.files, Some(&self.out))?;
-        let outcome = compare_files(&inputs, &options, &with, &self.out, &*common.progress())?;
+        let outcome = compare_files(&inputs, &options, &self.out, &*common.progress())?;
         if !outcome.records.is_empty() {
-            common.say(&distances(&outcome, &with.samplers));
+            common.say(&distances(&outcome, &options.plan.samplers));
             if outcome.records.iter().any(|r| !r.mosaic.verdicts.is_empty()) {
                 common.say(&format!("\n{}", verdicts(&outcome)));
             }
@@ -72,7 +68,8 @@ impl Compare {
         }
         common.say(&format!("\nTables: {}", self.out.join("*.csv").display()));
         say_failures(common, &outcome, &self.out);
-        Ok(Done::with(&outcome.failures))
+        common.say(&ending_words(&outcome.ending, inputs.len()));
+        Ok(Done::of(&outcome.failures, &outcome.ending))
     }
 }
 

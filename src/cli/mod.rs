@@ -2,27 +2,26 @@
 //! words and an exit code. Only here is anything printed.
 
 mod agree;
-mod common;
+mod args;
 mod compare;
 mod completions;
 mod detect;
-mod maps;
 mod measure;
 mod metrics;
+mod mosaic_args;
 mod paper;
-mod progress;
+mod remedies;
 mod render;
-mod rois;
 mod run;
 mod sample;
-mod scale;
-mod target;
+mod signals;
 mod validate;
 
+use args::Common;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
-use common::Common;
-use conemosaic::report::table;
+use conemosaic::batch::{BatchError, Ending};
+use conemosaic::report::{counted, table};
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -35,7 +34,8 @@ Start with:
   conemosaic COMMAND --help              what a command does, with an example
 
 Exit codes: 0 all done; 1 nothing done (wrong arguments, no input, no place to write);
-2 some or all files failed: they are listed in failures.csv with their reasons.";
+2 some or all files failed: they are listed in failures.csv with their reasons;
+130, 143 stopped by Ctrl-C or SIGTERM: the same command goes on.";
 
 #[derive(Parser)]
 #[command(name = "conemosaic", version, about = ABOUT, after_help = AFTER, max_term_width = 110)]
@@ -67,12 +67,39 @@ enum Done {
     Completely,
     /// Some files failed and are listed.
     WithFailures,
+    /// A signal of this number stopped it.
+    Stopped(u8),
 }
 
 impl Done {
-    fn with<T>(failures: &[T]) -> Self {
-        if failures.is_empty() { Self::Completely } else { Self::WithFailures }
+    /// How a batch ended.
+    fn of<T>(failures: &[T], ending: &Ending) -> Self {
+        match (ending.stopped(), signals::received()) {
+            (true, Some(signal)) => Self::Stopped(signal),
+            _ if failures.is_empty() => Self::Completely,
+            _ => Self::WithFailures,
+        }
     }
+}
+
+/// What a person should know about the end of a batch of `total` files; empty if there is nothing.
+fn ending_words(ending: &Ending, total: usize) -> String {
+    let mut lines = Vec::new();
+    if ending.stopped() {
+        let done = total - ending.left.min(total);
+        lines.push(format!("Stopped after {done} of {total} files: run the same command again to go on"));
+    }
+    let leftovers = &ending.leftovers;
+    if !leftovers.moved.is_empty() {
+        let files = counted(leftovers.moved.len(), "file");
+        let place = leftovers.place.display();
+        lines.push(format!("{files} of earlier results that this run does not have: moved to {place}"));
+    }
+    if !leftovers.foreign.is_empty() {
+        let names = leftovers.foreign.join(", ");
+        lines.push(format!("Not of this run, and left where they are: {names}"));
+    }
+    lines.join("\n")
 }
 
 /// Runs the program.
@@ -99,6 +126,7 @@ pub fn main() -> ExitCode {
     match result {
         Ok(Done::Completely) => ExitCode::SUCCESS,
         Ok(Done::WithFailures) => ExitCode::from(2),
+        Ok(Done::Stopped(signal)) => ExitCode::from(128 + signal),
         Err(error) => {
             complain(&said_once(&error));
             ExitCode::from(1)
@@ -143,7 +171,11 @@ fn say_usage(message: &clap::Error) -> ExitCode {
 /// The error and its causes; those that a message has already told are not told again.
 fn said_once(error: &anyhow::Error) -> String {
     let mut text = String::new();
-    for cause in error.chain().map(ToString::to_string) {
+    let words = |cause: &(dyn std::error::Error + 'static)| match cause.downcast_ref::<BatchError>() {
+        Some(error) => remedies::words(error),
+        None => cause.to_string(),
+    };
+    for cause in error.chain().map(words) {
         if text.is_empty() {
             text = cause;
         } else if !text.contains(&cause) {

@@ -1,5 +1,5 @@
 use super::Done;
-use super::common::Common;
+use super::args::Common;
 use anyhow::Result;
 use clap::Args;
 use conemosaic::batch::remake_paper;

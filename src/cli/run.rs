@@ -1,27 +1,26 @@
-use super::Done;
-use super::common::Common;
-use super::detect::DetectArgs;
-use super::maps::MapArgs;
-use super::metrics::SummaryArgs;
-use super::scale::ScaleArgs;
-use super::short_table;
+use super::args::{Common, CoordinateArgs, Defaults, DetectArgs, PlanArgs};
+use super::{Done, ending_words, short_table};
 use anyhow::{Result, bail};
 use clap::Args;
-use conemosaic::batch::{Crop, ImageWindow, RunOptions, RunOutcome, image_files, run_files};
+use conemosaic::batch::{
+    ConeSource, Crop, GivenCones, ImageWindow, RunOptions, RunOutcome, image_files, run_files,
+};
 use conemosaic::compare::VerdictOptions;
-use conemosaic::report::{Cell, Subject, Summary, by_need, counted, expected_errors, significant};
-use conemosaic::sample::samplers_named;
-use conemosaic::stats::MeasureOptions;
+use conemosaic::mosaic::io::ReadOptions;
+use conemosaic::report::{
+    Cell, Subject, Summary, SummaryKind, by_need, counted, expected_errors, significant,
+};
 use std::path::PathBuf;
 
 /// The main job: finds cones, measures the mosaic, compares it with samplers, reports — for files and folders
 #[derive(Args)]
 #[command(after_help = "\
-Example:
+Examples:
   conemosaic run images --scale-table scales.csv --out report
+  conemosaic run images --cones marks --origin 1 --out by_hand
 
 Writes to report/:
-  summary.csv               one row an image; `conemosaic metrics` says what each column is
+  summary.csv               one row per image; `conemosaic metrics` says what each column is
   groups.csv                with --group-by: mean, SD and number of every column by group
   index.html                the same as a page, with figures
   images/NAME/points.csv    cone centres: x_px,y_px,score (0,0: first pixel's centre)
@@ -29,13 +28,20 @@ Writes to report/:
   images/NAME/figure.svg    picture, points, nearest neighbours, g(r)
   images/NAME/pcf.csv       g(r) of the mosaic and the samplers (r in spacings)
   images/NAME/metrics.json  everything measured
-  landmarks.csv             with --maps: one row an image, peak (PCD) and centroid (CDC) of density; and of each image
-                            maps.csv (one row a cone), maps.svg, profiles.csv, and fourier_map.csv (spacing by
-                            the spectrum of the image, from place to place)
-  verdicts.csv              with --verdict: one row an image and sampler; and of each image
+  landmarks.csv             with --maps: one row per image, peak (PCD) and centroid (CDC) of density;
+                            and of each image maps.csv (one row per cone), maps.svg, profiles.csv,
+                            fourier_map.csv (spacing by the spectrum of the image, from place to place)
+  verdicts.csv              with --verdict: one row per image and sampler; and of each image
                             envelope.csv and verdict.svg
+  rois.csv                  with --rois or --roi-side: one row per region
+  functions.csv, density_recovery.csv, cells.csv, spectrum.csv, spectrum.png
+                            in images/NAME, with --functions and --spectrum; see measure --help
   run.json                  version, options, seed, hashes of the inputs, timings
-  failures.csv              images that failed, if any; then the exit code is 2")]
+  failures.csv              images that failed, if any; then the exit code is 2
+
+A run into the same folder goes on: results of images, options and a program that did not change are
+kept. Cones that you have corrected in images/NAME/points.csv are used, and everything else is made
+anew from them. Ctrl-C finishes the images in hand; the same command goes on later.")]
 pub struct Run {
     /// Images (PNG, TIFF; 8 or 16 bit, grey or colour) and folders of them
     #[arg(required = true)]
@@ -43,56 +49,63 @@ pub struct Run {
     /// Folder for the results
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// Take the cones from here instead of finding them: hand marks, corrected points, another program's. A folder, or
+    /// one file; NAME.csv, NAME_coords.csv or NAME/points.csv belong to the image NAME
+    #[arg(long, value_name = "PATH", help_heading = "Given cones")]
+    cones: Option<PathBuf>,
+    #[command(flatten)]
+    coordinates: CoordinateArgs,
     #[command(flatten)]
     detect: DetectArgs,
-    /// Samplers to compare with, separated by commas; all is every one, slow ones included; none is none [default: those marked * by
-    /// `conemosaic sample --list`]
-    #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
-    samplers: Vec<String>,
     /// Also simulate every sampler at each mosaic's own number of cones and window: the p-value of each, and the
     /// distances at which it differs
-    #[arg(long)]
+    #[arg(long, help_heading = "Comparison with samplers")]
     verdict: bool,
     /// Simulations of each sampler for --verdict (39–9999)
-    #[arg(long, value_name = "N", requires = "verdict", default_value_t = VerdictOptions::default().simulations)]
+    #[arg(long, value_name = "N", requires = "verdict", default_value_t = VerdictOptions::default().simulations, help_heading = "Comparison with samplers")]
     simulations: usize,
     /// The area that counts, for cones as for density: auto (all that was imaged: black margins and the corners between
     /// tiles of a montage are left out), image (all of it), WxH (centred) or X0,Y0,X1,Y1, in px, or in µm with um behind
-    /// it, or a FILE of corners: CSV of x,y in px (x_um,y_um: in µm; a blank line or a column “ring” parts rings, rings
-    /// within rings are holes), WebPlotDigitizer project or ImageJ ROI
+    /// it, or a FILE of corners: CSV of x,y in px (x_um,y_um: in µm; a blank line or a column “ring” separates rings,
+    /// rings within rings are holes), WebPlotDigitizer project or ImageJ ROI
     #[arg(long, value_name = "WINDOW", default_value = "auto", allow_hyphen_values = true)]
     window: ImageWindow,
     /// Of that area only this rectangle: WxH (centred in the image) or X0,Y0,X1,Y1, in px, or in µm with um behind it
     #[arg(long, value_name = "RECT", allow_hyphen_values = true)]
     crop: Option<Crop>,
-    #[command(flatten)]
-    summary: SummaryArgs,
-    /// Keep what an earlier run with the same options has finished
+    /// Start anew instead of keeping what an earlier run has finished
     #[arg(long)]
+    fresh: bool,
+    /// Find the cones anew even where a person has corrected them; the corrected files are put away
+    #[arg(long)]
+    replace_corrections: bool,
+    /// The default since 0.2: keep what an earlier run with the same options has finished
+    #[arg(long, hide = true, conflicts_with = "fresh")]
     resume: bool,
     #[command(flatten)]
-    maps: MapArgs,
-    #[command(flatten)]
-    scale: ScaleArgs,
+    plan: PlanArgs,
 }
 
 impl Run {
     pub fn execute(self, common: &Common) -> Result<Done> {
+        let read = self.coordinates.options()?;
+        if self.cones.is_none() && read != ReadOptions::default() {
+            bail!("--origin, --flip-y and --dataset say how given cones are read: add --cones PATH");
+        }
+        let verdict = VerdictOptions { simulations: self.simulations, ..VerdictOptions::default() };
+        let verdict = self.verdict.then_some(verdict);
+        let plan = self.plan.plan(&read, Defaults { compare: true, verdict, seed: common.seed })?;
+        let cones = match &self.cones {
+            Some(place) => ConeSource::Given(GivenCones::find(place, read)?),
+            None => ConeSource::Detector(self.detect.options()?),
+        };
         let options = RunOptions {
-            detect: self.detect.options()?,
-            measure: MeasureOptions::default(),
-            samplers: samplers_named(&self.samplers)?,
-            verdict: self
-                .verdict
-                .then(|| VerdictOptions { simulations: self.simulations, ..VerdictOptions::default() }),
-            maps: self.maps.request()?,
-            seed: common.seed,
-            scales: self.scale.source()?,
+            plan,
+            cones,
             window: self.window.clone(),
             crop: self.crop,
-            labels: self.summary.labels()?,
-            metrics: self.summary.metrics(),
-            resume: self.resume,
+            fresh: self.fresh,
+            replace_corrections: self.replace_corrections,
             command: std::env::args().collect(),
         };
         let window = match &options.window {
@@ -101,14 +114,15 @@ impl Run {
         };
         for (option, rectangle) in window.into_iter().chain(options.crop.iter().map(|crop| ("--crop", crop)))
         {
-            if options.scales.is_unknown() && rectangle.in_micrometres() {
+            if options.plan.scales.is_unknown() && rectangle.in_micrometres() {
                 bail!("{option} {rectangle} needs a scale: give --um-per-px or another of the scale options");
             }
         }
         let inputs = image_files(&self.paths, Some(&self.out))?;
         let outcome = run_files(&inputs, &options, &self.out, &*common.progress())?;
-        common.say(&self.words(&outcome, &options.summary()));
-        Ok(Done::with(&outcome.failures))
+        common.say(&self.words(&outcome, &options.plan.summary(SummaryKind::Images)));
+        common.say(&ending_words(&outcome.ending, inputs.len()));
+        Ok(Done::of(&outcome.failures, &outcome.ending))
     }
 
     fn words(&self, outcome: &RunOutcome, summary: &Summary) -> String {
@@ -118,7 +132,7 @@ impl Run {
             "modality",
             "cones",
             if scaled { "cones/mm²" } else { "cones/px²" },
-            "spacing px",
+            if scaled { "spacing µm" } else { "spacing px" },
             "RI",
             "closest to",
             "l∞",
@@ -130,18 +144,25 @@ impl Run {
             .map(|k| {
                 let r = &outcome.records[k];
                 let density = if scaled { r.mosaic.density_per_mm2() } else { Some(r.mosaic.stats.density) };
+                let spacing = r
+                    .mosaic
+                    .stats
+                    .spacing
+                    .map(|s| if scaled { s * r.mosaic.um_per_unit.unwrap_or(f64::NAN) } else { s });
                 let least = r.mosaic.l_infinity.iter().map(|d| d.l_infinity).min_by(f64::total_cmp);
                 let number = |value: Option<f64>| Cell::from(value).readable();
                 vec![
                     format!("{}{}", r.name, if r.warnings.is_empty() { "" } else { " !" }),
-                    r.detection.modality.to_string(),
+                    r.detection
+                        .as_ref()
+                        .map_or_else(|| r.cones_from.name().to_owned(), |d| d.modality.to_string()),
                     r.mosaic.n.to_string(),
                     number(density),
-                    number(r.mosaic.stats.spacing),
+                    number(spacing),
                     r.mosaic.stats.nearest.ri.map_or("–".into(), |ri| significant(ri, 3)),
                     r.mosaic.closest_sampler().unwrap_or("–").to_owned(),
                     least.map_or("–".into(), |d| significant(d, 2)),
-                    expected_errors(&r.detection),
+                    r.detection.as_ref().map_or("–".into(), expected_errors),
                 ]
             })
             .collect();
@@ -166,7 +187,7 @@ impl Run {
         if !outcome.records.is_empty() {
             text.push_str(&format!("\nFigures: {out}/images/NAME/figure.svg"));
         }
-        if self.maps.asked() {
+        if self.plan.maps_asked() {
             text.push_str(&format!("\nMaps:    {out}/landmarks.csv"));
         }
         if !outcome.failures.is_empty() {

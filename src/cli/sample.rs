@@ -1,6 +1,6 @@
 use super::Done;
-use super::common::Common;
-use super::target::{TargetArgs, fit_in_words, write_fit};
+use super::args::Common;
+use super::args::{TargetArgs, fit_in_words, write_fit};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use conemosaic::batch::Region;

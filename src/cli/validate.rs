@@ -1,8 +1,5 @@
-use super::Done;
-use super::common::Common;
-use super::detect::DetectArgs;
-use super::measure::CoordinateArgs;
-use super::scale::ScaleArgs;
+use super::args::{Common, CoordinateArgs, DetectArgs, ScaleArgs};
+use super::{Done, ending_words};
 use anyhow::{Result, bail};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
@@ -114,7 +111,9 @@ impl Validate {
         let options = self.options(common.seed)?;
         let outcome = validate_files(&self.reference, &options, &self.out, &*common.progress())?;
         common.say(&self.summary(&outcome));
-        Ok(Done::with(&outcome.failures))
+        let total = outcome.rows.len() + outcome.failures.len() + outcome.ending.left;
+        common.say(&ending_words(&outcome.ending, total));
+        Ok(Done::of(&outcome.failures, &outcome.ending))
     }
 
     fn options(&self, seed: u64) -> Result<ValidationOptions> {

@@ -38,7 +38,9 @@ pub use paper::PaperResults;
 pub use picture::{
     MarkKind, OverlayMark, PowerScale, encode_png, overlay, overlay_with_border, spectrum_plane,
 };
-pub use record::{ConesFrom, CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord, SamplerDistance, by_need};
+pub use record::{
+    ConesFrom, CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord, SamplerDistance, by_need,
+};
 pub use tables::{EdgeRule, Failure, ValidationRow, VersusRow};
 pub use text::{
     TextTable, accuracy_table, agreement_table, comparison_table, counted, group_table, significant, table,

@@ -29,8 +29,8 @@ pub use jittered::Jittered;
 pub use lattice::{Square, Triangular};
 pub use lloyd::Lloyd;
 pub use parameter::{Configure, Parameter, Settable, Setting};
-pub use sampler::{Sampler, Watch};
 pub use retinal::{Ahumada, CurcioSloan, Deering, MinimalSpacing, Wang};
+pub use sampler::{Sampler, Watch};
 pub use shaped::{GREEN, NearestTarget, Noise, PINK, Shaped, Step, TargetCurve};
 pub use uniform::Uniform;
 

@@ -1,9 +1,9 @@
-use crate::batch::output::OutputFolder;
+use crate::batch::output::{OutputFolder, write_figure};
 use crate::batch::{BatchError, Length};
 use crate::detect::{FourierEstimate, FourierMapOptions, fourier_map};
 use crate::image::Plane;
 use crate::mosaic::{Mosaic, Scale};
-use crate::report::{LandmarkRecord, maps_figure, tables};
+use crate::report::{FigureFormat, LandmarkRecord, maps_figure, tables};
 use crate::stats::{LocalWindow, MapOptions, Maps};
 use serde::Serialize;
 use std::path::Path;
@@ -70,9 +70,12 @@ impl MapRequest {
     pub(super) fn of(&self, mosaic: &Mosaic, file: &Path) -> Result<MapOptions, BatchError> {
         let window = match self.window {
             MapWindow::Cells(n) => LocalWindow::Cells(n),
-            MapWindow::Side(side) => LocalWindow::Side(side.of("the side of the maps' windows", mosaic, file)?),
+            MapWindow::Side(side) => {
+                LocalWindow::Side(side.of("the side of the maps' windows", mosaic, file)?)
+            }
         };
-        let step = self.profile_step.map(|step| step.of("the step of the profiles", mosaic, file)).transpose()?;
+        let step =
+            self.profile_step.map(|step| step.of("the step of the profiles", mosaic, file)).transpose()?;
         Ok(MapOptions { window, isodensity: self.isodensity, profile_step: step })
     }
 }
@@ -83,12 +86,13 @@ pub(super) fn write(
     folder: &OutputFolder,
     prefix: &str,
     title: &str,
-    mosaic: &Mosaic,
-    found: &Maps,
+    (mosaic, found): (&Mosaic, &Maps),
+    figures: &[FigureFormat],
 ) -> Result<(), BatchError> {
-    let [table, figure, profiles] = FILES.map(|name| format!("{prefix}{name}"));
+    let [table, profiles] = [FILES[0], FILES[2]].map(|name| format!("{prefix}{name}"));
+    let figure = format!("{prefix}maps");
     folder.write(&table, &tables::maps_csv(mosaic, found)?)?;
-    folder.write(&figure, maps_figure(title, mosaic, found)?.as_bytes())?;
+    write_figure(folder, &figure, &maps_figure(title, mosaic, found)?, figures)?;
     folder.write(&profiles, &tables::profiles_csv(mosaic, found)?)
 }
 

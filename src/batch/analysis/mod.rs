@@ -110,10 +110,11 @@ pub(super) fn analyse(
     let maps = plan
         .maps
         .as_ref()
-        .map(|request| Ok::<_, BatchError>(crate::stats::maps(mosaic, &measures, &request.of(mosaic, path)?)?))
+        .map(|request| {
+            Ok::<_, BatchError>(crate::stats::maps(mosaic, &measures, &request.of(mosaic, path)?)?)
+        })
         .transpose()?;
-    let landmarks =
-        maps.as_ref().map(|maps| LandmarkRecord::new(&path.display().to_string(), mosaic, maps));
+    let landmarks = maps.as_ref().map(|maps| LandmarkRecord::new(&path.display().to_string(), mosaic, maps));
     let regions = match &plan.rois {
         Some(request) => rois::rows(specimen.input, mosaic, &record, plan, request)?,
         None => Vec::new(),

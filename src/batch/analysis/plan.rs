@@ -1,8 +1,8 @@
-use super::rois::RoiRequest;
 use super::MapRequest;
+use super::rois::RoiRequest;
 use crate::batch::{BatchError, Labels, ScaleSource};
 use crate::compare::{References, VerdictOptions};
-use crate::report::{MetricGroup, MetricSelection, PowerScale, Summary, SummaryKind};
+use crate::report::{FigureFormat, MetricGroup, MetricSelection, PowerScale, Summary, SummaryKind};
 use crate::sample::Sampler;
 use crate::stats::{FunctionOptions, MeasureOptions, SpectrumOptions};
 use serde_json::{Value, json};
@@ -32,6 +32,8 @@ pub struct Plan {
     pub labels: Labels,
     /// Columns of `summary.csv`.
     pub metrics: MetricSelection,
+    /// Formats of the figures besides SVG.
+    pub figures: Vec<FigureFormat>,
 }
 
 impl Default for Plan {
@@ -48,6 +50,7 @@ impl Default for Plan {
             scales: ScaleSource::Unknown,
             labels: Labels::default(),
             metrics: MetricSelection::default(),
+            figures: Vec::new(),
         }
     }
 }
@@ -90,7 +93,8 @@ impl Plan {
         if let Some(identity) = identity.as_object_mut() {
             identity.remove("scale");
             identity.remove("manifest");
-            identity.insert("regions".into(), json!(self.rois.as_ref().map(|request| format!("{request:?}"))));
+            identity
+                .insert("regions".into(), json!(self.rois.as_ref().map(|request| format!("{request:?}"))));
         }
         identity
     }
@@ -107,6 +111,7 @@ impl Plan {
             "spectrum_scale": self.spectrum.map(|(_, scale)| format!("{scale:?}").to_lowercase()),
             "maps": self.maps,
             "rois": self.rois.as_ref().map(RoiRequest::describe),
+            "figures": self.figures.iter().map(ToString::to_string).collect::<Vec<_>>(),
             "scale": self.scales.describe(),
             "manifest": self.labels.manifest.as_ref().map(|m| m.file()),
         })

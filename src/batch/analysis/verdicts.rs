@@ -1,9 +1,9 @@
 use crate::batch::BatchError;
-use crate::batch::output::OutputFolder;
+use crate::batch::output::{OutputFolder, write_figure};
 use crate::compare::{SamplerVerdict, VerdictOptions, verdict};
 use crate::mosaic::Mosaic;
 use crate::report::tables::{VERDICTS, VerdictRow, envelope_csv};
-use crate::report::{Curve, EnvelopePanel, VerdictRecord, envelope_figure, significant};
+use crate::report::{Curve, EnvelopePanel, FigureFormat, VerdictRecord, envelope_figure, significant};
 use crate::sample::Sampler;
 use crate::stats::Measures;
 
@@ -50,14 +50,14 @@ pub(super) fn write(
     out: &OutputFolder,
     prefix: &str,
     title: &str,
-    measures: &Measures,
-    verdicts: &[SamplerVerdict],
+    (measures, verdicts): (&Measures, &[SamplerVerdict]),
+    figures: &[FigureFormat],
 ) -> Result<(), BatchError> {
     if verdicts.is_empty() {
         return Ok(());
     }
     out.write(&format!("{prefix}{ENVELOPE}"), &envelope_csv(measures, verdicts)?)?;
-    out.write(&format!("{prefix}{FIGURE}"), figure(title, measures, verdicts)?.as_bytes())
+    write_figure(out, &format!("{prefix}verdict"), &figure(title, measures, verdicts)?, figures)
 }
 
 /// The mosaic's g in the envelope of each sampler.

@@ -3,11 +3,11 @@
 
 use super::{Analysis, Plan, Specimen, figure, maps, verdicts};
 use crate::batch::BatchError;
-use crate::batch::output::OutputFolder;
+use crate::batch::output::{OutputFolder, write_figure};
 use crate::report::{spectrum_png, tables};
 
 const PCF: &str = "pcf.csv";
-const FIGURE: &str = "figure.svg";
+const FIGURE: &str = "figure";
 const FUNCTIONS: [&str; 2] = ["functions.csv", "density_recovery.csv"];
 const SPECTRUM: [&str; 2] = ["spectrum.csv", "spectrum.png"];
 /// The table of the points, with their neighbours and cells; `points.csv` of an image's folder
@@ -25,7 +25,7 @@ pub(in crate::batch) enum Layout {
 
 /// Names that [`write`] always writes into the folder of an image, given the plan.
 pub(in crate::batch) fn required_files(plan: &Plan, with_verdicts: bool) -> Vec<&'static str> {
-    let mut names = vec![PCF, FIGURE];
+    let mut names = vec![PCF, "figure.svg"];
     if plan.functions.is_some() {
         names.extend(FUNCTIONS.into_iter().chain([POINTS[1]]));
     }
@@ -56,9 +56,15 @@ pub(in crate::batch) fn write(
     };
     folder.write(&called(PCF), &tables::pcf_csv(measures, &analysis.curves.curves)?)?;
     if layout == Layout::Folder {
-        let drawn =
-            figure::figure(name, specimen.image, mosaic, measures, &analysis.record, &analysis.curves.curves)?;
-        folder.write(FIGURE, drawn.as_bytes())?;
+        let drawn = figure::figure(
+            name,
+            specimen.image,
+            mosaic,
+            measures,
+            &analysis.record,
+            &analysis.curves.curves,
+        )?;
+        write_figure(folder, FIGURE, &drawn, &plan.figures)?;
     }
     if let Some(found) = &analysis.functions {
         let recovery = measures.density_recovery.as_ref().ok();
@@ -72,10 +78,10 @@ pub(in crate::batch) fn write(
         folder.write(&called(SPECTRUM[1]), &spectrum_png(found, scale)?)?;
     }
     if let Some(found) = &analysis.maps {
-        maps::write(folder, &called(""), name, mosaic, found)?;
+        maps::write(folder, &called(""), name, (mosaic, found), &plan.figures)?;
         if let Some(image) = specimen.image.filter(|_| layout == Layout::Folder) {
             maps::write_fourier(folder, image, analysis.fourier.as_ref(), mosaic.scale())?;
         }
     }
-    verdicts::write(folder, &called(""), name, measures, &analysis.verdicts)
+    verdicts::write(folder, &called(""), name, (measures, &analysis.verdicts), &plan.figures)
 }

@@ -103,9 +103,7 @@ impl Labels {
         let has = self.columns();
         match (names.iter().find(|n| !has.contains(n)), &self.manifest) {
             (None, Some(_)) => Ok(()),
-            (_, None) => {
-                Err(BatchError::Group("groups by column need a manifest: give one".into()))
-            }
+            (_, None) => Err(BatchError::Group("groups by column need a manifest: give one".into())),
             (Some(unknown), Some(manifest)) => Err(BatchError::Group(format!(
                 "{} has no column {unknown} to group by: it has {}",
                 manifest.file(),

@@ -111,7 +111,10 @@ pub(in crate::batch) struct Chosen {
 ///
 /// A column may have another name in each table: `density` is found as `density_per_px2`, or whatever unit all
 /// tables have, and a name of an earlier version as the one that took its place.
-pub(in crate::batch) fn chosen_columns(readings: &[Readings], asked: &[String]) -> Result<Vec<Chosen>, BatchError> {
+pub(in crate::batch) fn chosen_columns(
+    readings: &[Readings],
+    asked: &[String],
+) -> Result<Vec<Chosen>, BatchError> {
     if !asked.is_empty() {
         return asked.iter().map(|column| resolved(readings, column)).collect();
     }

@@ -1,8 +1,8 @@
 //! A folder of results: locked while a command writes into it, and of one run when it is done.
 
-use super::folder::OutputFolder;
 use super::Ending;
-use super::ledger::{Leftovers, Ledger, OWN, Standing};
+use super::folder::OutputFolder;
+use super::ledger::{Ledger, Leftovers, OWN, Standing};
 use crate::batch::BatchError;
 use std::fs::{self, File, TryLockError};
 use std::io;

@@ -115,9 +115,7 @@ impl Job<'_> {
     /// corrected before an earlier run.
     pub(super) fn is_corrected(&self, input: &Input) -> bool {
         let listed = format!("{IMAGES}/{}/{POINTS}", input.name);
-        let before = || {
-            super::resume::cones_of(&self.images.join(&input.name)) == Some(ConesFrom::Corrected)
-        };
+        let before = || super::resume::cones_of(&self.images.join(&input.name)) == Some(ConesFrom::Corrected);
         match self.out.standing(&listed) {
             Standing::Missing => false,
             Standing::Own => before(),

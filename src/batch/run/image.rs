@@ -65,13 +65,8 @@ pub(super) fn one_image(input: &Input, job: &Job) -> Result<(Done, String), Batc
     let detect = lap();
     let (mosaic, _) = Mosaic::new(cones.points.clone(), window, LengthUnit::Pixel, scale)
         .map_err(|source| BatchError::Mosaic { file: input.path.clone(), source })?;
-    let specimen = Specimen {
-        input,
-        mosaic,
-        outside: cones.outside,
-        image: Some(&image),
-        found: cones.found.as_ref(),
-    };
+    let specimen =
+        Specimen { input, mosaic, outside: cones.outside, image: Some(&image), found: cones.found.as_ref() };
     let analysis = analyse(&specimen, plan, &job.references)?;
     let [measure, compare] = analysis.seconds;
     lap();

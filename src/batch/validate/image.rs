@@ -3,8 +3,8 @@
 use super::pairs::Pairs;
 use super::{Detected, ValidationRow, VersusRow};
 use crate::batch::detect::{detect_in, read_image};
-use crate::batch::output::OutputFolder;
 use crate::batch::input::image_name;
+use crate::batch::output::OutputFolder;
 use crate::batch::{BatchError, Input};
 use crate::compare::{JudgedImage, MatchOptions, Matching, Score, judge, validate};
 use crate::detect::Detection;

@@ -46,7 +46,12 @@ impl Length {
     ///
     /// # Errors
     /// If it is in µm and no scale is known.
-    pub(in crate::batch) fn of(&self, option: &'static str, mosaic: &Mosaic, file: &Path) -> Result<f64, BatchError> {
+    pub(in crate::batch) fn of(
+        &self,
+        option: &'static str,
+        mosaic: &Mosaic,
+        file: &Path,
+    ) -> Result<f64, BatchError> {
         match (self.micrometres, mosaic.micrometres_per_unit()) {
             (false, _) => Ok(self.value),
             (true, Some(um)) => Ok(self.value / um),

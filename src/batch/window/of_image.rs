@@ -74,7 +74,12 @@ impl<'a> ImageWindows<'a> {
     ///
     /// # Errors
     /// If nothing is left, or a length is in µm and there is no scale.
-    pub(in crate::batch) fn of(&self, file: &Path, image: &Plane, scale: Option<Scale>) -> Result<Window, BatchError> {
+    pub(in crate::batch) fn of(
+        &self,
+        file: &Path,
+        image: &Plane,
+        scale: Option<Scale>,
+    ) -> Result<Window, BatchError> {
         let (height, width) = image.dim();
         let whole = Window::of_image(width, height)?;
         let left = |window: Option<Window>, asked: String| {

@@ -6,7 +6,7 @@ mod manifest;
 mod mosaic;
 
 use super::Done;
-use super::common::Common;
+use super::args::Common;
 use anyhow::{Context, Result, bail};
 use appearance::Appearance;
 use clap::Args;

@@ -1,5 +1,5 @@
 use super::draw::Draw;
-use crate::cli::measure::CoordinateArgs;
+use crate::cli::args::CoordinateArgs;
 use anyhow::{Result, bail};
 use clap::Args;
 use conemosaic::mosaic::LengthUnit;

@@ -15,7 +15,8 @@ const NAMES: [(&str, &str); 6] = [
 /// column that no summary of this crate has keeps its name.
 pub fn column_in_words(column: &str) -> (String, String) {
     let Some((metric, unit)) = find(column) else { return (column.replace('_', " "), String::new()) };
-    let name = NAMES.iter().find(|n| n.0 == metric.column.words.name).map_or(metric.column.words.name, |n| n.1);
+    let name =
+        NAMES.iter().find(|n| n.0 == metric.column.words.name).map_or(metric.column.words.name, |n| n.1);
     (name.replace('_', " "), unit_in_words(metric, unit).to_owned())
 }
 
@@ -36,7 +37,9 @@ fn unit_in_words(metric: &Metric, unit: Unit) -> &'static str {
     match (metric.quantity, unit, metric.column.words.unit) {
         (Quantity::Plain, _, "text" | "count" | "ratio" | "0–1") => "",
         (Quantity::Length, Unit::Coordinates, _) => "in the unit of the coordinates",
-        (Quantity::Area | Quantity::Density, Unit::Coordinates, _) => "by the squared unit of the coordinates",
+        (Quantity::Area | Quantity::Density, Unit::Coordinates, _) => {
+            "by the squared unit of the coordinates"
+        }
         (Quantity::Density, Unit::Pixels, _) => "cones/px²",
         (Quantity::Density, Unit::Micrometres, _) => "cones/mm²",
         (Quantity::Density, Unit::Degrees, _) => "cones/degree²",

@@ -1,4 +1,5 @@
-use super::progress::{Bar, Failures, Lines, Steps};
+use super::progress::{Bar, Failures, Lines, Steps, Watched};
+use crate::cli::signals;
 use anyhow::{Context, Result};
 use clap::Args;
 use conemosaic::batch::Progress;
@@ -46,13 +47,15 @@ impl Common {
 
     /// A bar on a terminal, lines elsewhere, failures only if quiet.
     pub fn progress(&self) -> Box<dyn Progress> {
-        if self.quiet {
+        signals::listen();
+        let shown: Box<dyn Progress> = if self.quiet {
             Box::new(Failures)
         } else if std::io::stderr().is_terminal() {
             Box::new(Bar::new())
         } else {
             Box::new(Lines::new())
-        }
+        };
+        Box::new(Watched(shown))
     }
 
     /// A bar for one long task; none if quiet.
@@ -62,7 +65,7 @@ impl Common {
 
     /// Prints unless quiet. A reader that stops listening (`| head`) is no error.
     pub fn say(&self, text: &str) {
-        if !self.quiet {
+        if !self.quiet && !text.is_empty() {
             let _ = writeln!(std::io::stdout(), "{text}");
         }
     }

@@ -1,8 +1,33 @@
-use super::one_line;
-use conemosaic::batch::Progress;
+use crate::cli::{one_line, remedies, signals};
+use conemosaic::batch::{BatchError, Progress};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::Write;
 use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Listens to signals, and adds to errors which options help.
+pub struct Watched(pub Box<dyn Progress>);
+
+impl Progress for Watched {
+    fn begin(&self, total: usize) {
+        self.0.begin(total);
+    }
+
+    fn done(&self, name: &str, outcome: Result<&str, &str>) {
+        self.0.done(name, outcome);
+    }
+
+    fn end(&self) {
+        self.0.end();
+    }
+
+    fn stopped(&self) -> bool {
+        signals::received().is_some()
+    }
+
+    fn words(&self, error: &BatchError) -> String {
+        remedies::words(error)
+    }
+}
 
 /// A progress bar; failures scroll by above it.
 pub struct Bar(ProgressBar);
