@@ -254,8 +254,8 @@ fn figure(outcome: &AgreementOutcome) -> String {
         .iter()
         .map(|c| {
             let (quantity, unit) = column_in_words(&c.column);
-            let [mean, difference] = ["mean", "difference"].map(|of| format!("{of} of {quantity}"));
-            [mean, difference].map(|label| if unit.is_empty() { label } else { format!("{label} ({unit})") })
+            [format!("mean of {quantity}"), "difference".to_owned()]
+                .map(|label| if unit.is_empty() { label } else { format!("{label} ({unit})") })
         })
         .collect();
     let panels: Vec<AgreementPanel> = shown

@@ -4,6 +4,8 @@ use super::{Curve, MosaicFigure, ReferenceLine};
 
 /// Okabe & Ito (2008), told apart by colour-blind readers; black is the mosaic's, their yellow is too pale for a line.
 const COLOURS: [&str; 6] = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00"];
+/// The same, dark enough for words on white.
+const DARK: [&str; 6] = ["#0072B2", "#8A5F00", "#007A59", "#A3457A", "#1F7CB0", "#B84F00"];
 /// Dashes tell lines apart in grey, and beyond the sixth where colours repeat.
 const DASHES: [Option<&str>; 3] = [None, Some("5 1.6"), Some("1.6 1.2")];
 /// So many samplers are drawn: the nearest.
@@ -31,6 +33,8 @@ struct Line<'a> {
     l_infinity: Option<f64>,
     curve: Curve<'a>,
     colour: &'static str,
+    /// Colour of its label.
+    dark: &'static str,
     width: f64,
 }
 
@@ -53,11 +57,12 @@ impl Line<'_> {
 /// Returns the curves to draw, the mosaic's last: of the samplers the three nearest to the mosaic, and independent
 /// points for scale. More would hide each other; all distances are in the tables.
 fn lines<'a>(figure: &MosaicFigure<'a>, mosaic: Curve<'a>) -> Vec<Line<'a>> {
-    let line = |l: &ReferenceLine<'a>, colour| Line {
+    let line = |l: &ReferenceLine<'a>, colour, dark| Line {
         name: l.name,
         l_infinity: l.l_infinity,
         curve: Curve { r: l.r, g: l.g },
         colour,
+        dark,
         width: SAMPLER_WIDTH,
     };
     let mut others: Vec<_> = figure.references.iter().filter(|l| l.name != SCALE).enumerate().collect();
@@ -66,16 +71,17 @@ fn lines<'a>(figure: &MosaicFigure<'a>, mosaic: Curve<'a>) -> Vec<Line<'a>> {
         let of = |l: &ReferenceLine| l.l_infinity.unwrap_or(f64::INFINITY);
         of(a).total_cmp(&of(b))
     });
-    let scale = figure.references.iter().filter(|l| l.name == SCALE).map(|l| line(l, GREY));
+    let scale = figure.references.iter().filter(|l| l.name == SCALE).map(|l| line(l, GREY, GREY));
     // a sampler has the same colour in the figures of all mosaics, unless one that is nearer has it
-    let mut free = COLOURS.to_vec();
+    let mut free: Vec<usize> = (0..COLOURS.len()).collect();
     let nearest = others.into_iter().take(NEAREST).map(|(k, l)| {
-        let wanted = COLOURS[k % COLOURS.len()];
-        let at = free.iter().position(|c| *c == wanted).unwrap_or(0);
-        line(l, free.remove(at))
+        let at = free.iter().position(|c| *c == k % COLOURS.len()).unwrap_or(0);
+        let colour = free.remove(at);
+        line(l, COLOURS[colour], DARK[colour])
     });
     let nearest: Vec<_> = nearest.collect();
-    let own = Line { name: "mosaic", l_infinity: None, curve: mosaic, colour: INK, width: MOSAIC_WIDTH };
+    let own =
+        Line { name: "mosaic", l_infinity: None, curve: mosaic, colour: INK, dark: INK, width: MOSAIC_WIDTH };
     scale.chain(nearest).chain([own]).collect()
 }
 
@@ -103,7 +109,12 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
             .filter_map(|line| {
                 let (r, g) = peak_of(line)?;
                 let target = if g < FLAT { line.peak(beside - 0.1, beside, tallest)? } else { (r, g) };
-                Some(Label { text: line.text(), target: place(target.0, target.1), colour: line.colour })
+                Some(Label {
+                    text: line.text(),
+                    target: place(target.0, target.1),
+                    colour: line.colour,
+                    dark: line.dark,
+                })
             })
             .collect()
     };

@@ -16,8 +16,10 @@ pub(super) struct Label<'a> {
     pub text: String,
     /// Place on the page that the text is led from.
     pub target: (f64, f64),
-    /// Colour of text and leader.
+    /// Colour of the leader: that of the curve.
     pub colour: &'a str,
+    /// Colour of the text.
+    pub dark: &'a str,
 }
 
 /// Returns the width of the widest text, its leader's gap among it.
@@ -37,15 +39,8 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, left: f64, floor: f64, mut l
     let wanted: Vec<f64> = labels.iter().map(|l| l.target.1 + MIDDLE).collect();
     for (label, baseline) in labels.iter().zip(spread(&wanted, area.y + ASCENT, floor - DESCENT)) {
         let end = (left - GAP / 2., baseline - MIDDLE);
-        canvas.line(label.target, end, label.colour, 0.5);
-        canvas.coloured_text(
-            left + GAP / 2.,
-            baseline,
-            &label.text,
-            Style::Note,
-            Anchor::Start,
-            label.colour,
-        );
+        canvas.line(label.target, end, label.colour, 0.6);
+        canvas.coloured_text(left + GAP / 2., baseline, &label.text, Style::Note, Anchor::Start, label.dark);
     }
 }
 

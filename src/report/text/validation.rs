@@ -168,7 +168,7 @@ pub fn comparison_table(first: &str, second: &str, differences: &[Difference]) -
         };
         let values = [d.first, d.second, d.difference].map(number);
         let p = d.p.map_or(NONE.into(), |p| significant(p, 2));
-        let least = significant(d.least_p, 2);
+        let least = significant(d.least_p, 3);
         [vec![label.to_owned()], values.to_vec(), vec![between(d.interval, number), p, least]].concat()
     };
     let rows = differences.iter().map(row).collect();
