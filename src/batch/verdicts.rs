@@ -11,8 +11,8 @@ const ENVELOPE: &str = "envelope.csv";
 const FIGURE: &str = "verdict.svg";
 pub(super) const FILES: [&str; 2] = [ENVELOPE, FIGURE];
 
-/// The verdict of each sampler on a mosaic, in their order, and a warning for each that has none. A mosaic without a pair
-/// correlation function has neither: another warning says so.
+/// The verdict of each sampler on a mosaic, in their order, and a warning for each that has none. A
+/// mosaic without a pair correlation function has neither: another warning says so.
 pub(super) fn verdicts_on(
     mosaic: &Mosaic,
     measures: &Measures,
@@ -35,7 +35,8 @@ pub(super) fn records(verdicts: &[SamplerVerdict]) -> Vec<VerdictRecord> {
     verdicts.iter().map(VerdictRecord::from).collect()
 }
 
-/// Columns r, g, and of each sampler the mean of its simulations and the edges of their global envelope.
+/// Columns r, g, and of each sampler the mean of its simulations and the edges of their global
+/// envelope.
 fn envelope_table<'a>(
     measures: &'a Measures,
     verdicts: &'a [SamplerVerdict],
@@ -58,7 +59,8 @@ pub(super) fn table<'a>(
     (VerdictRecord::header(), rows.collect())
 }
 
-/// Writes the envelopes and their figure, under names that begin with `prefix`; nothing without verdicts.
+/// Writes the envelopes and their figure, under names that begin with `prefix`; nothing without
+/// verdicts.
 pub(super) fn write(
     out: &OutputFolder,
     prefix: &str,

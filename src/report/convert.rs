@@ -12,7 +12,8 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::{Arc, LazyLock};
 
-/// Arimo has the widths of Helvetica and Arial, which figures ask for first, so that texts take the same room.
+/// Arimo has the widths of Helvetica and Arial, which figures ask for first, so that texts take the
+/// same room.
 const FONTS: [&[u8]; 2] = [include_bytes!("fonts/Arimo-Regular.ttf"), include_bytes!("fonts/Arimo-Bold.ttf")];
 const FAMILY: &str = "Arimo";
 
@@ -66,9 +67,9 @@ impl FromStr for FigureFormat {
     }
 }
 
-/// Returns a figure of this crate as bytes of the given format. Equal figures make equal bytes on every machine: texts
-/// are set in a font that is part of the crate. Only characters that it lacks (it has Latin, Greek and basic Cyrillic)
-/// are looked for in the fonts of the machine.
+/// Returns a figure of this crate as bytes of the given format. Equal figures make equal bytes on
+/// every machine: texts are set in a font that is part of the crate. Only characters that it lacks
+/// (it has Latin, Greek and basic Cyrillic) are looked for in the fonts of the machine.
 ///
 /// # Errors
 /// If `svg` is no SVG, or has no size that the format can hold.

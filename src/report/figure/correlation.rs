@@ -2,7 +2,8 @@ use super::canvas::{Area, Canvas, FRAME, INK, Ranges, headroom, round_above};
 use super::labels::{self, Label};
 use super::{Curve, MosaicFigure, ReferenceLine};
 
-/// Okabe & Ito (2008), told apart by colour-blind readers; black is the mosaic's, their yellow is too pale for a line.
+/// Okabe & Ito (2008), told apart by colour-blind readers; black is the mosaic's, their yellow is
+/// too pale for a line.
 const COLOURS: [&str; 6] = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00"];
 /// The same, dark enough for words on white.
 const DARK: [&str; 6] = ["#0072B2", "#8A5F00", "#007A59", "#A3457A", "#1F7CB0", "#B84F00"];
@@ -15,12 +16,15 @@ const SCALE: &str = "uniform";
 const GREY: &str = "#767676";
 const SAMPLER_WIDTH: f64 = 1.1;
 const MOSAIC_WIDTH: f64 = 2.2;
-/// No sampler stretches the axis beyond this multiple of the mosaic's highest value, or of the floor if that is lower.
+/// No sampler stretches the axis beyond this multiple of the mosaic's highest value, or of the
+/// floor if that is lower.
 const SPIKE_FACTOR: f64 = 1.5;
 const SPIKE_FLOOR: f64 = 3.;
-/// Labels begin so far right of the peaks that they belong to, in spacings: beyond the flank of the widest.
+/// Labels begin so far right of the peaks that they belong to, in spacings: beyond the flank of the
+/// widest.
 const BESIDE_PEAK: f64 = 0.3;
-/// A curve that stays below this has no peak to be labelled at: it is labelled where the labels begin.
+/// A curve that stays below this has no peak to be labelled at: it is labelled where the labels
+/// begin.
 const FLAT: f64 = 1.15;
 
 pub(super) fn style(index: usize) -> (&'static str, Option<&'static str>) {
@@ -47,15 +51,16 @@ impl Line<'_> {
         }
     }
 
-    /// The highest point between two distances, if it is below `g_max`, else where the curve is cut.
+    /// The highest point between two distances, if it is below `g_max`, else where the curve is
+    /// cut.
     fn peak(&self, from: f64, to: f64, g_max: f64) -> Option<(f64, f64)> {
         let within = finite(self.curve).filter(|p| p.0 >= from && p.0 <= to);
         within.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(r, g)| (r, g.min(g_max)))
     }
 }
 
-/// Returns the curves to draw, the mosaic's last: of the samplers the three nearest to the mosaic, and independent
-/// points for scale. More would hide each other; all distances are in the tables.
+/// Returns the curves to draw, the mosaic's last: of the samplers the three nearest to the mosaic,
+/// and independent points for scale. More would hide each other; all distances are in the tables.
 fn lines<'a>(figure: &MosaicFigure<'a>, mosaic: Curve<'a>) -> Vec<Line<'a>> {
     let line = |l: &ReferenceLine<'a>, colour, dark| Line {
         name: l.name,
@@ -85,7 +90,8 @@ fn lines<'a>(figure: &MosaicFigure<'a>, mosaic: Curve<'a>) -> Vec<Line<'a>> {
     scale.chain(nearest).chain([own]).collect()
 }
 
-/// Draws the mosaic's PCF over those of the nearest samplers, every curve labelled with its name and ℓ∞.
+/// Draws the mosaic's PCF over those of the nearest samplers, every curve labelled with its name
+/// and ℓ∞.
 pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
     let Some(mosaic) = figure.pcf.filter(|curve| finite(*curve).next().is_some()) else {
         let sentence = match figure.points.len() {
@@ -147,7 +153,8 @@ fn finite(curve: Curve<'_>) -> impl Iterator<Item = (f64, f64)> {
     curve.r.iter().copied().zip(curve.g.iter().copied()).filter(|p| p.0.is_finite() && p.1.is_finite())
 }
 
-/// Up to the next half spacing where that is near: bins named by their left edges end a hair before a tick.
+/// Up to the next half spacing where that is near: bins named by their left edges end a hair before
+/// a tick.
 pub(super) fn axis_end(r_max: f64) -> f64 {
     let tick = (r_max * 2.).ceil() / 2.;
     if tick - r_max < 0.03 * r_max { tick } else { r_max }

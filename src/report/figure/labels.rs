@@ -32,8 +32,8 @@ pub(super) fn height(count: usize) -> f64 {
     if count == 0 { 0. } else { (count - 1) as f64 * LINE + ASCENT + DESCENT }
 }
 
-/// Writes every label at its own height where it can, and above `floor` (a height on the page) in any case; labels
-/// keep their order from top to bottom and never overlap. Texts begin at `left`.
+/// Writes every label at its own height where it can, and above `floor` (a height on the page) in
+/// any case; labels keep their order from top to bottom and never overlap. Texts begin at `left`.
 pub(super) fn draw(canvas: &mut Canvas, area: Area, left: f64, floor: f64, mut labels: Vec<Label>) {
     labels.sort_by(|a, b| a.target.1.total_cmp(&b.target.1));
     let wanted: Vec<f64> = labels.iter().map(|l| l.target.1 + MIDDLE).collect();
@@ -44,7 +44,8 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, left: f64, floor: f64, mut l
     }
 }
 
-/// Returns baselines as near to the rising ones `wanted` as fit between `top` and `bottom`, a line apart.
+/// Returns baselines as near to the rising ones `wanted` as fit between `top` and `bottom`, a line
+/// apart.
 fn spread(wanted: &[f64], top: f64, bottom: f64) -> Vec<f64> {
     let mut below = bottom + LINE;
     let mut baselines: Vec<f64> = wanted

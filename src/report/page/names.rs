@@ -6,10 +6,12 @@ const BREAKS: [char; 3] = ['_', '-', '.'];
 /// Shorter stretches are not worth an ellipsis.
 const WORTH: usize = 8;
 
-/// Names of images as a page shows them: whole and breakable where there is room; on narrow screens stretches that tell
-/// no two of them apart make way for an ellipsis. Names usually differ at their ends, so that these may not be cut.
+/// Names of images as a page shows them: whole and breakable where there is room; on narrow screens
+/// stretches that tell no two of them apart make way for an ellipsis. Names usually differ at their
+/// ends, so that these may not be cut.
 pub(super) struct Names<'a> {
-    /// By the beginning of a name, up to a break: how many names begin so, and the next part if all have the same.
+    /// By the beginning of a name, up to a break: how many names begin so, and the next part if all
+    /// have the same.
     next: HashMap<&'a str, (usize, Option<&'a str>)>,
 }
 
@@ -40,7 +42,8 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// Cuts a name into stretches that others share (and that do not lead its beginning), and others.
+    /// Cuts a name into stretches that others share (and that do not lead its beginning), and
+    /// others.
     fn stretches<'n>(&self, name: &'n str) -> Vec<(&'n str, bool)> {
         let mut stretches: Vec<(usize, bool)> = Vec::new();
         let mut at = 0;

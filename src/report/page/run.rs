@@ -16,8 +16,8 @@ details { margin: .6rem 0; } summary { cursor: pointer; }
 /// So many warnings stand open at the top of the page; more are folded.
 const OPEN_WARNINGS: usize = 6;
 
-/// Returns the page of a run: a table of all images and the figure of each. Refers to the files beside it.
-/// `landmarks` are what the maps of each image say, where there are maps.
+/// Returns the page of a run: a table of all images and the figure of each. Refers to the files
+/// beside it. `landmarks` are what the maps of each image say, where there are maps.
 pub fn page(
     records: &[ImageRecord],
     landmarks: &[Option<LandmarkRecord>],

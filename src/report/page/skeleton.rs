@@ -3,8 +3,8 @@ use base64::prelude::BASE64_STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
-/// Style of all pages, for light and dark screens, wide and narrow ones, and paper. A table scrolls inside its own
-/// box while its first column stays.
+/// Style of all pages, for light and dark screens, wide and narrow ones, and paper. A table scrolls
+/// inside its own box while its first column stays.
 const STYLE: &str = "
 :root { color-scheme: light dark; --line: #8884; --soft: #8882; --warn: light-dark(#a03c00, #f2a65a); }
 * { box-sizing: border-box; }
@@ -32,8 +32,9 @@ nav { display: flex; flex-wrap: wrap; gap: .2rem 1rem; font-size: .9rem; }
 
 /// Returns a whole page: `style` stands behind the style that all pages share.
 ///
-/// The page needs no script and nothing from elsewhere, and forbids both: its content security policy names the hash
-/// of its one style sheet, so that it can be served under a strict policy, too.
+/// The page needs no script and nothing from elsewhere, and forbids both: its content security
+/// policy names the hash of its one style sheet, so that it can be served under a strict policy,
+/// too.
 pub(super) fn skeleton(title: &str, style: &str, body: &Markup) -> String {
     let style = format!("{STYLE}{style}");
     let hash = BASE64_STANDARD.encode(Sha256::digest(&style));

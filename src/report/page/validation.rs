@@ -44,7 +44,8 @@ pub struct ValidationPage<'a> {
     pub failures: &'a [(&'a str, &'a str)],
 }
 
-/// Returns the page of a validation: accuracy, agreement, curves, and the images from worst to best.
+/// Returns the page of a validation: accuracy, agreement, curves, and the images from worst to
+/// best.
 pub fn validation_page(page: &ValidationPage) -> String {
     let body = html! {
         h1 { "Validation of cone detections" }
