@@ -143,8 +143,7 @@ fn axes_say_in_words_what_is_compared_and_in_which_unit() {
     place.ok(&["agree", "one.csv", "two.csv", "--out", "out"]);
     assert_eq!(place.names("out"), ["agreement.csv", "agreement.svg", "differences.csv", "unpaired.csv"]);
     let figure = place.read("out/agreement.svg");
-    for words in ["mean of nearest-neighbour distance (µm)", "difference of nearest-neighbour distance (µm)"]
-    {
+    for words in ["mean of nearest-neighbour distance (µm)", ">difference (µm)<"] {
         assert!(figure.contains(words), "{words}");
     }
 }

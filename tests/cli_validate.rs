@@ -183,7 +183,14 @@ fn two_detectors_are_compared_image_by_image() {
     assert!((number(&rows[1], "difference") + 1.5 / 16.).abs() < 1e-12);
     assert_eq!(number(&rows[3], "first") - number(&rows[3], "second"), -0.5);
     // two subjects, both worse: of four choices of signs two are as far
-    assert_eq!(number(&rows[1], "p"), 0.5);
+    assert_eq!((number(&rows[1], "p"), number(&rows[1], "p_least")), (0.5, 0.5));
+    let note = "p of the comparison cannot fall below 0.5000";
+    assert!(
+        outcome.stdout.contains(note) && place.read("out/index.html").contains(note),
+        "{}",
+        outcome.stdout
+    );
+    assert!(outcome.stdout.contains("least p possible"));
     let images = place.table("out/validation.csv");
     assert!(images.iter().all(|r| number(r, "versus_dice") == 1.));
     // the other detections are the marks: against them means against those

@@ -36,7 +36,7 @@ pub struct ColumnAgreement {
 /// What came of comparing graders.
 #[derive(Clone, Debug)]
 pub struct AgreementOutcome {
-    /// One a column and pair of graders.
+    /// One per column and pair of graders.
     pub columns: Vec<ColumnAgreement>,
     /// Correlations over all graders, where there are more than two, by column.
     pub overall: Vec<(String, Intraclass)>,
@@ -67,15 +67,18 @@ impl AgreementOutcome {
 const SHOWN: [&[&str]; 2] =
     [&["density_per_mm2", "density_per_px2", "density", "n"], &["nn_mean_um", "nn_mean_px", "nn_mean", "ri"]];
 
-/// Holds the numbers of graders, sessions or programs against each other, image by image: paired differences, limits of agreement and
-/// intraclass correlation of every column of numbers that all of them have, or of those asked for.
+/// Holds the numbers of graders, sessions or programs against each other, image by image: paired
+/// differences, limits of agreement and intraclass correlation of every column of numbers that all
+/// of them have, or of those asked for.
 ///
-/// Writes `agreement.csv` (one row a column and pair of graders; with more than two a row over all), `differences.csv` (one row an
-/// image), `unpaired.csv` (images that somebody lacks) and `agreement.svg`.
+/// Writes `agreement.csv` (one row per column and pair of graders; with more than two a row over
+/// all), `differences.csv` (one row an image), `unpaired.csv` (images that somebody lacks) and
+/// `agreement.svg`.
 ///
 /// # Errors
-/// If an image has no group, or there are fewer than two tables, one cannot be read or has no column that names images, an image stands in it twice, a column
-/// asked for is missing, nothing can be paired, or `out` cannot be written to.
+/// If an image has no group, or there are fewer than two tables, one cannot be read or has no
+/// column that names images, an image stands in it twice, a column asked for is missing, nothing
+/// can be paired, or `out` cannot be written to.
 pub fn agree_files(
     files: &[PathBuf],
     options: &AgreementOptions,
@@ -218,8 +221,8 @@ fn figure(outcome: &AgreementOutcome) -> String {
         .iter()
         .map(|c| {
             let (quantity, unit) = column_in_words(&c.column);
-            let [mean, difference] = ["mean", "difference"].map(|of| format!("{of} of {quantity}"));
-            [mean, difference].map(|label| if unit.is_empty() { label } else { format!("{label} ({unit})") })
+            [format!("mean of {quantity}"), "difference".to_owned()]
+                .map(|label| if unit.is_empty() { label } else { format!("{label} ({unit})") })
         })
         .collect();
     let panels: Vec<AgreementPanel> = shown

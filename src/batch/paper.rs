@@ -48,8 +48,9 @@ struct Everything {
     spectra: BTreeMap<&'static str, PowerSpectrum>,
 }
 
-/// Re-makes the samplers' rows of Table 1, Figure 1 and the distances between the samplers of Table 2 of Lanaro et al., from
-/// `patterns` patterns each (at least 2), into `out`: `index.html`, `paper.md`, `figure1.svg` and tables as CSV.
+/// Re-makes the samplers' rows of Table 1, Figure 1 and the distances between the samplers of Table
+/// 2 of Lanaro et al., from `patterns` patterns each (at least 2), into `out`: `index.html`,
+/// `paper.md`, `figure1.svg` and tables as CSV.
 ///
 /// # Errors
 /// If a sampler is missing or makes no pattern, or `out` cannot be written to.

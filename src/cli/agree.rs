@@ -19,13 +19,13 @@ Examples:
 Images are paired by file name, without folder and extension (nor _coords).
 
 Writes to agreed/:
-  agreement.csv    one row a column and pair of graders: means, mean difference (first − second) with its 95 % interval, SD,
+  agreement.csv    one row per column and pair of graders: means, mean difference (first − second) with its 95 % interval, SD,
                    95 % limits of agreement with intervals (Bland & Altman 1999); ICC(2,1), absolute agreement, and ICC(3,1),
                    consistency, with intervals (McGraw & Wong 1996); SD within an image, repeatability (1.96 √2 times
                    it), coefficient of variation. With more than two graders also a row over all of them
                    Intervals take images as independent, unless --group-by or --group-table says which are of one subject:
                    then limits are those for repeated measurements (Bland & Altman 2007), with intervals by Zou (2013)
-  differences.csv  one row an image, column and pair
+  differences.csv  one row per image, column and pair
   unpaired.csv     images that a grader lacks
   agreement.svg    (.pdf, .png: --figures) Bland–Altman plots of density and nearest-neighbour distance, or of the first two columns")]
 pub struct Agree {

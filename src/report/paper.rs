@@ -16,7 +16,8 @@ pub struct PaperResults {
     pub printed: Vec<PrintedDistances>,
     /// Of each of its rows the triangle inequality with least room.
     pub tightest: Vec<Tightest>,
-    /// The main finding on the printed tables: regularity against the distance to each sampler of Table 2.
+    /// The main finding on the printed tables: regularity against the distance to each sampler of
+    /// Table 2.
     pub findings: Vec<FindingRecord>,
     /// The same distances at other bandwidths of the kernel, in spacings, and how many rows of Table 2 hold with them.
     pub bandwidths: Vec<BandwidthRow>,

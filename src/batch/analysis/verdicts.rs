@@ -12,8 +12,8 @@ const ENVELOPE: &str = "envelope.csv";
 const FIGURE: &str = "verdict.svg";
 pub(super) const FILES: [&str; 2] = [ENVELOPE, FIGURE];
 
-/// The verdict of each sampler on a mosaic, in their order, and a warning for each that has none. A mosaic without a pair
-/// correlation function has neither: another warning says so.
+/// The verdict of each sampler on a mosaic, in their order, and a warning for each that has none. A
+/// mosaic without a pair correlation function has neither: another warning says so.
 pub(super) fn verdicts_on(
     mosaic: &Mosaic,
     measures: &Measures,
@@ -45,7 +45,8 @@ pub(in crate::batch) fn write_table<'a>(
     out.write(VERDICTS.file, &VERDICTS.csv(rows)?)
 }
 
-/// Writes the envelopes and their figure, under names that begin with `prefix`; nothing without verdicts.
+/// Writes the envelopes and their figure, under names that begin with `prefix`; nothing without
+/// verdicts.
 pub(super) fn write(
     out: &OutputFolder,
     prefix: &str,

@@ -129,12 +129,12 @@ impl Analysis {
                     .into(),
             );
         }
-        let least = self.comparison.iter().flat_map(|c| &c.differences).map(|d| d.least_p).fold(0., f64::max);
-        if least > 0.05 {
+        let least = self.comparison.iter().flat_map(|c| &c.differences).map(|d| d.least_p).reduce(f64::min);
+        if let Some(least) = least.filter(|p| *p > 0.05 && *p < 1.) {
+            let few = if self.groups.is_empty() { "images" } else { "groups" };
             notes.push(format!(
-                "p of the comparison cannot fall below {least:.3}, however much the two differ: {} are too few for the \
-                 sign-flip test. Six that differ can have p = .03; until then read the intervals",
-                if self.groups.is_empty() { "so few images" } else { "so few groups" }
+                "p of the comparison cannot fall below {least:.4}, however much the two differ: the sign-flip test has too \
+                 few {few}. Of six that differ it can be .03; until then read the intervals"
             ));
         }
         let unscored = rows.iter().filter(|r| r.judged.is_none()).count();

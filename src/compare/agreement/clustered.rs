@@ -4,15 +4,18 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 /// Two-sided 95 % point of the normal distribution, as Bland & Altman print it.
 const Z: f64 = 1.96;
 
-/// Agreement of two methods where several pairs of measurements belong together: the images of an eye.
+/// Agreement of two methods where several pairs of measurements belong together: the images of an
+/// eye.
 ///
-/// Images of one eye err alike, so that they say less than as many images of different eyes. Taken as independent, they
-/// make the intervals too narrow, and the limits of agreement too where eyes have unequal numbers of images.
+/// Images of one eye err alike, so that they say less than as many images of different eyes. Taken
+/// as independent, they make the intervals too narrow, and the limits of agreement too where eyes
+/// have unequal numbers of images.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClusteredAgreement {
     /// Number of clusters.
     pub clusters: usize,
-    /// Bias, the mean of all differences; `sd` is the root of both components of their variance together.
+    /// Bias, the mean of all differences; `sd` is the root of both components of their variance
+    /// together.
     pub agreement: Agreement,
     /// Standard deviation of the clusters' own biases; `None` of fewer than two clusters.
     pub between_sd: Option<f64>,
@@ -24,15 +27,16 @@ pub struct ClusteredAgreement {
     pub limit_intervals: Option<[Interval; 2]>,
 }
 
-/// Returns bias and limits of agreement of `differences`, the indices of a cluster's in each of `clusters`; `None`
-/// without any, or if one is not finite.
+/// Returns bias and limits of agreement of `differences`, the indices of a cluster's in each of
+/// `clusters`; `None` without any, or if one is not finite.
 ///
-/// Every cluster is taken to have a bias of its own, the true value of what is measured being another in every image:
-/// components of the variance by one-way analysis of variance, the limits from their sum (Bland & Altman 2007, section 3,
-/// J Biopharm Stat 17:571, <https://doi.org/10.1080/10543400701329422>). The interval of the bias has as many degrees of
-/// freedom as there are clusters, less one; those of the limits recover the variance of either component (Zou 2013, Stat
-/// Methods Med Res 22:630, <https://doi.org/10.1177/0962280211402548>). Where each cluster has one difference, all is as
-/// [`agreement`] has it.
+/// Every cluster is taken to have a bias of its own, the true value of what is measured being
+/// another in every image: components of the variance by one-way analysis of variance, the limits
+/// from their sum (Bland & Altman 2007, section 3, J Biopharm Stat 17:571,
+/// <https://doi.org/10.1080/10543400701329422>). The interval of the bias has as many degrees of
+/// freedom as there are clusters, less one; those of the limits recover the variance of either
+/// component (Zou 2013, Stat Methods Med Res 22:630, <https://doi.org/10.1177/0962280211402548>).
+/// Where each cluster has one difference, all is as [`agreement`] has it.
 pub fn agreement_of_clusters(differences: &[f64], clusters: &[Vec<usize>]) -> Option<ClusteredAgreement> {
     let plain = agreement(differences)?;
     let groups: Vec<Vec<f64>> = clusters
@@ -150,8 +154,9 @@ mod tests {
         assert!((a - b).abs() < 1e-9, "{a} instead of {b}");
     }
 
-    /// Means of three clusters 1, 4 and 7 (mean 4, variance 9), within each −1, 0, 1: sums of squares 54 between (two
-    /// degrees of freedom, mean square 27), 6 within (six, mean square 1); (27 − 1)/3 = 26/3 between clusters.
+    /// Means of three clusters 1, 4 and 7 (mean 4, variance 9), within each −1, 0, 1: sums of
+    /// squares 54 between (two degrees of freedom, mean square 27), 6 within (six, mean square 1);
+    /// (27 − 1)/3 = 26/3 between clusters.
     #[test]
     fn components_are_those_counted_by_hand() {
         let differences = [0., 1., 2., 3., 4., 5., 6., 7., 8.];
@@ -162,7 +167,8 @@ mod tests {
         near(found.between_sd.unwrap().powi(2), 26. / 3.);
         near(found.agreement.sd.unwrap().powi(2), 29. / 3.);
         near(found.agreement.limits.unwrap()[1], 4. + 1.96 * (29f64 / 3.).sqrt());
-        // clusters of one size: the interval is that of the three means, t of two degrees of freedom 4.302653
+        // clusters of one size: the interval is that of the three means, t of two degrees of
+        // freedom 4.302653
         near((found.bias_interval.unwrap()[1] - 4.) / 3f64.sqrt(), 4.302_652_729_696_142);
     }
 

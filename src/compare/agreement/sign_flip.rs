@@ -2,17 +2,18 @@ use crate::compare::mean;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-/// Up to so many clusters every choice of signs is tried (65,536); beyond, as many are drawn as below.
+/// Up to so many clusters every choice of signs is tried (65,536); beyond, as many are drawn as
+/// below.
 const MOST_EXACT: usize = 16;
 const DRAWN: usize = 49_999;
 
-/// Two-sided p-value of a paired sign-flip permutation test (Fisher 1935, The Design of Experiments, section 21): how
-/// often the mean difference is at least as far from zero as it is, if every difference might as well have the other
-/// sign.
+/// Two-sided p-value of a paired sign-flip permutation test (Fisher 1935, The Design of
+/// Experiments, section 21): how often the mean difference is at least as far from zero as it is,
+/// if every difference might as well have the other sign.
 ///
-/// The differences of a cluster (the images of a subject) change sign together. Up to 16 clusters all signs are tried,
-/// and p is exact (its least value is 2 / 2ⁿ: .06 for 5 clusters, .008 for 8); of more, 49,999 draws, and p is
-/// (1 + as far) / 50,000. `None` without differences.
+/// The differences of a cluster (the images of a subject) change sign together. Up to 16 clusters
+/// all signs are tried, and p is exact (its least value is 2 / 2ⁿ: .06 for 5 clusters, .008 for 8);
+/// of more, 49,999 draws, and p is (1 + as far) / 50,000. `None` without differences.
 pub fn sign_flip_test(differences: &[f64], clusters: &[Vec<usize>], rng: &mut ChaCha8Rng) -> Option<f64> {
     mean(differences)?;
     let sums: Vec<f64> = clusters
@@ -38,8 +39,9 @@ pub fn sign_flip_test(differences: &[f64], clusters: &[Vec<usize>], rng: &mut Ch
     Some((1 + far) as f64 / (1 + DRAWN) as f64)
 }
 
-/// Returns the least p-value that [`sign_flip_test`] can give for so many clusters whose differences are not all zero:
-/// of the 2ⁿ choices of signs two are as far as the one observed. Below 6 clusters it is above .05, whatever the data.
+/// Returns the least p-value that [`sign_flip_test`] can give for so many clusters whose
+/// differences are not all zero: of the 2ⁿ choices of signs two are as far as the one observed.
+/// Below 6 clusters it is above .05, whatever the data.
 pub fn least_p(clusters: usize) -> f64 {
     match i32::try_from(clusters) {
         Ok(0) => 1.,
@@ -81,8 +83,8 @@ mod tests {
         assert_eq!(p(&[0., 0., 0.], &singles(3)), 1.);
     }
 
-    /// Darwin's pairs of crossed and self-fertilised maize, eighths of an inch: Fisher counts 863 of 32,768 choices of
-    /// signs with a sum of 314 or more, and as many of −314 or less.
+    /// Darwin's pairs of crossed and self-fertilised maize, eighths of an inch: Fisher counts 863
+    /// of 32,768 choices of signs with a sum of 314 or more, and as many of −314 or less.
     #[test]
     fn darwins_maize_has_fishers_p_value() {
         let maize = [49., -67., 8., 16., 6., 23., 28., 41., 14., 29., 56., 24., 75., 60., -48.];

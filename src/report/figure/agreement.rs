@@ -35,7 +35,8 @@ pub struct AgreementPanel<'a> {
     pub limits: Option<[AgreementLine; 2]>,
 }
 
-/// Draws one or two Bland–Altman plots (Bland & Altman 1986) side by side, 180 mm wide, as a self-contained SVG.
+/// Draws one or two Bland–Altman plots (Bland & Altman 1986) side by side, 180 mm wide, as a
+/// self-contained SVG.
 pub fn agreement_figure(title: &str, panels: &[AgreementPanel]) -> String {
     let mut canvas = two_panels(title);
     for (panel, area) in panels.iter().zip(two_areas()) {

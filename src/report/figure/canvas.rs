@@ -6,8 +6,8 @@ use kuva::render::layout::{ComputedLayout, Layout};
 use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 use std::fmt::Write;
 
-/// Width of the page in canvas units: a quarter of a millimetre each, so that it prints 180 mm wide and a text of
-/// size 10 in 7 pt.
+/// Width of the page in canvas units: a quarter of a millimetre each, so that it prints 180 mm wide
+/// and a text of size 10 in 7 pt.
 pub(super) const PAGE_WIDTH: f64 = 720.;
 const UNITS_PER_MM: f64 = 4.;
 const FONTS: &str = "Helvetica, Arial, 'Liberation Sans', sans-serif";
@@ -78,7 +78,8 @@ pub(super) struct Ranges {
     pub(super) y: (f64, f64),
 }
 
-/// Width of a text in canvas units, near enough for placing it: by classes of letters of a Helvetica.
+/// Width of a text in canvas units, near enough for placing it: by classes of letters of a
+/// Helvetica.
 pub(super) fn text_width(text: &str, style: Style) -> f64 {
     let advance = |c: char| match c {
         'i' | 'j' | 'l' | '\'' => 0.24,
@@ -108,8 +109,8 @@ pub(super) fn fit(text: &str, style: Style, width: f64) -> String {
     }
 }
 
-/// The page being drawn: axes and vector elements by kuva, pictures beneath them as embedded PNG (kuva has no element
-/// for pictures).
+/// The page being drawn: axes and vector elements by kuva, pictures beneath them as embedded PNG
+/// (kuva has no element for pictures).
 pub(super) struct Canvas {
     scene: Scene,
     pictures: String,
@@ -240,7 +241,8 @@ impl Canvas {
 
     /// A PNG stretched over `place`, what lies outside `view` cut off.
     pub(super) fn picture(&mut self, png: &[u8], place: Area, view: Area) {
-        // A nested <svg> clips without an id, and ids would clash where several figures share a page.
+        // A nested <svg> clips without an id, and ids would clash where several figures share a
+        // page.
         let _ = write!(
             self.pictures,
             r#"<svg x="{:.2}" y="{:.2}" width="{:.2}" height="{:.2}"><image x="{:.3}" y="{:.3}" width="{:.3}" height="{:.3}" preserveAspectRatio="none" href="data:image/png;base64,"#,
@@ -257,7 +259,8 @@ impl Canvas {
         self.pictures.push_str("\"/></svg>");
     }
 
-    /// Axes with ticks (along y at the multiples of `y_step`), labelled; returns the way from data to the page.
+    /// Axes with ticks (along y at the multiples of `y_step`), labelled; returns the way from data
+    /// to the page.
     pub(super) fn axes(
         &mut self,
         area: Area,
@@ -285,7 +288,8 @@ impl Canvas {
         add_axes_and_grid(&mut self.scene, &computed, &layout);
         let middle = area.x + area.width / 2.;
         self.text(middle, area.bottom() + 26., labels.0, Style::Axis, Anchor::Middle);
-        // Ticks are multiples of the step, with as many decimals: the outermost ones are the widest.
+        // Ticks are multiples of the step, with as many decimals: the outermost ones are the
+        // widest.
         let decimals = (-y_step.log10().floor()).max(0.) as usize;
         let width = |tick: f64| text_width(&format!("{:.decimals$}", tick * y_step), Style::Note);
         let ticks = width((ranges.y.1 / y_step).floor()).max(width((ranges.y.0 / y_step).ceil()));
@@ -336,8 +340,8 @@ impl Canvas {
     }
 }
 
-/// Text that kuva draws as it is: a dollar is not the beginning of a formula, and characters that XML forbids become
-/// replacement characters.
+/// Text that kuva draws as it is: a dollar is not the beginning of a formula, and characters that
+/// XML forbids become replacement characters.
 fn plain(text: &str) -> String {
     allowed(text).replace('$', "\\$")
 }
@@ -367,8 +371,9 @@ fn wrap(text: &str, style: Style, width: f64) -> Vec<String> {
     lines
 }
 
-/// Upper end of a y axis under which curves with a highest value `peak` fit, and a block of `block` units at the top of
-/// `height` covers none of those that pass beneath it, whose highest value is `peak_under`.
+/// Upper end of a y axis under which curves with a highest value `peak` fit, and a block of `block`
+/// units at the top of `height` covers none of those that pass beneath it, whose highest value is
+/// `peak_under`.
 pub(super) fn headroom(peak: f64, peak_under: f64, block: f64, height: f64) -> f64 {
     let free = (1. - block / height).max(0.1);
     (peak * 1.06).max(peak_under * 1.02 / free)

@@ -2,8 +2,11 @@ use super::canvas::{Area, Canvas, FRAME, INK, Ranges, headroom, round_above};
 use super::labels::{self, Label};
 use super::{Curve, MosaicFigure, ReferenceLine};
 
-/// Okabe & Ito (2008), told apart by colour-blind readers; black is the mosaic's, their yellow is too pale for a line.
+/// Okabe & Ito (2008), told apart by colour-blind readers; black is the mosaic's, their yellow is
+/// too pale for a line.
 const COLOURS: [&str; 6] = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00"];
+/// The same, dark enough for words on white.
+const DARK: [&str; 6] = ["#0072B2", "#8A5F00", "#007A59", "#A3457A", "#1F7CB0", "#B84F00"];
 /// Dashes tell lines apart in grey, and beyond the sixth where colours repeat.
 const DASHES: [Option<&str>; 3] = [None, Some("5 1.6"), Some("1.6 1.2")];
 /// So many samplers are drawn: the nearest.
@@ -13,12 +16,15 @@ const SCALE: &str = "uniform";
 const GREY: &str = "#767676";
 const SAMPLER_WIDTH: f64 = 1.1;
 const MOSAIC_WIDTH: f64 = 2.2;
-/// No sampler stretches the axis beyond this multiple of the mosaic's highest value, or of the floor if that is lower.
+/// No sampler stretches the axis beyond this multiple of the mosaic's highest value, or of the
+/// floor if that is lower.
 const SPIKE_FACTOR: f64 = 1.5;
 const SPIKE_FLOOR: f64 = 3.;
-/// Labels begin so far right of the peaks that they belong to, in spacings: beyond the flank of the widest.
+/// Labels begin so far right of the peaks that they belong to, in spacings: beyond the flank of the
+/// widest.
 const BESIDE_PEAK: f64 = 0.3;
-/// A curve that stays below this has no peak to be labelled at: it is labelled where the labels begin.
+/// A curve that stays below this has no peak to be labelled at: it is labelled where the labels
+/// begin.
 const FLAT: f64 = 1.15;
 
 pub(super) fn style(index: usize) -> (&'static str, Option<&'static str>) {
@@ -31,6 +37,8 @@ struct Line<'a> {
     l_infinity: Option<f64>,
     curve: Curve<'a>,
     colour: &'static str,
+    /// Colour of its label.
+    dark: &'static str,
     width: f64,
 }
 
@@ -43,21 +51,23 @@ impl Line<'_> {
         }
     }
 
-    /// The highest point between two distances, if it is below `g_max`, else where the curve is cut.
+    /// The highest point between two distances, if it is below `g_max`, else where the curve is
+    /// cut.
     fn peak(&self, from: f64, to: f64, g_max: f64) -> Option<(f64, f64)> {
         let within = finite(self.curve).filter(|p| p.0 >= from && p.0 <= to);
         within.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(r, g)| (r, g.min(g_max)))
     }
 }
 
-/// Returns the curves to draw, the mosaic's last: of the samplers the three nearest to the mosaic, and independent
-/// points for scale. More would hide each other; all distances are in the tables.
+/// Returns the curves to draw, the mosaic's last: of the samplers the three nearest to the mosaic,
+/// and independent points for scale. More would hide each other; all distances are in the tables.
 fn lines<'a>(figure: &MosaicFigure<'a>, mosaic: Curve<'a>) -> Vec<Line<'a>> {
-    let line = |l: &ReferenceLine<'a>, colour| Line {
+    let line = |l: &ReferenceLine<'a>, colour, dark| Line {
         name: l.name,
         l_infinity: l.l_infinity,
         curve: Curve { r: l.r, g: l.g },
         colour,
+        dark,
         width: SAMPLER_WIDTH,
     };
     let mut others: Vec<_> = figure.references.iter().filter(|l| l.name != SCALE).enumerate().collect();
@@ -66,20 +76,22 @@ fn lines<'a>(figure: &MosaicFigure<'a>, mosaic: Curve<'a>) -> Vec<Line<'a>> {
         let of = |l: &ReferenceLine| l.l_infinity.unwrap_or(f64::INFINITY);
         of(a).total_cmp(&of(b))
     });
-    let scale = figure.references.iter().filter(|l| l.name == SCALE).map(|l| line(l, GREY));
+    let scale = figure.references.iter().filter(|l| l.name == SCALE).map(|l| line(l, GREY, GREY));
     // a sampler has the same colour in the figures of all mosaics, unless one that is nearer has it
-    let mut free = COLOURS.to_vec();
+    let mut free: Vec<usize> = (0..COLOURS.len()).collect();
     let nearest = others.into_iter().take(NEAREST).map(|(k, l)| {
-        let wanted = COLOURS[k % COLOURS.len()];
-        let at = free.iter().position(|c| *c == wanted).unwrap_or(0);
-        line(l, free.remove(at))
+        let at = free.iter().position(|c| *c == k % COLOURS.len()).unwrap_or(0);
+        let colour = free.remove(at);
+        line(l, COLOURS[colour], DARK[colour])
     });
     let nearest: Vec<_> = nearest.collect();
-    let own = Line { name: "mosaic", l_infinity: None, curve: mosaic, colour: INK, width: MOSAIC_WIDTH };
+    let own =
+        Line { name: "mosaic", l_infinity: None, curve: mosaic, colour: INK, dark: INK, width: MOSAIC_WIDTH };
     scale.chain(nearest).chain([own]).collect()
 }
 
-/// Draws the mosaic's PCF over those of the nearest samplers, every curve labelled with its name and ℓ∞.
+/// Draws the mosaic's PCF over those of the nearest samplers, every curve labelled with its name
+/// and ℓ∞.
 pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
     let Some(mosaic) = figure.pcf.filter(|curve| finite(*curve).next().is_some()) else {
         let sentence = match figure.points.len() {
@@ -103,7 +115,12 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
             .filter_map(|line| {
                 let (r, g) = peak_of(line)?;
                 let target = if g < FLAT { line.peak(beside - 0.1, beside, tallest)? } else { (r, g) };
-                Some(Label { text: line.text(), target: place(target.0, target.1), colour: line.colour })
+                Some(Label {
+                    text: line.text(),
+                    target: place(target.0, target.1),
+                    colour: line.colour,
+                    dark: line.dark,
+                })
             })
             .collect()
     };
@@ -136,7 +153,8 @@ fn finite(curve: Curve<'_>) -> impl Iterator<Item = (f64, f64)> {
     curve.r.iter().copied().zip(curve.g.iter().copied()).filter(|p| p.0.is_finite() && p.1.is_finite())
 }
 
-/// Up to the next half spacing where that is near: bins named by their left edges end a hair before a tick.
+/// Up to the next half spacing where that is near: bins named by their left edges end a hair before
+/// a tick.
 pub(super) fn axis_end(r_max: f64) -> f64 {
     let tick = (r_max * 2.).ceil() / 2.;
     if tick - r_max < 0.03 * r_max { tick } else { r_max }

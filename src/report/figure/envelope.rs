@@ -38,7 +38,8 @@ pub struct EnvelopePanel<'a> {
     pub high: &'a [f64],
 }
 
-/// The mosaic's pair correlation function in the envelope of each sampler, as a self-contained SVG, 180 mm wide.
+/// The mosaic's pair correlation function in the envelope of each sampler, as a self-contained SVG,
+/// 180 mm wide.
 ///
 /// # Errors
 /// If curves differ in length.

@@ -11,10 +11,12 @@ use image::imageops::thumbnail;
 use image::{ExtendedColorType, GrayImage};
 use ndarray::{Axis, Slice};
 
-/// Pictures are reduced to this side and area before they are embedded: about 560 dpi in a row of square fields.
+/// Pictures are reduced to this side and area before they are embedded: about 560 dpi in a row of
+/// square fields.
 const LARGEST_SIDE: f64 = 1200.;
 const LARGEST_AREA: f64 = 0.6e6;
-/// More points than this are embedded as a picture: as vectors they would make the file large and slow to open.
+/// More points than this are embedded as a picture: as vectors they would make the file large and
+/// slow to open.
 const MOST_VECTOR_POINTS: usize = 4000;
 /// Pixels per canvas unit of that picture (600 dpi), and its largest side.
 const DOT_RESOLUTION: f64 = 6.;
@@ -22,7 +24,8 @@ const LARGEST_DOT_SIDE: f64 = 1500.;
 /// Radius of a point in hexagonal spacings, and its bounds in canvas units.
 const DOT_RADIUS: f64 = 0.2;
 const DOT_RADIUS_BOUNDS: (f64, f64) = (0.1, 1.5);
-/// The border of a window that is no rectangle: its colour on a picture (Okabe & Ito 2008), its width in canvas units.
+/// The border of a window that is no rectangle: its colour on a picture (Okabe & Ito 2008), its
+/// width in canvas units.
 const OUTLINE_ON_PICTURE: &str = "#E69F00";
 const OUTLINE_WIDTH: f64 = 0.8;
 /// Share of the field's width that the scale bar takes at most.
@@ -163,7 +166,8 @@ fn draw_scale_bar(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
     scale_bar(canvas, area, figure.window.bounds().width() * factor, unit);
 }
 
-/// A bar of a round length below a field that is `shown_width` of `unit` wide, and what it stands for.
+/// A bar of a round length below a field that is `shown_width` of `unit` wide, and what it stands
+/// for.
 pub(super) fn scale_bar(canvas: &mut Canvas, area: Area, shown_width: f64, unit: &str) {
     let length = round_below(shown_width * SCALE_BAR_SHARE);
     let right = area.x + length / shown_width * area.width;

@@ -31,8 +31,9 @@ pub struct FrocLine<'a> {
     pub given: &'a Summary,
 }
 
-/// Draws the FROC curve (Bunch et al. 1978) and the precision–recall curve of one detector or two, 180 mm wide, as a
-/// self-contained SVG. The axes show the part around the threshold of the highest mean Dice.
+/// Draws the FROC curve (Bunch et al. 1978) and the precision–recall curve of one detector or two,
+/// 180 mm wide, as a self-contained SVG. The axes show the part around the threshold of the highest
+/// mean Dice.
 pub fn froc_figure(title: &str, lines: &[FrocLine]) -> String {
     let mut canvas = two_panels(title);
     let [left, right] = two_areas();

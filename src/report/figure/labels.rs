@@ -16,8 +16,10 @@ pub(super) struct Label<'a> {
     pub text: String,
     /// Place on the page that the text is led from.
     pub target: (f64, f64),
-    /// Colour of text and leader.
+    /// Colour of the leader: that of the curve.
     pub colour: &'a str,
+    /// Colour of the text.
+    pub dark: &'a str,
 }
 
 /// Returns the width of the widest text, its leader's gap among it.
@@ -30,26 +32,20 @@ pub(super) fn height(count: usize) -> f64 {
     if count == 0 { 0. } else { (count - 1) as f64 * LINE + ASCENT + DESCENT }
 }
 
-/// Writes every label at its own height where it can, and above `floor` (a height on the page) in any case; labels
-/// keep their order from top to bottom and never overlap. Texts begin at `left`.
+/// Writes every label at its own height where it can, and above `floor` (a height on the page) in
+/// any case; labels keep their order from top to bottom and never overlap. Texts begin at `left`.
 pub(super) fn draw(canvas: &mut Canvas, area: Area, left: f64, floor: f64, mut labels: Vec<Label>) {
     labels.sort_by(|a, b| a.target.1.total_cmp(&b.target.1));
     let wanted: Vec<f64> = labels.iter().map(|l| l.target.1 + MIDDLE).collect();
     for (label, baseline) in labels.iter().zip(spread(&wanted, area.y + ASCENT, floor - DESCENT)) {
         let end = (left - GAP / 2., baseline - MIDDLE);
-        canvas.line(label.target, end, label.colour, 0.5);
-        canvas.coloured_text(
-            left + GAP / 2.,
-            baseline,
-            &label.text,
-            Style::Note,
-            Anchor::Start,
-            label.colour,
-        );
+        canvas.line(label.target, end, label.colour, 0.6);
+        canvas.coloured_text(left + GAP / 2., baseline, &label.text, Style::Note, Anchor::Start, label.dark);
     }
 }
 
-/// Returns baselines as near to the rising ones `wanted` as fit between `top` and `bottom`, a line apart.
+/// Returns baselines as near to the rising ones `wanted` as fit between `top` and `bottom`, a line
+/// apart.
 fn spread(wanted: &[f64], top: f64, bottom: f64) -> Vec<f64> {
     let mut below = bottom + LINE;
     let mut baselines: Vec<f64> = wanted

@@ -103,10 +103,11 @@ impl Layout {
     }
 }
 
-/// Draws six maps, 180 mm wide, as a self-contained SVG: local density, inter-cell distance, nearest-neighbour distance,
-/// its regularity index, |ψ6| and the share of six-sided cells, each with its colour bar (from the least to the greatest
-/// value of whole windows), with peak (PCD) and centroid (CDC) marked. Windows that reach beyond the mosaic's are pale.
-/// Equal input makes equal bytes.
+/// Draws six maps, 180 mm wide, as a self-contained SVG: local density, inter-cell distance,
+/// nearest-neighbour distance, its regularity index, |ψ6| and the share of six-sided cells, each
+/// with its colour bar (from the least to the greatest value of whole windows), with peak (PCD) and
+/// centroid (CDC) marked. Windows that reach beyond the mosaic's are pale. Equal input makes equal
+/// bytes.
 ///
 /// # Errors
 /// If a picture cannot be encoded.

@@ -57,14 +57,15 @@ pub struct ReferenceLine<'a> {
     pub l_infinity: Option<f64>,
 }
 
-/// All that the figure of one mosaic shows. Lengths are in the unit of the mosaic; the figure shows them in µm where
-/// `um_per_unit` is known.
+/// All that the figure of one mosaic shows. Lengths are in the unit of the mosaic; the figure shows
+/// them in µm where `um_per_unit` is known.
 #[derive(Clone, Copy, Debug)]
 pub struct MosaicFigure<'a> {
-    /// Above the panels: usually the name of the file. Cut in the middle where it is too long for the page.
+    /// Above the panels: usually the name of the file. Cut in the middle where it is too long for
+    /// the page.
     pub title: &'a str,
-    /// The image; without one the figure has no picture panel. Of a mosaic in px the part inside the window is shown;
-    /// in another unit the image is taken to fill the window.
+    /// The image; without one the figure has no picture panel. Of a mosaic in px the part inside
+    /// the window is shown; in another unit the image is taken to fill the window.
     pub picture: Option<&'a Plane>,
     /// Cone centres; those outside the window are not drawn.
     pub points: &'a [Point],
@@ -110,7 +111,8 @@ impl MosaicFigure<'_> {
     }
 }
 
-/// What to multiply lengths with before they are shown, and the unit they are then in ("" for the unit square).
+/// What to multiply lengths with before they are shown, and the unit they are then in ("" for the
+/// unit square).
 fn shown_unit(um_per_unit: Option<f64>, unit: LengthUnit) -> (f64, &'static str) {
     match (um_per_unit, unit) {
         (Some(factor), _) => (factor, "µm"),
@@ -125,10 +127,11 @@ fn with_unit(number: &str, unit: &str) -> String {
     if unit.is_empty() { number.to_owned() } else { format!("{number} {unit}") }
 }
 
-/// Draws the row, 180 mm wide, as a self-contained SVG: (a) the picture, (b) the points in their window, (c) the
-/// histogram of nearest-neighbour distances with the Gaussian of the same mean and standard deviation, (d) the pair
-/// correlation function over the samplers'. Fields much wider than high are stacked beside or above the plots. A panel
-/// without data says why in a sentence. Equal input makes equal bytes.
+/// Draws the row, 180 mm wide, as a self-contained SVG: (a) the picture, (b) the points in their
+/// window, (c) the histogram of nearest-neighbour distances with the Gaussian of the same mean and
+/// standard deviation, (d) the pair correlation function over the samplers'. Fields much wider than
+/// high are stacked beside or above the plots. A panel without data says why in a sentence. Equal
+/// input makes equal bytes.
 ///
 /// # Errors
 /// If edges and counts, or distances and values of a curve, do not belong together.

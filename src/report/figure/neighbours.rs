@@ -23,7 +23,8 @@ impl Gaussian {
     }
 }
 
-/// The histogram of nearest-neighbour distances and the Gaussian of the same mean and standard deviation.
+/// The histogram of nearest-neighbour distances and the Gaussian of the same mean and standard
+/// deviation.
 pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
     let n = figure.points.len();
     let (&[first, .., last], false) = (figure.histogram_edges, figure.nn.is_empty()) else {

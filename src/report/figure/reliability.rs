@@ -24,8 +24,8 @@ pub struct ReliabilityFigure<'a> {
     pub alarms: &'a [(f64, f64)],
 }
 
-/// Draws the reliability diagram (DeGroot & Fienberg 1983) and expected against observed false alarms, 180 mm wide, as a
-/// self-contained SVG.
+/// Draws the reliability diagram (DeGroot & Fienberg 1983) and expected against observed false
+/// alarms, 180 mm wide, as a self-contained SVG.
 pub fn reliability_figure(figure: &ReliabilityFigure) -> String {
     let mut canvas = two_panels(figure.title);
     let [left, right] = two_areas();
@@ -60,7 +60,8 @@ fn diagram(canvas: &mut Canvas, area: Area, reliability: &Reliability) {
         format!("Brier score {}", significant(reliability.brier, 2)),
         format!("largest bar: {most} of {}", reliability.n),
     ];
-    // Dots of scores that are too low stand above the diagonal; then the notes go below it, over the bars.
+    // Dots of scores that are too low stand above the diagonal; then the notes go below it, over
+    // the bars.
     let gap = |b: &ReliabilityBin| Some(b.n as f64 * (b.hits? - b.mean_score?));
     let above = reliability.bins.iter().filter_map(gap).sum::<f64>() > 0.05 * reliability.n as f64;
     let (x, y, anchor) = if above {

@@ -34,7 +34,8 @@ pub struct SamplerPanel<'a> {
     pub radial: Curve<'a>,
 }
 
-/// Figure 1 of Lanaro et al.: patterns, spectra, and all curves on one plot each, as a self-contained SVG, 180 mm wide.
+/// Figure 1 of Lanaro et al.: patterns, spectra, and all curves on one plot each, as a
+/// self-contained SVG, 180 mm wide.
 ///
 /// # Errors
 /// If distances and values of a curve do not belong together.

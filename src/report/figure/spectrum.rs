@@ -19,8 +19,8 @@ const BAR_WIDTH: f64 = 14.;
 /// Grey values of the bar.
 const STEPS: u32 = 128;
 
-/// Draws the plane of a power spectrum with its axes, in cycles per 1/√density, and a bar of its grey values, as a
-/// self-contained SVG, 180 mm wide.
+/// Draws the plane of a power spectrum with its axes, in cycles per 1/√density, and a bar of its
+/// grey values, as a self-contained SVG, 180 mm wide.
 ///
 /// # Errors
 /// If the picture cannot be encoded.

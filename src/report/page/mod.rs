@@ -1,6 +1,7 @@
 //! Pages to be read: of a run, of a validation, of the remade paper. All stand on one skeleton.
 
 mod document;
+mod names;
 mod paper;
 mod run;
 mod skeleton;

@@ -1,4 +1,5 @@
-use super::skeleton::{breakable, in_url, shared_start, skeleton};
+use super::names::Names;
+use super::skeleton::{in_url, skeleton};
 use crate::report::{
     Cell, DetectionRecord, ImageRecord, LandmarkRecord, MosaicRecord, by_need, counted, significant,
 };
@@ -15,8 +16,8 @@ details { margin: .6rem 0; } summary { cursor: pointer; }
 /// So many warnings stand open at the top of the page; more are folded.
 const OPEN_WARNINGS: usize = 6;
 
-/// Returns the page of a run: a table of all images and the figure of each. Refers to the files beside it.
-/// `landmarks` are what the maps of each image say, where there are maps.
+/// Returns the page of a run: a table of all images and the figure of each. Refers to the files
+/// beside it. `landmarks` are what the maps of each image say, where there are maps.
 pub fn page(
     records: &[ImageRecord],
     landmarks: &[Option<LandmarkRecord>],
@@ -26,6 +27,7 @@ pub fn page(
     let cones: usize = records.iter().map(|r| r.mosaic.n).sum();
     let scaled = records.iter().any(|r| r.mosaic.um_per_unit.is_some());
     let title = format!("Cone mosaics of {}", counted(records.len(), "image"));
+    let names = Names::new(records.iter().map(|r| r.name.as_str()));
     let body = html! {
         h1 { "Cone mosaics" }
         p.lead {
@@ -34,8 +36,8 @@ pub fn page(
             "; how they were made: " a href="run.json" { "run.json" } "."
         }
         @if !failures.is_empty() { (failed(failures)) }
-        (warned(records))
-        div.scroll { (overview(records, scaled)) }
+        (warned(records, &names))
+        div.scroll { (overview(records, &names, scaled)) }
         (legend(samplers))
         @for k in by_need(records) { (one(k, &records[k], landmarks.get(k).and_then(Option::as_ref))) }
     };
@@ -50,10 +52,9 @@ fn failed(failures: &[(&str, &str)]) -> Markup {
 }
 
 /// Returns the warnings of all images, counted.
-fn warned(records: &[ImageRecord]) -> Markup {
+fn warned(records: &[ImageRecord], names: &Names) -> Markup {
     let order: Vec<usize> =
         by_need(records).into_iter().filter(|&k| !records[k].warnings.is_empty()).collect();
-    let shared = shared_start(records.iter().map(|r| r.name.as_str()));
     let count: usize = order.iter().map(|&k| records[k].warnings.len()).sum();
     html! {
         @if count > 0 {
@@ -62,7 +63,7 @@ fn warned(records: &[ImageRecord]) -> Markup {
                     "⚠ " (counted(count, "warning")) ", on " (order.len()) " of " (counted(records.len(), "image"))
                 }
                 ul { @for k in order { li {
-                    a href=(format!("#i{k}")) { (breakable(&records[k].name, shared)) } ": "
+                    a href=(format!("#i{k}")) { (names.show(&records[k].name)) } ": "
                     (records[k].warnings.join("; "))
                 } } }
             }
@@ -104,9 +105,8 @@ fn length(px: Option<f64>, um_per_px: Option<f64>, scaled: bool) -> String {
     }
 }
 
-fn overview(records: &[ImageRecord], scaled: bool) -> Markup {
+fn overview(records: &[ImageRecord], names: &Names, scaled: bool) -> Markup {
     let (length_unit, density_unit) = if scaled { ("µm (px)", "per mm²") } else { ("px", "per px²") };
-    let shared = shared_start(records.iter().map(|r| r.name.as_str()));
     let compared = records.iter().any(|r| !r.mosaic.l_infinity.is_empty());
     html! {
         table {
@@ -120,12 +120,12 @@ fn overview(records: &[ImageRecord], scaled: bool) -> Markup {
                 th { "expected" br; "errors" }
                 @if compared { th.word { "closest to" } th { "ℓ∞" } }
             } }
-            tbody { @for k in by_need(records) { (row(k, &records[k], shared, scaled, compared)) } }
+            tbody { @for k in by_need(records) { (row(k, &records[k], names, scaled, compared)) } }
         }
     }
 }
 
-fn row(k: usize, record: &ImageRecord, shared: usize, scaled: bool, compared: bool) -> Markup {
+fn row(k: usize, record: &ImageRecord, names: &Names, scaled: bool, compared: bool) -> Markup {
     let m = &record.mosaic;
     let um = m.um_per_unit;
     let shown = if scaled { um } else { Some(1.) };
@@ -133,7 +133,7 @@ fn row(k: usize, record: &ImageRecord, shared: usize, scaled: bool, compared: bo
     let nearest = |value: Option<f64>, digits| number(value.zip(shown).map(|(v, um)| v * um), digits);
     html! { tr {
         td title=(record.file) {
-            a href=(format!("#i{k}")) { (breakable(&record.name, shared)) }
+            a href=(format!("#i{k}")) { (names.show(&record.name)) }
             @if !record.warnings.is_empty() {
                 span.warning title=(record.warnings.join("; ")) { " ⚠" (record.warnings.len()) }
             }

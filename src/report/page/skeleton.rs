@@ -3,8 +3,8 @@ use base64::prelude::BASE64_STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
-/// Style of all pages, for light and dark screens, wide and narrow ones, and paper. A table scrolls inside its own
-/// box while its first column stays.
+/// Style of all pages, for light and dark screens, wide and narrow ones, and paper. A table scrolls
+/// inside its own box while its first column stays.
 const STYLE: &str = "
 :root { color-scheme: light dark; --line: #8884; --soft: #8882; --warn: light-dark(#a03c00, #f2a65a); }
 * { box-sizing: border-box; }
@@ -32,8 +32,9 @@ nav { display: flex; flex-wrap: wrap; gap: .2rem 1rem; font-size: .9rem; }
 
 /// Returns a whole page: `style` stands behind the style that all pages share.
 ///
-/// The page needs no script and nothing from elsewhere, and forbids both: its content security policy names the hash
-/// of its one style sheet, so that it can be served under a strict policy, too.
+/// The page needs no script and nothing from elsewhere, and forbids both: its content security
+/// policy names the hash of its one style sheet, so that it can be served under a strict policy,
+/// too.
 pub(super) fn skeleton(title: &str, style: &str, body: &Markup) -> String {
     let style = format!("{STYLE}{style}");
     let hash = BASE64_STANDARD.encode(Sha256::digest(&style));
@@ -52,37 +53,6 @@ pub(super) fn skeleton(title: &str, style: &str, body: &Markup) -> String {
         }
     }
     .into_string()
-}
-
-/// Places in a name where a line may break.
-const BREAKS: [char; 3] = ['_', '-', '.'];
-
-/// Returns a name in which a line may break behind every underscore, hyphen and full stop: names of images differ
-/// at their ends, so that these may not be cut. On narrow screens the middle of its first `shared` bytes, which all names
-/// have in common, makes way for an ellipsis.
-pub(super) fn breakable(name: &str, shared: usize) -> Markup {
-    let parts = |text: &str| html! { @for part in text.split_inclusive(BREAKS) { (part) wbr; } };
-    let common = name.get(..shared).unwrap_or_default();
-    let first = common.split_inclusive(BREAKS).next().map_or(0, str::len);
-    let (head, rest) = name.split_at(first);
-    let (same, tail) = rest.split_at(common.len() - first);
-    html! {
-        (parts(head))
-        @if !same.is_empty() { span.dots { "…" } span.same { (parts(same)) } }
-        (parts(tail))
-    }
-}
-
-/// Returns how many bytes all names begin with alike, up to the last place where a line may break; 0 for a single name.
-pub(super) fn shared_start<'a>(names: impl IntoIterator<Item = &'a str>) -> usize {
-    let mut names = names.into_iter();
-    let Some(first) = names.next() else { return 0 };
-    let alike = |a: &str, b: &str| {
-        let same = a.char_indices().zip(b.chars()).find(|((_, a), b)| a != b);
-        same.map_or(a.len().min(b.len()), |((at, _), _)| at)
-    };
-    let shared = names.map(|name| alike(first, name)).min().unwrap_or(0);
-    first.get(..shared).and_then(|start| start.rfind(BREAKS)).map_or(0, |at| at + 1)
 }
 
 /// Returns a file name as part of a URL.
@@ -112,16 +82,5 @@ mod tests {
         let hash = BASE64_STANDARD.encode(Sha256::digest(style));
         assert!(text.contains(&format!("style-src 'sha256-{hash}'")), "{text}");
         assert!(!text.contains("<script") && !text.contains(" style="));
-    }
-
-    #[test]
-    fn long_names_may_break_but_keep_every_letter() {
-        let name = breakable("AD_10253-790nm.png", 0).into_string();
-        assert_eq!(name, "AD_<wbr>10253-<wbr>790nm.<wbr>png<wbr>");
-        let names = ["AD_10253-790nm_1", "AD_10253-790nm_2", "AD_10253-79"];
-        assert_eq!((shared_start(names), shared_start(["é_1", "é_2"]), shared_start(["a_b"])), (9, 3, 0));
-        let name = breakable(names[0], 9).into_string();
-        let middle = "<span class=\"dots\">…</span><span class=\"same\">10253-<wbr></span>";
-        assert_eq!(name, format!("AD_<wbr>{middle}790nm_<wbr>1<wbr>"));
     }
 }

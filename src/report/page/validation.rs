@@ -1,4 +1,5 @@
-use super::skeleton::{breakable, in_url, shared_start, skeleton};
+use super::names::Names;
+use super::skeleton::{in_url, skeleton};
 use crate::report::{MarkKind, TextTable, counted};
 use maud::{Markup, html};
 
@@ -43,7 +44,8 @@ pub struct ValidationPage<'a> {
     pub failures: &'a [(&'a str, &'a str)],
 }
 
-/// Returns the page of a validation: accuracy, agreement, curves, and the images from worst to best.
+/// Returns the page of a validation: accuracy, agreement, curves, and the images from worst to
+/// best.
 pub fn validation_page(page: &ValidationPage) -> String {
     let body = html! {
         h1 { "Validation of cone detections" }
@@ -98,7 +100,7 @@ fn table_of(table: &TextTable) -> Markup {
 fn images(page: &ValidationPage) -> Markup {
     let shown = page.images.iter().take(SHOWN).filter_map(|i| i.overlay.as_ref().map(|o| (i, o)));
     let shown: Vec<_> = shown.collect();
-    let shared = shared_start(page.images.iter().map(|i| i.name.as_str()));
+    let names = Names::new(page.images.iter().map(|i| i.name.as_str()));
     html! {
         h2 id="images" { "Images: what needs a human first" }
         @if !shown.is_empty() {
@@ -119,7 +121,7 @@ fn images(page: &ValidationPage) -> Markup {
                 thead { tr { th { "image" } @for cell in page.header { th { (cell) } } } }
                 tbody { @for image in page.images { tr {
                     td title=(image.name) {
-                        @if let Some(overlay) = &image.overlay { a href=(in_url(overlay)) { (breakable(&image.name, shared)) } } @else { (breakable(&image.name, shared)) }
+                        @if let Some(overlay) = &image.overlay { a href=(in_url(overlay)) { (names.show(&image.name)) } } @else { (names.show(&image.name)) }
                     }
                     @for cell in &image.cells { td { (cell) } }
                 } } }

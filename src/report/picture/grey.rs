@@ -10,8 +10,8 @@ const WHITE: f64 = 0.995;
 /// So many pixels settle a percentile; more only cost time.
 const SAMPLE: usize = 1 << 17;
 
-/// The plane in 8 bits, its 0.5th percentile black and its 99.5th white. A constant plane is mid-grey, what is not a
-/// number is black.
+/// The plane in 8 bits, its 0.5th percentile black and its 99.5th white. A constant plane is
+/// mid-grey, what is not a number is black.
 pub(in crate::report) fn stretched(plane: ArrayView2<f32>) -> GrayImage {
     let (height, width) = plane.dim();
     // An odd step, so that the sample does not run down a few columns of an image of even width.
@@ -36,8 +36,8 @@ fn percentile(sample: &mut [f32], share: f64) -> f32 {
     *sample.select_nth_unstable_by(rank, f32::total_cmp).1
 }
 
-/// The picture `factor` times as large, interpolated linearly between pixel centres, the border repeated.
-/// Several times as fast as `image::imageops::resize`.
+/// The picture `factor` times as large, interpolated linearly between pixel centres, the border
+/// repeated. Several times as fast as `image::imageops::resize`.
 pub(super) fn enlarged(grey: &GrayImage, factor: u32) -> GrayImage {
     let factor = factor.max(1) as usize;
     let (width, height) = (grey.width() as usize, grey.height() as usize);

@@ -1,5 +1,6 @@
-/// Where a stroke or a spot lies, in px of the image it is drawn on; pixel (0, 0) is centred at (0, 0).
-/// imageproc's circles and lines have whole-pixel centres, which would shift a mark by up to half a pixel.
+/// Where a stroke or a spot lies, in px of the image it is drawn on; pixel (0, 0) is centred at (0,
+/// 0). imageproc's circles and lines have whole-pixel centres, which would shift a mark by up to
+/// half a pixel.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::report) enum Shape {
     /// A filled disc.
@@ -13,7 +14,8 @@ pub(in crate::report) enum Shape {
 }
 
 impl Shape {
-    /// Distance from (dx, dy), measured from the centre, to the line (or to the centre, for a disc).
+    /// Distance from (dx, dy), measured from the centre, to the line (or to the centre, for a
+    /// disc).
     fn distance(self, dx: f64, dy: f64, radius: f64) -> f64 {
         let arm = |along: f64, across: f64| {
             let beyond = (along.abs() - radius).max(0.);
@@ -33,8 +35,8 @@ impl Shape {
         }
     }
 
-    /// Calls `paint(x, y, coverage)` for every pixel of a `width` × `height` image that a line of `thickness` px
-    /// touches, coverage in (0, 1]. For a disc, thickness is 0.
+    /// Calls `paint(x, y, coverage)` for every pixel of a `width` × `height` image that a line of
+    /// `thickness` px touches, coverage in (0, 1]. For a disc, thickness is 0.
     pub(in crate::report) fn cover(
         self,
         (width, height): (u32, u32),

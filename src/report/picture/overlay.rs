@@ -13,7 +13,8 @@ const LINE: f64 = 1.5;
 const HALO: f64 = 3.;
 const HALO_OPACITY: f64 = 0.55;
 
-/// What a mark says. Each kind has its own colour (Okabe & Ito 2008, told apart by colour-blind readers) and shape.
+/// What a mark says. Each kind has its own colour (Okabe & Ito 2008, told apart by colour-blind
+/// readers) and shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MarkKind {
     /// A cone found, nothing known of its truth: an orange ring.
@@ -49,7 +50,8 @@ impl MarkKind {
     }
 }
 
-/// A mark on an image; x, y and radius in px of that image, (0, 0) the centre of its top-left pixel.
+/// A mark on an image; x, y and radius in px of that image, (0, 0) the centre of its top-left
+/// pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OverlayMark {
     /// To the right.
@@ -70,9 +72,10 @@ pub fn overlay_with_border(picture: &Plane, marks: &[OverlayMark], spacing: f64,
     draw(picture, marks, spacing, border)
 }
 
-/// The image in grey, its contrast stretched from the 0.5th to the 99.5th percentile, with a mark on every place
-/// given. Enlarged by the whole number that sets cones of `spacing` px at least 16 px apart, as long as no side
-/// exceeds 4096 px; never reduced. Marks that are not finite are left out.
+/// The image in grey, its contrast stretched from the 0.5th to the 99.5th percentile, with a mark
+/// on every place given. Enlarged by the whole number that sets cones of `spacing` px at least 16
+/// px apart, as long as no side exceeds 4096 px; never reduced. Marks that are not finite are left
+/// out.
 pub fn overlay(picture: &Plane, marks: &[OverlayMark], spacing: f64) -> RgbImage {
     draw(picture, marks, spacing, 0.)
 }

@@ -34,8 +34,9 @@ pub(in crate::report) struct Plane {
     pub reach: [f64; 2],
 }
 
-/// Returns the plane of wave vectors as grey PNG: frequency 0 in the middle, and black; x to the right, y down, one
-/// pixel per wave vector. Of large planes a pixel is the mean of a square of them, so that no side has more than 1024.
+/// Returns the plane of wave vectors as grey PNG: frequency 0 in the middle, and black; x to the
+/// right, y down, one pixel per wave vector. Of large planes a pixel is the mean of a square of
+/// them, so that no side has more than 1024.
 ///
 /// # Errors
 /// If the encoder refuses it.

@@ -1,8 +1,8 @@
 use comfy_table::{CellAlignment, LineStyle, Table, TableStyle};
 
-/// A table to be read: headers, a rule, rows; columns of numbers flush right, everything else flush left.
-/// Plain text without colours or escape codes, so that it may go to a terminal, a pipe or a log alike. Units belong
-/// in the headers.
+/// A table to be read: headers, a rule, rows; columns of numbers flush right, everything else flush
+/// left. Plain text without colours or escape codes, so that it may go to a terminal, a pipe or a
+/// log alike. Units belong in the headers.
 pub fn table(headers: &[&str], rows: &[Vec<String>]) -> String {
     let mut table = Table::new();
     table.load_style(TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─')));
@@ -29,8 +29,8 @@ fn is_number(text: &str) -> bool {
     matches!(bare.as_str(), "–" | "∞") || bare.split_whitespace().all(|part| part.parse::<f64>().is_ok())
 }
 
-/// `x` to `digits` significant digits, without ever cutting digits before the decimal point: 9.1537 → 9.15,
-/// 61234.5 → 61235. Beyond 10⁻⁴..10⁹ in scientific notation. Not a number is “–”.
+/// `x` to `digits` significant digits, without ever cutting digits before the decimal point: 9.1537
+/// → 9.15, 61234.5 → 61235. Beyond 10⁻⁴..10⁹ in scientific notation. Not a number is “–”.
 pub fn significant(x: f64, digits: usize) -> String {
     if x.is_nan() {
         return "–".to_owned();

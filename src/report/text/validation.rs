@@ -123,7 +123,8 @@ pub fn group_table(groups: &[GroupSummary], over: Option<&MeanOverGroups>) -> Te
     TextTable::new(&["group", "images", "sensitivity", "FDR", "precision", "Dice", "SD of Dice"], rows)
 }
 
-/// What the score is good for: the threshold of the highest mean Dice, and the reliability of scores.
+/// What the score is good for: the threshold of the highest mean Dice, and the reliability of
+/// scores.
 pub fn threshold_table(
     froc: &Froc,
     reliability: Option<&Reliability>,
@@ -154,8 +155,8 @@ pub fn threshold_table(
     TextTable::new(&["score of the detections", ""], rows)
 }
 
-/// Returns paired differences of two detectors or graders. Few groups cannot have a small p, however they differ: the
-/// least that they can have stands beside it.
+/// Returns paired differences of two detectors or graders. Few groups cannot have a small p,
+/// however they differ: the least that they can have stands beside it.
 pub fn comparison_table(first: &str, second: &str, differences: &[Difference]) -> TextTable {
     let row = |d: &Difference| {
         let (label, number): (_, fn(f64) -> String) = match d.measure {
@@ -168,7 +169,7 @@ pub fn comparison_table(first: &str, second: &str, differences: &[Difference]) -
         };
         let values = [d.first, d.second, d.difference].map(number);
         let p = d.p.map_or(NONE.into(), |p| significant(p, 2));
-        let least = significant(d.least_p, 2);
+        let least = significant(d.least_p, 3);
         [vec![label.to_owned()], values.to_vec(), vec![between(d.interval, number), p, least]].concat()
     };
     let rows = differences.iter().map(row).collect();
