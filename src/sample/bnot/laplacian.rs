@@ -1,4 +1,8 @@
 use crate::geometry::power::PowerDiagram;
+use rayon::prelude::*;
+
+/// Rows that one thread takes at least: fewer are done sooner than handed over.
+const ROWS: usize = 8192;
 
 /// The weighted Laplacian of a graph: row i is Σ_j c_ij (x_i − x_j), with c_ij = c_ji > 0 for neighbours. Symmetric, and
 /// positive but for constants, of which it knows nothing.
@@ -55,10 +59,13 @@ impl Laplacian {
         self.row(i).iter().map(|&(j, c)| c * x[j as usize]).sum()
     }
 
-    /// out = L x.
+    /// out = L x, the same for any number of threads.
     pub(super) fn apply(&self, x: &[f64], out: &mut [f64]) {
-        for (i, out) in out.iter_mut().enumerate() {
-            *out = self.diagonal[i] * x[i] - self.gathered(i, x);
+        let row = |(i, out): (usize, &mut f64)| *out = self.diagonal[i] * x[i] - self.gathered(i, x);
+        if out.len() < 2 * ROWS {
+            out.iter_mut().enumerate().for_each(row);
+        } else {
+            out.par_iter_mut().with_min_len(ROWS).enumerate().for_each(row);
         }
     }
 
