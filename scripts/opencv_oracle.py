@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Detection written a second time, with OpenCV, for tests/opencv_oracle.rs to hold the program against.
+"""Detection written a second time, with OpenCV, for tests/it/opencv_oracle.rs to hold the program against.
 
     scripts/opencv_oracle.py JOBS.csv OUT
 

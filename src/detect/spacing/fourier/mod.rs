@@ -67,7 +67,7 @@ pub struct FourierEstimate {
 /// A mosaic has a ring because its patches of lattice are turned every way. A single perfect lattice has six points instead,
 /// which the mean of logarithms hardly sees: it may be missed.
 ///
-/// Against the spacing of the lattice with the density of the marks (`tests/fourier_spacing.rs` measures it): of 200 confocal images
+/// Against the spacing of the lattice with the density of the marks (`tests/it/fourier_spacing.rs` measures it): of 200 confocal images
 /// all are within 15 %, on average 3.5 % wider, standard deviation 1.6 %, and the ring of the marks themselves
 /// ([`modal_spacing`](crate::stats::modal_spacing)) is 3.0 % wider, 1.9 %: mosaics are no lattices. Of 184 split-detector images 84 % are within 15 %
 /// (−2.9 %, 5.5 %), by the ring of the marks as many.

@@ -1,8 +1,6 @@
 //! Columns of summaries: what they are, which are chosen, in which units; manifests and groups.
 
-mod common;
-
-use common::{Place, number};
+use crate::common::{self, Place, number};
 use std::path::Path;
 
 /// Two files of marks, one twice as dense as the other, in windows of 60 × 60.

@@ -1,8 +1,6 @@
 //! `measure --spectrum` and `sample --target-pcf`, `--target-spectrum`, run as a user runs them.
 
-mod common;
-
-use common::{Place, number, table};
+use crate::common::{Place, number, table};
 use std::path::Path;
 
 /// A column by the first one's value, between `low` and `high`.

@@ -1,8 +1,6 @@
 //! `validate`, run as a user runs it: groups, intervals, curves over the score, overlays, two detectors or graders.
 
-mod common;
-
-use common::Place;
+use crate::common::Place;
 use std::collections::BTreeMap;
 
 /// Marks of a lattice, 12 px apart, on 60 × 60 px.

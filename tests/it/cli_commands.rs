@@ -1,8 +1,6 @@
 //! `measure`, `compare`, `validate`, `sample`, `render` and the help, run as a user runs them.
 
-mod common;
-
-use common::{Place, number, shared, table};
+use crate::common::{Place, number, shared, table};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::io::Read;

@@ -1,8 +1,6 @@
 //! `measure --rois`, `--roi-side` and `--roi-cells`, run as a user runs them.
 
-mod common;
-
-use common::{FEW_POINTS, Place, number};
+use crate::common::{FEW_POINTS, Place, number};
 use std::collections::BTreeMap;
 
 type Row = BTreeMap<String, String>;

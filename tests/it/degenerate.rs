@@ -1,8 +1,6 @@
 //! Too few points, collinear, coincident and border points: every statistic has a value with a meaning or an empty cell.
 
-mod common;
-
-use common::Place;
+use crate::common::Place;
 use std::collections::BTreeSet;
 
 /// Empty below two points.

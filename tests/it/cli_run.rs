@@ -1,8 +1,6 @@
 //! What `run` and `detect` write, under which names, and that they write the same every time.
 
-mod common;
-
-use common::{Place, number};
+use crate::common::{Place, number};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::fs;

@@ -1,7 +1,6 @@
 //! Images of so many pixels that cones are farther apart than filters and networks are made for.
 
-mod common;
-
+use crate::common;
 use conemosaic::detect::{DetectOptions, Detections, Detector, detect};
 use conemosaic::geometry::Point;
 use conemosaic::image::{Plane, crop};

@@ -4,8 +4,7 @@
 //! the latter showed that histology needed a network, which kinds of image its training lacked, and that one network for the modality
 //! depends on its seed.
 
-mod common;
-
+use crate::common;
 use conemosaic::detect::{DetectOptions, Modality, detect};
 use conemosaic::image::{Plane, read};
 use conemosaic::mosaic::hexagonal_spacing;

@@ -1,8 +1,6 @@
 //! `measure --maps` and `run --maps`, run as a user runs them.
 
-mod common;
-
-use common::{FEW_POINTS, Place, number};
+use crate::common::{FEW_POINTS, Place, number};
 
 /// A bump of density, 200 × 160 px, its peak at (80, 90).
 fn bump(place: &Place) {

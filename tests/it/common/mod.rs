@@ -1,5 +1,4 @@
-//! What tests share. Each test file uses a part of it.
-#![allow(dead_code)]
+//! Helpers that several modules of tests share.
 
 use assert_cmd::Command;
 use conemosaic::compare::{MatchOptions, validate};

@@ -1,7 +1,6 @@
 //! The spacing by the spectrum alone: Yellott's ring, read by a small network.
 
-mod common;
-
+use crate::common;
 use conemosaic::detect::{BORDER, RingEstimate, RingProfile, flatten};
 use conemosaic::image::{Plane, read};
 use conemosaic::mosaic::hexagonal_spacing;

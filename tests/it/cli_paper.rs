@@ -1,8 +1,6 @@
 //! `paper`: what Lanaro et al. print about samplers, re-made.
 
-mod common;
-
-use common::{Place, number};
+use crate::common::{Place, number};
 
 #[test]
 fn paper_agrees_with_what_is_printed_and_stands_on_one_page() {

@@ -1,8 +1,6 @@
 //! `--model`: networks of the user's own.
 
-mod common;
-
-use common::Place;
+use crate::common::Place;
 use std::fs;
 
 const CONFOCAL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/src/detect/learned/confocal.safetensors");

@@ -1,8 +1,7 @@
 //! The modality and the polarity that detection takes an image to have are the true ones: on simulated images of every kind, and
 //! on all hand-marked ones.
 
-mod common;
-
+use crate::common;
 use conemosaic::detect::{DetectOptions, Detector, Modality, Polarity, detect};
 use conemosaic::image::{Plane, crop, gaussian, read};
 use conemosaic::render::{

@@ -1,8 +1,7 @@
 //! The shipped networks on hand-marked images. They were trained on these: what generalises is in MODEL_CARD.md; what is
 //! tested here is that the program does what the training script judged, and that gamma, noise and scale do it little harm.
 
-mod common;
-
+use crate::common;
 use conemosaic::detect::{DetectOptions, Detector, Modality, detect};
 use conemosaic::geometry::Point;
 use conemosaic::image::{Plane, gaussian, read};

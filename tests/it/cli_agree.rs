@@ -1,8 +1,6 @@
 //! Graders held against each other.
 
-mod common;
-
-use common::{Place, number};
+use crate::common::{Place, number};
 
 #[test]
 fn graders_are_paired_by_image_and_their_differences_told() {

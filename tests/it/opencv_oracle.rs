@@ -1,8 +1,6 @@
 //! Detection, stage by stage, against the same stages written with OpenCV (`scripts/opencv_oracle.py`).
 
-mod common;
-
-use common::{python, run_script};
+use crate::common::{python, run_script};
 use conemosaic::detect::{
     Criterion, DetectOptions, Detection, Detections, Detector, detect, flatten, local_maxima, response,
     suppress,

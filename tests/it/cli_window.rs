@@ -1,8 +1,6 @@
 //! Which area counts: `--window` of `run` and `measure`.
 
-mod common;
-
-use common::{Place, number};
+use crate::common::{Place, number};
 
 /// A simulated image of 120 × 100 px, black but for an L of two tiles (the right one lower).
 fn montage(place: &Place) {

@@ -1,8 +1,6 @@
 //! Wrong arguments and broken files: one clear line, the right exit code, nothing half written.
 
-mod common;
-
-use common::Place;
+use crate::common::Place;
 use std::fs;
 
 /// A grey PNG of one value.

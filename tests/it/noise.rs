@@ -1,7 +1,6 @@
 //! Noise has maxima of its own: more cones, a smaller spacing, and so still more. The ring of the spectrum holds against that.
 
-mod common;
-
+use crate::common;
 use conemosaic::detect::{DetectOptions, Detector, detect};
 use conemosaic::image::Plane;
 use conemosaic::mosaic::hexagonal_spacing;

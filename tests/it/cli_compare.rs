@@ -1,8 +1,6 @@
 //! `compare`, `run --verdict` and `paper`: the paper's tables, and verdicts by simulation.
 
-mod common;
-
-use common::{Place, number};
+use crate::common::{Place, number};
 
 /// Point sets of these samplers, 200 points each, in `marks/`.
 fn marks(samplers: &[(&str, &str)]) -> Place {
