@@ -33,11 +33,16 @@ fn main() -> io::Result<()> {
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
+        // options decide what is computed, not the words of the command line that name them; without
+        // them an edit there compiles the binary only
+        if path.ends_with("cli") || path.ends_with("main.rs") {
+            continue;
+        }
         if path.is_dir() {
             collect(&path, files)?;
         } else if path
             .extension()
-            .is_some_and(|kind| ["rs", "f32", "safetensors", "csv"].iter().any(|k| kind == *k))
+            .is_some_and(|kind| ["rs", "f32", "safetensors", "csv", "bin"].iter().any(|k| kind == *k))
         {
             files.push(path);
         }

@@ -1,5 +1,6 @@
 //! Tests of the library from outside and of the program itself, in one crate so that it is linked once.
 
+mod architecture;
 mod cli_agree;
 mod cli_bad_input;
 mod cli_commands;
@@ -7,6 +8,7 @@ mod cli_compare;
 mod cli_maps;
 mod cli_metrics;
 mod cli_model;
+mod cli_page;
 mod cli_paper;
 mod cli_rois;
 mod cli_run;

@@ -43,10 +43,7 @@ pub(super) fn fingerprint(
 }
 
 /// A hash of the program's source and weights, made when it was built.
-const BUILD: &str = match option_env!("CONEMOSAIC_BUILD_HASH") {
-    Some(hash) => hash,
-    None => env!("CARGO_PKG_VERSION"),
-};
+const BUILD: &str = env!("CONEMOSAIC_BUILD_HASH");
 
 /// Returns the results of an earlier run for an image, if they are complete, as they were written
 /// and belong to the same image and options.

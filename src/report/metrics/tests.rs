@@ -5,14 +5,16 @@ use super::{MetricGroup, MetricSelection, Quantity, Subject, Summary, SummaryKin
 use crate::detect::{Detector, FourierEstimate, FourierSpacing, Modality, Polarity};
 use crate::geometry::{Point, Rectangle, Window};
 use crate::mosaic::{LengthUnit, Meridian, Mosaic, RetinalPlace, Scale};
-use crate::report::{Cell, CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord, SamplerDistance};
+use crate::report::{
+    Cell, ConesFrom, CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord, SamplerDistance,
+};
 use crate::stats::measure;
 use rand::{RngExt, SeedableRng};
 use serde_json::Value;
 use std::collections::{BTreeMap, HashSet};
 
 /// Columns in the unit of the image, or without a unit, and where `metrics.json` has their values.
-const COLUMNS: [(&str, &str); 76] = [
+const COLUMNS: [(&str, &str); 77] = [
     ("width_px", "/width_px"),
     ("height_px", "/height_px"),
     ("um_per_px", "/mosaic/um_per_unit"),
@@ -34,6 +36,7 @@ const COLUMNS: [(&str, &str); 76] = [
     ("l_infinity_bnot", "/mosaic/l_infinity/1/l_infinity"),
     ("l_infinity_dart_throwing", "/mosaic/l_infinity/0/l_infinity"),
     ("closest_sampler", "/mosaic/l_infinity/0/sampler"),
+    ("cones_from", "/cones_from"),
     ("detector", "/detection/detector"),
     ("modality", "/detection/modality"),
     ("modality_confidence", "/detection/modality_confidence"),
@@ -124,7 +127,9 @@ fn record() -> ImageRecord {
         options_sha256: String::new(),
         width_px: 1,
         height_px: 1,
-        detection: DetectionRecord {
+        cones_from: ConesFrom::Corrected,
+        outside: 0,
+        detection: Some(DetectionRecord {
             detector: Detector::Learned,
             modality: Modality::Split,
             modality_confidence: 0.5,
@@ -138,7 +143,7 @@ fn record() -> ImageRecord {
             spacing_range_px: [0.5; 2],
             expected_false_alarms: 0.5,
             expected_misses: 0.5,
-        },
+        }),
         fourier: Some(FourierEstimate { side: 1, all: ring, row: ring, cell: ring }),
         mosaic,
         warnings: vec!["one".into(), "two".into()],
@@ -162,11 +167,12 @@ fn expected(record: &ImageRecord) -> BTreeMap<&'static str, Cell> {
     };
     let mosaic = &record.mosaic;
     let cones = mosaic.expected_cones_per_mm2().unwrap();
-    let errors = record.detection.expected_false_alarms + record.detection.expected_misses;
+    let found = record.detection.as_ref().unwrap();
+    let errors = found.expected_false_alarms + found.expected_misses;
     let mut all: BTreeMap<&str, Cell> = COLUMNS.iter().map(|(name, at)| (*name, cell(at))).collect();
     all.extend([
         ("warnings", "one; two".into()),
-        ("expected_error_rate", (errors / record.detection.n as f64).into()),
+        ("expected_error_rate", (errors / found.n as f64).into()),
         ("eccentricity_mm", 2.0.into()),
         ("density_expected_per_mm2", cones.into()),
         ("spacing_expected_um", mosaic.expected_spacing_um().into()),

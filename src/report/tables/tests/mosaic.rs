@@ -97,6 +97,7 @@ pub fn functions_of_distance(held: &mut Held) {
         n: 360,
         realisations: 1,
         ri: None,
+        shipped: false,
     };
     let curves = [curve("bnot", 0.25), curve("dart-throwing", 0.5)];
     let numbers = |values: &[f64]| cells(values.iter().copied());

@@ -1,8 +1,8 @@
 use super::Held;
 use crate::compare::{
-    Agreement, Assignment, Difference, Froc, FrocPoint, GroupSummary, Intraclass, Rates, ReliabilityBin,
-    Score, Summary, agreement as agreement_of,
+    Assignment, Difference, Froc, FrocPoint, GroupSummary, Intraclass, Rates, ReliabilityBin, Score, Summary,
 };
+use crate::compare::{agreement as agreement_of, agreement_of_clusters};
 use crate::report::tables::*;
 use crate::report::{Cell, ValidationRow, VersusRow};
 
@@ -161,6 +161,7 @@ pub fn curves_of_scores(held: &mut Held) {
         difference: 0.05,
         interval: Some([0.01, 0.09]),
         p: Some(0.03),
+        least_p: 0.0078125,
     };
     let expected = vec![
         ("measure", "dice".into()),
@@ -171,12 +172,14 @@ pub fn curves_of_scores(held: &mut Held) {
         ("low", 0.01.into()),
         ("high", 0.09.into()),
         ("p", 0.03.into()),
+        ("p_least", 0.0078125.into()),
     ];
     held.row(&COMPARISON, COMPARISON.csv([&difference]).unwrap(), expected);
 }
 
 pub fn agreement(held: &mut Held) {
-    let found: Agreement = agreement_of(&[1., 2., 6.]).unwrap();
+    let found = agreement_of_clusters(&[1., 2., 6.], &[vec![0], vec![1], vec![2]]).unwrap();
+    let plain = found.agreement;
     let icc = Intraclass {
         items: 3,
         raters: 2,
@@ -195,10 +198,11 @@ pub fn agreement(held: &mut Held) {
         means: Some([13., 10.]),
         agreement: Some(found),
         intraclass: Some(icc),
+        grouped: false,
     };
-    let [bias_low, bias_high] = found.bias_interval().unwrap();
-    let [low, high] = found.limits.unwrap();
-    let [[low_from, low_to], [high_from, high_to]] = found.limit_intervals().unwrap();
+    let [bias_low, bias_high] = found.bias_interval.unwrap();
+    let [low, high] = plain.limits.unwrap();
+    let [[low_from, low_to], [high_from, high_to]] = found.limit_intervals.unwrap();
     let expected = vec![
         ("column", "density".into()),
         ("first", "one".into()),
@@ -206,10 +210,10 @@ pub fn agreement(held: &mut Held) {
         ("n", 3.into()),
         ("mean_first", 13.0.into()),
         ("mean_second", 10.0.into()),
-        ("difference", found.bias.into()),
+        ("difference", plain.bias.into()),
         ("difference_low", bias_low.into()),
         ("difference_high", bias_high.into()),
-        ("sd", found.sd.into()),
+        ("sd", plain.sd.into()),
         ("limit_low", low.into()),
         ("limit_low_from", low_from.into()),
         ("limit_low_to", low_to.into()),
@@ -225,6 +229,7 @@ pub fn agreement(held: &mut Held) {
         ("within_sd", 1.5.into()),
         ("repeatability", 4.2.into()),
         ("within_cv_percent", 7.5.into()),
+        ("groups", 3.into()),
     ];
     held.row(&AGREEMENT, AGREEMENT.csv([row]).unwrap(), expected);
     let row = DifferenceRow { image: "a", column: "density", graders: ["one", "two"], values: [13., 10.] };

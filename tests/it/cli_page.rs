@@ -1,8 +1,6 @@
 //! The page of a run, as a browser gets it.
 
-mod common;
-
-use common::Place;
+use crate::common::Place;
 
 fn page_of(arguments: &[&str]) -> String {
     let place = Place::new();
