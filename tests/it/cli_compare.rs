@@ -54,8 +54,10 @@ fn regularity_has_the_paper_s_form_and_says_which_deviation() {
             < 1e-9
     );
     assert!(row["nn_mean_um"].is_empty());
-    place.ok(&[&COMPARE[..], &["--no-verdict", "--um-per-px", "0.5", "--out", "out", "-q"]].concat());
-    let row = &place.table("out/regularity.csv")[0];
+    place.write("px.csv", "x,y\n10,10\n20,10\n31,10\n10,20\n");
+    let scaled = ["compare", "px.csv", "--window", "40x40", "--um-per-px", "0.5", "--samplers", "jittered"];
+    place.ok(&[&scaled[..], &["--no-verdict", "--out", "scaled", "-q"]].concat());
+    let row = &place.table("scaled/regularity.csv")[0];
     for column in ["nn_mean", "nn_sd_population", "nn_sd_sample"] {
         assert_eq!(number(row, &format!("{column}_um")), 0.5 * number(row, column), "{column}");
     }
