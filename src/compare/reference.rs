@@ -30,7 +30,7 @@ pub struct ReferenceCurve {
 pub struct NotCompared {
     /// Name of the sampler.
     pub sampler: String,
-    /// Why it has no curve.
+    /// Reason why it has no curve.
     pub reason: CompareError,
 }
 

@@ -77,7 +77,12 @@ mod tests {
         let (once, made) = (Once::new(), AtomicUsize::new(0));
         let values: Vec<usize> = (0..100usize)
             .into_par_iter()
-            .map(|k| once.get(k % 3, || 10 * (k % 3) + 0 * made.fetch_add(1, Ordering::Relaxed)))
+            .map(|k| {
+                once.get(k % 3, || {
+                    made.fetch_add(1, Ordering::Relaxed);
+                    10 * (k % 3)
+                })
+            })
             .collect();
         assert!(values.iter().enumerate().all(|(k, v)| *v == 10 * (k % 3)));
         assert_eq!(made.into_inner(), 3);

@@ -1,7 +1,7 @@
 use crate::geometry::{Point, Window};
 use crate::stats::{PcfOptions, StatsError, pcf};
 
-/// How near points come to the pair correlation function that they were to have.
+/// Difference of points from the pair correlation function that they were to have.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TargetFit {
     /// Distances at which both are known, in hexagonal spacings.
@@ -12,12 +12,12 @@ pub struct TargetFit {
     pub reached: Vec<f64>,
     /// Greatest difference of the two.
     pub l_infinity: f64,
-    /// Where that is, in hexagonal spacings.
+    /// Distance at which it is, in hexagonal spacings.
     pub worst_r: f64,
 }
 
 impl TargetFit {
-    /// Whether the greatest difference is where the target ends: pairs farther apart are left to chance, and disturb the
+    /// Returns whether the greatest difference is where the target ends: pairs farther apart are left to chance, and disturb the
     /// last ones.
     pub fn at_the_end(&self) -> bool {
         self.r.last().is_some_and(|last| *last < MOST - END && self.worst_r > last - END)
@@ -27,7 +27,7 @@ impl TargetFit {
 /// Pairs beyond the end of a target disturb those nearer than this to it, in hexagonal spacings.
 const END: f64 = 0.4;
 
-/// From here on two patterns are told apart at a glance: the distance under which Lanaro et al. take two distributions for the same.
+/// Least l-infinity of a poor fit: under it Lanaro et al. take two distributions for the same.
 pub const POOR_FIT: f64 = 0.1;
 
 /// Compares the pair correlation function of `points` with the rows of r (in hexagonal spacings, rising) and g that they

@@ -5,7 +5,7 @@ use super::{SampleError, Sampler};
 pub struct Parameter {
     /// Name: lower case, words joined by hyphens.
     pub name: &'static str,
-    /// What it counts or is measured in; empty for a plain number.
+    /// Unit, or the thing counted; empty for a plain number.
     pub unit: &'static str,
     /// Least and greatest value, both allowed.
     pub range: (f64, f64),
@@ -13,9 +13,9 @@ pub struct Parameter {
     pub whole: bool,
     /// The value that holds if it is not set; `None` where that is no number.
     pub default: Option<f64>,
-    /// What holds instead of a number.
+    /// Words for what holds instead of a number.
     pub unset: &'static str,
-    /// What it does, and where its default comes from.
+    /// Effect, and where the default comes from.
     pub meaning: &'static str,
 }
 
@@ -81,7 +81,7 @@ pub trait Settable: Sampler + Clone + 'static {
     const SETTINGS: &'static [Setting<Self>];
 }
 
-/// What every [`Settable`] sampler does, whatever its type.
+/// Work of every [`Settable`] sampler, whatever its type.
 pub trait Configure {
     /// Returns the parameters, in the order of the table, with this sampler's values as defaults.
     fn described(&self) -> Vec<Parameter>;

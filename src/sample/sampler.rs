@@ -18,24 +18,24 @@ pub trait Sampler: fmt::Debug + Send + Sync {
     /// If `n` is out of the method's range, or it found no room for `n` points.
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError>;
 
-    /// Whether exactly the n points asked for are made, instead of the nearest number or one left to chance; `false` unless
+    /// Returns whether exactly the n points asked for are made, instead of the nearest number or one left to chance; `false` unless
     /// a sampler says so. A polygon is cut out of a pattern, so that none is exact there but those that fill it.
     fn exact(&self) -> bool {
         false
     }
 
-    /// Whether nothing tells the seam of a torus; `true` unless a sampler says otherwise.
+    /// Returns whether nothing tells the seam of a torus; `true` unless a sampler says otherwise.
     fn periodic(&self) -> bool {
         true
     }
 
-    /// Whether points stand in rows along the sides of the window, so that how the window lies matters to them; `false` unless
+    /// Returns whether points stand in rows along the sides of the window, so that how the window lies matters to them; `false` unless
     /// a sampler says so.
     fn in_rows(&self) -> bool {
         false
     }
 
-    /// The sampler as one with parameters: `Some(self)` for those that are [`Settable`].
+    /// Returns the sampler as one with parameters: `Some(self)` for those that are [`Settable`].
     fn settable(&self) -> Option<&dyn Configure> {
         None
     }
@@ -60,7 +60,7 @@ pub trait Sampler: fmt::Debug + Send + Sync {
         None
     }
 
-    /// Whether mosaics are compared with it unless others are named: samplers that retinas come near to, and independent points
+    /// Returns whether mosaics are compared with it unless others are named: samplers that retinas come near to, and independent points
     /// for scale. Their mean curves come with the program (`scripts/make-curves`).
     fn by_default(&self) -> bool {
         false
