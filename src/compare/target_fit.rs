@@ -17,8 +17,8 @@ pub struct TargetFit {
 }
 
 impl TargetFit {
-    /// Returns whether the greatest difference is where the target ends: pairs farther apart are left to chance, and disturb the
-    /// last ones.
+    /// Returns whether the greatest difference is where the target ends: pairs farther apart are
+    /// left to chance, and disturb the last ones.
     pub fn at_the_end(&self) -> bool {
         self.r.last().is_some_and(|last| *last < MOST - END && self.worst_r > last - END)
     }
@@ -30,13 +30,13 @@ const END: f64 = 0.4;
 /// Least l-infinity of a poor fit: under it Lanaro et al. take two distributions for the same.
 pub const POOR_FIT: f64 = 0.1;
 
-/// Compares the pair correlation function of `points` with the rows of r (in hexagonal spacings, rising) and g that they
-/// were to reach, over the distances of both: at most 6 spacings and half the shorter side of the window, beyond which
-/// [`crate::sample::Shaped`] controls nothing.
+/// Compares the pair correlation function of `points` with the rows of r (in hexagonal spacings,
+/// rising) and g that they were to reach, over the distances of both: at most 6 spacings and half
+/// the shorter side of the window, beyond which [`crate::sample::Shaped`] controls nothing.
 ///
-/// Measured: the mean g of 20 patterns of dart throwing, given up to 6 spacings, is missed by .065–.073 at 300 to 3000
-/// points, at the hard core's edge. Given up to 2.49 only it is missed by about .1, at 2.22: the last quarter of a spacing
-/// is not controlled ([`TargetFit::at_the_end`]).
+/// Measured: the mean g of 20 patterns of dart throwing, given up to 6 spacings, is missed by
+/// .065–.073 at 300 to 3000 points, at the hard core's edge. Given up to 2.49 only it is missed by
+/// about .1, at 2.22: the last quarter of a spacing is not controlled ([`TargetFit::at_the_end`]).
 ///
 /// # Errors
 /// If there are fewer than two points or rows, or the rows end where estimates begin, at .15 spacings.

@@ -47,8 +47,8 @@ impl Parameter {
     }
 }
 
-/// A row of a sampler's table of parameters: what users read of one, and the field that it is. Its default stands nowhere
-/// but in the sampler.
+/// A row of a sampler's table of parameters: what users read of one, and the field that it is. Its
+/// default stands nowhere but in the sampler.
 pub struct Setting<S> {
     /// See [`Parameter::name`].
     pub name: &'static str,
@@ -77,7 +77,8 @@ impl<S> Setting<S> {
 
 /// A sampler with parameters. With it, [`Sampler::settable`] is `Some(self)`.
 pub trait Settable: Sampler + Clone + 'static {
-    /// The parameters, set in this order: a later one overrules what an earlier one sets besides its own.
+    /// The parameters, set in this order: a later one overrules what an earlier one sets besides
+    /// its own.
     const SETTINGS: &'static [Setting<Self>];
 }
 
@@ -86,7 +87,8 @@ pub trait Configure {
     /// Returns the parameters, in the order of the table, with this sampler's values as defaults.
     fn described(&self) -> Vec<Parameter>;
 
-    /// Returns the same sampler with other parameters, given as (name, value); the last holds of two of one name.
+    /// Returns the same sampler with other parameters, given as (name, value); the last holds of
+    /// two of one name.
     ///
     /// # Errors
     /// If a name is none of a parameter, or a value is not a number in its range; the message says what could be set.
