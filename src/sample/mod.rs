@@ -1,8 +1,9 @@
-//! Point processes behind one trait. A new one is one file here, and its module, name and place in the registry below.
+//! Point processes behind one trait. A new one is one file here, and its module, name and place in
+//! the registry below.
 //!
-//! All work in any window. Distances of the Poisson-disk samplers are those of the torus in every window, so the
-//! pattern has no border of its own; a bounded window then cuts it off as an image cuts off a mosaic. A polygon is cut
-//! out of a pattern of its bounds.
+//! All work in any window. Distances of the Poisson-disk samplers are those of the torus in every
+//! window, so the pattern has no border of its own; a bounded window then cuts it off as an image
+//! cuts off a mosaic. A polygon is cut out of a pattern of its bounds.
 
 mod bnot;
 mod density;
@@ -36,7 +37,8 @@ pub use uniform::Uniform;
 
 use self::sampler::{cut, nearest_in_number};
 
-/// In the order in which they are listed: from the least to the most regular of those by default, then the others.
+/// In the order in which they are listed: from the least to the most regular of those by default,
+/// then the others.
 static SAMPLERS: &[&dyn Sampler] = &[
     &Uniform,
     &Jittered,
@@ -62,8 +64,9 @@ pub fn samplers() -> &'static [&'static dyn Sampler] {
     SAMPLERS
 }
 
-/// Returns the samplers of these names, each once and in the setting that mosaics are compared with: `all` stands for every
-/// one, `none` for none of those before it, and no name at all for those by default.
+/// Returns the samplers of these names, each once and in the setting that mosaics are compared
+/// with: `all` stands for every one, `none` for none of those before it, and no name at all for
+/// those by default.
 ///
 /// # Errors
 /// If there is no such sampler; the error lists the names.
@@ -157,7 +160,8 @@ mod tests {
         assert!(samplers().iter().all(|s| message.contains(s.name())), "{message}");
     }
 
-    /// METHODS §3: n = 1024 in the unit square, 12 seeds, all points, population deviation, plain distance.
+    /// METHODS §3: n = 1024 in the unit square, 12 seeds, all points, population deviation, plain
+    /// distance.
     #[test]
     fn regularity_index_of_random_samplers_is_the_published_one() {
         for (name, expected, tolerance) in [

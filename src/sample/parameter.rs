@@ -5,7 +5,7 @@ use super::{SampleError, Sampler};
 pub struct Parameter {
     /// Name: lower case, words joined by hyphens.
     pub name: &'static str,
-    /// What it counts or is measured in; empty for a plain number.
+    /// Unit, or the thing counted; empty for a plain number.
     pub unit: &'static str,
     /// Least and greatest value, both allowed.
     pub range: (f64, f64),
@@ -13,9 +13,9 @@ pub struct Parameter {
     pub whole: bool,
     /// The value that holds if it is not set; `None` where that is no number.
     pub default: Option<f64>,
-    /// What holds instead of a number.
+    /// Words for what holds instead of a number.
     pub unset: &'static str,
-    /// What it does, and where its default comes from.
+    /// Effect, and where the default comes from.
     pub meaning: &'static str,
 }
 
@@ -47,8 +47,8 @@ impl Parameter {
     }
 }
 
-/// A row of a sampler's table of parameters: what users read of one, and the field that it is. Its default stands nowhere
-/// but in the sampler.
+/// A row of a sampler's table of parameters: what users read of one, and the field that it is. Its
+/// default stands nowhere but in the sampler.
 pub struct Setting<S> {
     /// See [`Parameter::name`].
     pub name: &'static str,
@@ -77,16 +77,18 @@ impl<S> Setting<S> {
 
 /// A sampler with parameters. With it, [`Sampler::settable`] is `Some(self)`.
 pub trait Settable: Sampler + Clone + 'static {
-    /// The parameters, set in this order: a later one overrules what an earlier one sets besides its own.
+    /// The parameters, set in this order: a later one overrules what an earlier one sets besides
+    /// its own.
     const SETTINGS: &'static [Setting<Self>];
 }
 
-/// What every [`Settable`] sampler does, whatever its type.
+/// Work of every [`Settable`] sampler, whatever its type.
 pub trait Configure {
     /// Returns the parameters, in the order of the table, with this sampler's values as defaults.
     fn described(&self) -> Vec<Parameter>;
 
-    /// Returns the same sampler with other parameters, given as (name, value); the last holds of two of one name.
+    /// Returns the same sampler with other parameters, given as (name, value); the last holds of
+    /// two of one name.
     ///
     /// # Errors
     /// If a name is none of a parameter, or a value is not a number in its range; the message says what could be set.

@@ -18,24 +18,25 @@ pub trait Sampler: fmt::Debug + Send + Sync {
     /// If `n` is out of the method's range, or it found no room for `n` points.
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError>;
 
-    /// Whether exactly the n points asked for are made, instead of the nearest number or one left to chance; `false` unless
-    /// a sampler says so. A polygon is cut out of a pattern, so that none is exact there but those that fill it.
+    /// Returns whether exactly the n points asked for are made, instead of the nearest number or
+    /// one left to chance; `false` unless a sampler says so. A polygon is cut out of a pattern, so
+    /// that none is exact there but those that fill it.
     fn exact(&self) -> bool {
         false
     }
 
-    /// Whether nothing tells the seam of a torus; `true` unless a sampler says otherwise.
+    /// Returns whether nothing tells the seam of a torus; `true` unless a sampler says otherwise.
     fn periodic(&self) -> bool {
         true
     }
 
-    /// Whether points stand in rows along the sides of the window, so that how the window lies matters to them; `false` unless
-    /// a sampler says so.
+    /// Returns whether points stand in rows along the sides of the window, so that how the window
+    /// lies matters to them; `false` unless a sampler says so.
     fn in_rows(&self) -> bool {
         false
     }
 
-    /// The sampler as one with parameters: `Some(self)` for those that are [`Settable`].
+    /// Returns the sampler as one with parameters: `Some(self)` for those that are [`Settable`].
     fn settable(&self) -> Option<&dyn Configure> {
         None
     }
@@ -60,8 +61,9 @@ pub trait Sampler: fmt::Debug + Send + Sync {
         None
     }
 
-    /// Whether mosaics are compared with it unless others are named: samplers that retinas come near to, and independent points
-    /// for scale. Their mean curves come with the program (`scripts/make-curves`).
+    /// Returns whether mosaics are compared with it unless others are named: samplers that retinas
+    /// come near to, and independent points for scale. Their mean curves come with the program
+    /// (`scripts/make-curves`).
     fn by_default(&self) -> bool {
         false
     }
@@ -71,7 +73,8 @@ pub trait Sampler: fmt::Debug + Send + Sync {
         None
     }
 
-    /// [`Sampler::fill`] for methods that take long: `progress` hears of steps done, of how many at most.
+    /// [`Sampler::fill`] for methods that take long: `progress` hears of steps done, of how many at
+    /// most.
     ///
     /// # Errors
     /// As [`Sampler::fill`].
@@ -93,10 +96,12 @@ pub trait Sampler: fmt::Debug + Send + Sync {
         self.sample_watched(n, window, rng, &mut |_, _| ())
     }
 
-    /// About `n` points of `window`, by [`Sampler::fill`]: the bounds of a rectangle or torus are filled.
+    /// About `n` points of `window`, by [`Sampler::fill`]: the bounds of a rectangle or torus are
+    /// filled.
     ///
-    /// A polygon is cut out of a pattern of the same density in its bounds. How many points it holds is left to chance;
-    /// patterns are drawn until their number is within .5 % of `n`, at most 32, and the nearest is taken.
+    /// A polygon is cut out of a pattern of the same density in its bounds. How many points it
+    /// holds is left to chance; patterns are drawn until their number is within .5 % of `n`, at
+    /// most 32, and the nearest is taken.
     ///
     /// # Errors
     /// If `n` or the window is out of the method's range, or it found no room for the points.
@@ -123,8 +128,8 @@ pub trait Sampler: fmt::Debug + Send + Sync {
 /// What hears of a sampler's progress: steps done, and of how many at most.
 pub type Watch<'a> = dyn FnMut(usize, usize) + 'a;
 
-/// The pattern nearest to `n` points in number that a polygon cuts out of fillings of its bounds, of whose points it
-/// holds about `share`.
+/// The pattern nearest to `n` points in number that a polygon cuts out of fillings of its bounds,
+/// of whose points it holds about `share`.
 pub(super) fn cut(
     n: usize,
     polygon: &Polygon,
@@ -141,7 +146,8 @@ pub(super) fn cut(
     })
 }
 
-/// Of at most `tries` patterns the one whose number of points is nearest to `n`; one that is near enough ends the search.
+/// Of at most `tries` patterns the one whose number of points is nearest to `n`; one that is near
+/// enough ends the search.
 pub(super) fn nearest_in_number(
     n: usize,
     tries: usize,
@@ -161,6 +167,7 @@ pub(super) fn nearest_in_number(
     Ok(best.map(|(_, points)| points).unwrap_or_default())
 }
 
-/// Most patterns drawn to cut a polygon out of, and how near, as a share of n, a number must come to end the search.
+/// Most patterns drawn to cut a polygon out of, and how near, as a share of n, a number must come
+/// to end the search.
 const CUTS: usize = 32;
 const CLOSE: f64 = 0.005;

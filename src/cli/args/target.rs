@@ -47,7 +47,7 @@ impl TargetArgs {
     }
 }
 
-/// How near points came to their target, in words; a warning if that is not near.
+/// Returns how near points came to their target, in words; a warning if that is not near.
 pub fn fit_in_words(fit: &TargetFit) -> String {
     let miss = significant(fit.l_infinity, 2);
     let words =

@@ -13,8 +13,8 @@ pub(super) struct Realisation {
     ri: Option<f64>,
 }
 
-/// Draws and measures pattern `k` of a sampler for a class. Its generator is seeded by a hash of `seed`, the sampler's name,
-/// the class and `k`.
+/// Draws and measures pattern `k` of a sampler for a class. Its generator is seeded by a hash of
+/// `seed`, the sampler's name, the class and `k`.
 pub(super) fn realise(
     sampler: &dyn Sampler,
     class: &Class,

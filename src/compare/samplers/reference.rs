@@ -19,9 +19,11 @@ pub struct ReferenceCurve {
     pub n: usize,
     /// Patterns averaged.
     pub realisations: usize,
-    /// Mean regularity index (all points, sample deviation); `None` where it is not defined, as for a lattice.
+    /// Mean regularity index (all points, sample deviation); `None` where it is not defined, as for
+    /// a lattice.
     pub ri: Option<f64>,
-    /// Taken from the table that comes with the program instead of made now: the same curve, g rounded to 10⁻⁴.
+    /// Taken from the table that comes with the program instead of made now: the same curve, g
+    /// rounded to 10⁻⁴.
     pub shipped: bool,
 }
 
@@ -30,7 +32,7 @@ pub struct ReferenceCurve {
 pub struct NotCompared {
     /// Name of the sampler.
     pub sampler: String,
-    /// Why it has no curve.
+    /// Reason why it has no curve.
     pub reason: CompareError,
 }
 
@@ -60,17 +62,18 @@ pub struct SamplerCurves {
 
 /// Curves of samplers, made when first asked for and kept.
 ///
-/// They depend on the mosaic only through its n, in classes 20 % apart, the proportions of its window, likewise, and whether
-/// that is a torus: distances in spacings have no scale. A polygon without holes is taken for the rectangle whose border is as
-/// long for its area; longer ones, and any for lattices, have curves of their own.
+/// They depend on the mosaic only through its n, in classes 20 % apart, the proportions of its
+/// window, likewise, and whether that is a torus: distances in spacings have no scale. A polygon
+/// without holes is taken for the rectangle whose border is as long for its area; longer ones, and
+/// any for lattices, have curves of their own.
 ///
-/// The number of realisations is 16 000/n, but at least 4 and at most 60 (2 from 20 000 points on, 1 from 100 000). Measured
-/// noise of a mean curve that leaves, as l-infinity: uniform .02–.03, jittered .01–.03, Poisson disks .01–.017 at
-/// n = 100, 300, 1024 and 4096; lattices below .001.
+/// The number of realisations is 16 000/n, but at least 4 and at most 60 (2 from 20 000 points on,
+/// 1 from 100 000). Measured noise of a mean curve that leaves, as l-infinity: uniform .02–.03,
+/// jittered .01–.03, Poisson disks .01–.017 at n = 100, 300, 1024 and 4096; lattices below .001.
 ///
-/// Every realisation has its own generator, seeded by a hash of the seed, the sampler's name, the classes and its number,
-/// so results do not depend on order or threads. Curves of the default samplers, options and seed come with the program
-/// for the classes that images have.
+/// Every realisation has its own generator, seeded by a hash of the seed, the sampler's name, the
+/// classes and its number, so results do not depend on order or threads. Curves of the default
+/// samplers, options and seed come with the program for the classes that images have.
 pub struct References {
     setup: Arc<Setup>,
     /// By class, of the samplers that stand in rows or of the others.
@@ -94,8 +97,8 @@ impl References {
         Self { setup, made: Once::new(), workers: Workers::like_the_caller() }
     }
 
-    /// Returns the samplers' curves for a mosaic of `n` points in `window`. None of fewer than two points: then every
-    /// sampler is among the missing.
+    /// Returns the samplers' curves for a mosaic of `n` points in `window`. None of fewer than two
+    /// points: then every sampler is among the missing.
     pub fn curves(&self, n: usize, window: &Window) -> SamplerCurves {
         let class = Class::of(n, window);
         let groups = [(class.clone(), true), (class.stand_in(), false)].map(|group| {
@@ -115,8 +118,8 @@ impl References {
         found
     }
 
-    /// Looks curves up in the table that comes with the program and makes the others, of the samplers that stand in rows
-    /// or of those that do not.
+    /// Looks curves up in the table that comes with the program and makes the others, of the
+    /// samplers that stand in rows or of those that do not.
     fn curves_of(&self, n: usize, class: &Class, in_rows: bool) -> Vec<Made> {
         let setup = &self.setup;
         let samplers = setup.samplers.iter().copied().enumerate().filter(|(_, s)| s.in_rows() == in_rows);
@@ -137,7 +140,8 @@ impl References {
         made
     }
 
-    /// The curve of each sampler, or why there is none: all realisations of all of them are one list of tasks.
+    /// The curve of each sampler, or why there is none: all realisations of all of them are one
+    /// list of tasks.
     pub(super) fn make(
         &self,
         samplers: Vec<&'static dyn Sampler>,

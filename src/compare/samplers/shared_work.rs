@@ -7,7 +7,8 @@ use std::hash::Hash;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError, mpsc};
 
-/// Values made when first asked for and kept. Threads that ask for one that is under way wait for it.
+/// Values made when first asked for and kept. Threads that ask for one that is under way wait for
+/// it.
 pub(super) struct Once<K, V> {
     cells: Mutex<HashMap<K, Arc<OnceLock<V>>>>,
 }
@@ -27,11 +28,13 @@ impl<K: Eq + Hash, V: Clone> Once<K, V> {
     }
 }
 
-/// Threads of their own that work for others, who sleep meanwhile. They start with the first work there is.
+/// Threads of their own that work for others, who sleep meanwhile. They start with the first work
+/// there is.
 ///
-/// The caller's own pool would not do. Its threads look for other work while they wait, and might be given an image that
-/// waits for the very curve below it on the same stack: a deadlock. And a thread of that pool that sleeps takes no part in
-/// what a sampler hands out, so that BNOT, whose cells are made in parallel, ran on one of two cores.
+/// The caller's own pool would not do. Its threads look for other work while they wait, and might
+/// be given an image that waits for the very curve below it on the same stack: a deadlock. And a
+/// thread of that pool that sleeps takes no part in what a sampler hands out, so that BNOT, whose
+/// cells are made in parallel, ran on one of two cores.
 pub(super) struct Workers {
     threads: usize,
     pool: OnceLock<Option<ThreadPool>>,
@@ -43,7 +46,8 @@ impl Workers {
         Self { threads: rayon::current_num_threads(), pool: OnceLock::new() }
     }
 
-    /// Returns the results of `task(0)` to `task(count − 1)`, in that order; `None` for one that panicked.
+    /// Returns the results of `task(0)` to `task(count − 1)`, in that order; `None` for one that
+    /// panicked.
     ///
     /// Tasks must not ask for the results of others in their turn.
     pub(super) fn all<T, F>(&self, count: usize, task: F) -> Vec<Option<T>>
@@ -77,7 +81,12 @@ mod tests {
         let (once, made) = (Once::new(), AtomicUsize::new(0));
         let values: Vec<usize> = (0..100usize)
             .into_par_iter()
-            .map(|k| once.get(k % 3, || 10 * (k % 3) + 0 * made.fetch_add(1, Ordering::Relaxed)))
+            .map(|k| {
+                once.get(k % 3, || {
+                    made.fetch_add(1, Ordering::Relaxed);
+                    10 * (k % 3)
+                })
+            })
             .collect();
         assert!(values.iter().enumerate().all(|(k, v)| *v == 10 * (k % 3)));
         assert_eq!(made.into_inner(), 3);

@@ -1,5 +1,5 @@
-//! Curves that come with the program: those of the default samplers, options and seed for the classes of mosaic that images
-//! have. `scripts/make-curves` makes `curves.bin` anew.
+//! Curves that come with the program: those of the default samplers, options and seed for the
+//! classes of mosaic that images have. `scripts/make-curves` makes `curves.bin` anew.
 
 use super::curve_class::{Class, Shape};
 use super::shipped_codec::{self as codec, Entry, Key};
@@ -25,7 +25,8 @@ static BYTES: &[u8] = include_bytes!("curves.bin");
 static TABLE: LazyLock<HashMap<Key, Entry>> =
     LazyLock::new(|| codec::read(BYTES, &fingerprint(), PcfOptions::default().bins).unwrap_or_default());
 
-/// Returns the shipped curve of a sampler, if there is one for this class, these options and this seed.
+/// Returns the shipped curve of a sampler, if there is one for this class, these options and this
+/// seed.
 pub(super) fn find(
     sampler: &dyn Sampler,
     class: &Class,
@@ -51,12 +52,14 @@ pub(super) fn find(
     })
 }
 
-/// Whether a sampler is as mosaics are compared with it by default, not one of the same name with other parameters.
+/// Whether a sampler is as mosaics are compared with it by default, not one of the same name with
+/// other parameters.
 fn is_usual(of: &dyn Sampler) -> bool {
     sampler(of.name()).is_ok_and(|usual| format!("{:?}", as_reference(usual)) == format!("{of:?}"))
 }
 
-/// A hash of all that shipped curves depend on and that has a name: classes, options, seed, samplers and their parameters.
+/// A hash of all that shipped curves depend on and that has a name: classes, options, seed,
+/// samplers and their parameters.
 fn fingerprint() -> [u8; 32] {
     let (options, samplers) = (PcfOptions::default(), samplers_by_default());
     Sha256::digest(format!("{SIZES:?} {ASPECTS:?} {SEED} {options:?} {samplers:?}")).into()

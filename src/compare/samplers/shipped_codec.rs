@@ -1,8 +1,9 @@
-//! The bytes of `curves.bin`: [`MAGIC`], a hash of what the curves depend on, then, deflated, one entry after another.
+//! The bytes of `curves.bin`: [`MAGIC`], a hash of what the curves depend on, then, deflated, one
+//! entry after another.
 //!
-//! An entry is its key and number of realisations (a byte each), the regularity index (f64, NaN for none), and g in units of
-//! [`STEP`] as second differences, each zigzag-coded in groups of seven bits, lowest first. A smooth curve so takes
-//! about a byte per bin.
+//! An entry is its key and number of realisations (a byte each), the regularity index (f64, NaN for
+//! none), and g in units of [`STEP`] as second differences, each zigzag-coded in groups of seven
+//! bits, lowest first. A smooth curve so takes about a byte per bin.
 
 use flate2::{Compression, read::ZlibDecoder, write::ZlibEncoder};
 use std::collections::HashMap;
@@ -48,7 +49,8 @@ pub(super) fn write(entries: &[(Key, Entry)], fingerprint: &[u8; 32]) -> Vec<u8>
     packed.unwrap_or(head)
 }
 
-/// Returns the entries, each of `bins` values; `None` if the bytes are damaged or of another fingerprint.
+/// Returns the entries, each of `bins` values; `None` if the bytes are damaged or of another
+/// fingerprint.
 pub(super) fn read(bytes: &[u8], fingerprint: &[u8; 32], bins: usize) -> Option<HashMap<Key, Entry>> {
     let packed = bytes.strip_prefix(MAGIC)?.strip_prefix(fingerprint)?;
     let mut body = Vec::new();

@@ -1,7 +1,7 @@
 use crate::geometry::{Point, Window};
 use crate::stats::{PcfOptions, StatsError, pcf};
 
-/// How near points come to the pair correlation function that they were to have.
+/// Difference of points from the pair correlation function that they were to have.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TargetFit {
     /// Distances at which both are known, in hexagonal spacings.
@@ -12,13 +12,13 @@ pub struct TargetFit {
     pub reached: Vec<f64>,
     /// Greatest difference of the two.
     pub l_infinity: f64,
-    /// Where that is, in hexagonal spacings.
+    /// Distance at which it is, in hexagonal spacings.
     pub worst_r: f64,
 }
 
 impl TargetFit {
-    /// Whether the greatest difference is where the target ends: pairs farther apart are left to chance, and disturb the
-    /// last ones.
+    /// Returns whether the greatest difference is where the target ends: pairs farther apart are
+    /// left to chance, and disturb the last ones.
     pub fn at_the_end(&self) -> bool {
         self.r.last().is_some_and(|last| *last < MOST - END && self.worst_r > last - END)
     }
@@ -27,16 +27,16 @@ impl TargetFit {
 /// Pairs beyond the end of a target disturb those nearer than this to it, in hexagonal spacings.
 const END: f64 = 0.4;
 
-/// From here on two patterns are told apart at a glance: the distance under which Lanaro et al. take two distributions for the same.
+/// Least l-infinity of a poor fit: under it Lanaro et al. take two distributions for the same.
 pub const POOR_FIT: f64 = 0.1;
 
-/// Compares the pair correlation function of `points` with the rows of r (in hexagonal spacings, rising) and g that they
-/// were to reach, over the distances of both: at most 6 spacings and half the shorter side of the window, beyond which
-/// [`crate::sample::Shaped`] controls nothing.
+/// Compares the pair correlation function of `points` with the rows of r (in hexagonal spacings,
+/// rising) and g that they were to reach, over the distances of both: at most 6 spacings and half
+/// the shorter side of the window, beyond which [`crate::sample::Shaped`] controls nothing.
 ///
-/// Measured: the mean g of 20 patterns of dart throwing, given up to 6 spacings, is missed by .065–.073 at 300 to 3000
-/// points, at the hard core's edge. Given up to 2.49 only it is missed by about .1, at 2.22: the last quarter of a spacing
-/// is not controlled ([`TargetFit::at_the_end`]).
+/// Measured: the mean g of 20 patterns of dart throwing, given up to 6 spacings, is missed by
+/// .065–.073 at 300 to 3000 points, at the hard core's edge. Given up to 2.49 only it is missed by
+/// about .1, at 2.22: the last quarter of a spacing is not controlled ([`TargetFit::at_the_end`]).
 ///
 /// # Errors
 /// If there are fewer than two points or rows, or the rows end where estimates begin, at .15 spacings.
