@@ -1,8 +1,9 @@
 //! What is known of one mosaic, in the form in which it is written to files.
 
 use super::{Cell, VerdictRecord, tables};
-use crate::detect::{Detector, FourierEstimate, Modality, Polarity};
+use crate::detect::{Detector, FourierEstimate};
 use crate::geometry::Polygon;
+use crate::image::{Modality, Polarity};
 use crate::mosaic::{LengthUnit, RetinalPlace, hexagonal_spacing};
 use crate::stats::{
     ClarkEvans, DensityRecovery, Deviation, ModalSpacing, Moments, NeighbourEllipse, Orientation, Trend,
