@@ -5,6 +5,7 @@ use crate::image::ImageError;
 use crate::mosaic::io::{AmbiguousRow, ReadError, RoiTableError, ScaleTableError, WriteError};
 use crate::mosaic::{LengthUnit, MosaicError};
 use crate::report::ReportError;
+use std::borrow::Cow;
 use std::io;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -28,7 +29,7 @@ pub enum BatchError {
         /// Where.
         paths: String,
         /// How such files are recognised.
-        expected: &'static str,
+        expected: Cow<'static, str>,
     },
     /// Results cannot be written.
     #[error("cannot write to {path}: {source}: choose another --out folder", path = path.display())]

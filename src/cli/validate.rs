@@ -9,6 +9,7 @@ use conemosaic::detect::{DetectOptions, Detector};
 use conemosaic::mosaic::io::{GroupTable, Origin, ReadOptions};
 use conemosaic::report::{counted, table};
 use std::path::PathBuf;
+use strum::VariantNames;
 
 /// Holds detections against hand-plotted marks: sensitivity, FDR, Dice, agreement, FROC, reliability
 #[derive(Args)]
@@ -56,7 +57,7 @@ pub struct Validate {
     #[arg(long, value_name = "O", default_value = "0", value_parser = origin)]
     detections_origin: Origin,
     /// Who gets whom where several are near: nearest (as published) or optimal (Hungarian, one to one)
-    #[arg(long, value_name = "A", default_value = "nearest", value_parser = PossibleValuesParser::new(Assignment::ALL.map(Assignment::name)), help_heading = "Scoring")]
+    #[arg(long, value_name = "A", default_value = "nearest", value_parser = PossibleValuesParser::new(Assignment::VARIANTS), help_heading = "Scoring")]
     assignment: String,
     /// Width in px of the border in which nothing counts
     #[arg(long, value_name = "PX", default_value_t = 7., help_heading = "Scoring")]
@@ -81,7 +82,7 @@ pub struct Validate {
     #[arg(long, value_name = "O", default_value = "0", requires = "versus", value_parser = origin, help_heading = "Comparison of two")]
     versus_origin: Origin,
     /// Compare with this detector on the same images
-    #[arg(long, value_name = "D", group = "second", value_parser = PossibleValuesParser::new(Detector::ALL.map(Detector::name)), help_heading = "Comparison of two")]
+    #[arg(long, value_name = "D", group = "second", value_parser = PossibleValuesParser::new(Detector::VARIANTS), help_heading = "Comparison of two")]
     versus_detector: Option<String>,
     #[command(flatten)]
     marks: CoordinateArgs,

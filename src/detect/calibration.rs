@@ -1,7 +1,7 @@
 //! What a filter's response says about the probability that a person would mark a cone there, and what the spectrum and the count say
 //! about that of the spacing.
 
-use super::{Detection, Modality};
+use super::Detection;
 
 /// 1 / (1 + exp(−(offset + slope · x))).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,14 +29,22 @@ pub(super) fn spacing(sure: f64, moved: f64, clarity: f64) -> f64 {
     Logistic { offset: 1.397, slope: 1. }.at(0.792 * sure - 9.374 * moved - 9.685 * unclear)
 }
 
-/// The probability by the height of the classical filter's response, given the `cones` of the image, highest first, and how high
-/// a cone had to be. Constants by scripts/fit-calibration from hand-marked images (histology: simulated ones); on subjects left
-/// out, the expected calibration error is .0014 (confocal), .009 (split), .008 (histology).
-pub(super) fn classical(modality: Modality, cones: &[Detection], least: f64) -> impl Fn(f64) -> f64 + use<> {
-    let median = cones.get(cones.len() / 2).map_or(1., |d| d.score).max(f64::MIN_POSITIVE);
-    move |score| match modality {
-        Modality::Confocal => Logistic { offset: 1.179, slope: 7.582 }.at(score / median),
-        Modality::Split => Logistic { offset: 0.259, slope: 4.227 }.at(score - least),
-        Modality::Histology => Logistic { offset: -2.294, slope: 6.793 }.at(score / median),
+/// What the height of a classical filter's response is measured against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Reference {
+    /// The median of the cones of the image: their ratio counts.
+    Median,
+    /// The least height of a cone in the image: their difference counts.
+    Least,
+}
+
+impl Reference {
+    /// Returns heights measured against it, given the `cones` of the image, highest first, and how high a cone had to be.
+    pub(super) fn against(self, cones: &[Detection], least: f64) -> impl Fn(f64) -> f64 + use<> {
+        let median = cones.get(cones.len() / 2).map_or(1., |d| d.score).max(f64::MIN_POSITIVE);
+        move |height| match self {
+            Self::Median => height / median,
+            Self::Least => height - least,
+        }
     }
 }

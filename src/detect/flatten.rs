@@ -1,4 +1,4 @@
-use crate::image::{Plane, gaussian};
+use crate::image::{Plane, gaussian, values};
 
 /// Local standard deviations below this part of the largest one count as this part: empty margins must not be blown up.
 const FLOOR: f32 = 1e-3;
@@ -23,7 +23,8 @@ pub(super) fn normalise(plane: &Plane, sigma: f64) -> Plane {
 
 /// The highest value of a plane that has none below zero. Sixteen at a time, as one maximum would wait for the other.
 fn highest(plane: &Plane) -> f32 {
-    let (blocks, rest) = plane.as_slice().unwrap_or_default().as_chunks::<16>();
+    let values = values(plane);
+    let (blocks, rest) = values.as_chunks::<16>();
     let higher = |a: f32, b: f32| if b > a { b } else { a };
     let lanes =
         blocks.iter().fold([0f32; 16], |top, block| std::array::from_fn(|k| higher(top[k], block[k])));

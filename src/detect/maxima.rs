@@ -1,6 +1,6 @@
 use super::Detection;
 use crate::geometry::Point;
-use crate::image::{PARALLEL_PIXELS, Plane};
+use crate::image::{PARALLEL_PIXELS, Plane, values};
 use rayon::prelude::*;
 
 /// Local maxima of `response` over 3 × 3 px that exceed `threshold`, moved to the top of a parabola through their
@@ -8,8 +8,7 @@ use rayon::prelude::*;
 /// first pixel in reading order.
 pub fn local_maxima(response: &Plane, threshold: f32) -> Vec<Detection> {
     let (h, w) = response.dim();
-    let plane = response.as_standard_layout();
-    let data = plane.as_slice().unwrap_or_default();
+    let data = values(response);
     let in_row = |y: usize| {
         let row = |y: usize| &data[y * w..(y + 1) * w];
         let (above, here, below) = ((y > 0).then(|| row(y - 1)), row(y), (y + 1 < h).then(|| row(y + 1)));

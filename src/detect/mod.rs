@@ -3,6 +3,7 @@
 
 mod calibration;
 mod filter;
+mod finder;
 mod flatten;
 mod learned;
 mod maxima;
@@ -10,11 +11,13 @@ mod modality;
 mod options;
 mod search;
 mod spacing;
+mod spec;
 mod suppress;
 mod tiles;
 mod types;
 mod view;
 
+pub use crate::image::{Modality, Polarity};
 pub use filter::{Criterion, RelativeThreshold, response};
 pub use flatten::flatten;
 pub use learned::{UserModel, WeightsError};
@@ -26,29 +29,34 @@ pub use spacing::{
     SPACING_RANGE, Sector, SpacingMap, fourier_map, fourier_spacing,
 };
 pub use suppress::suppress;
-pub use types::{Detection, Detections, Modality, Polarity};
+pub use types::{Detection, Detections};
 pub use view::WIDEST_SPACING;
 
 use crate::image::{Plane, crop, imaged_part};
+use finder::{ConeFinder, Sought};
 use search::regularity;
 use spacing::Start;
+use spec::{ModalitySpec, SPECS, spec};
 use std::borrow::Cow;
+use strum::VariantArray;
 use thiserror::Error;
 use view::View;
 
 /// Shortest side of an image in px: below, there is no room for even a handful of cones at the closest spacing.
 pub const MIN_SIDE: usize = 24;
 
-/// The weights compiled into the program: results depend on them.
-pub const fn weights() -> [&'static [u8]; 5] {
-    let [confocal, split, histology] = learned::weights();
-    [confocal, split, histology, spacing::ring_weights(), modality::weights()]
+/// Number of files of weights: of a network per modality, of the spacing and of the modality.
+const FILES: usize = Modality::VARIANTS.len() + 2;
+
+/// Returns the weights compiled into the program: results depend on them.
+pub fn weights() -> [&'static [u8]; FILES] {
+    let others = [spacing::ring_weights(), modality::weights()];
+    let mut all = SPECS.iter().map(|spec| spec.network.weights()).chain(others);
+    std::array::from_fn(|_| all.next().unwrap_or_default())
 }
 
-/// Spacings that differ by less than this part are the same.
-const SETTLED: f64 = 0.005;
-/// The same for a network, which is trained at spacings off by up to 15 %.
-const LEARNED_SETTLED: f64 = 0.03;
+/// Images whose largest grey value is at most 2 to this power, or as far below 1, are filtered as they are.
+const USUAL_EXPONENT: f64 = 20.;
 
 /// A spacing of more confidence than this is not doubted.
 const SURE: f64 = 0.9;
@@ -65,6 +73,20 @@ pub enum DetectError {
         width: usize,
         /// Height in px.
         height: usize,
+    },
+    /// Too few pixels that are not a black margin.
+    #[error(
+        "only {imaged_width} × {imaged_height} px of the {width} × {height} px of the image are not black: at least {MIN_SIDE} × {MIN_SIDE} px must be imaged"
+    )]
+    TooLittleImaged {
+        /// Width in px.
+        width: usize,
+        /// Height in px.
+        height: usize,
+        /// Width in px of what is not a margin.
+        imaged_width: usize,
+        /// Height in px of what is not a margin.
+        imaged_height: usize,
     },
     /// Every pixel is the same.
     #[error("every pixel of the image is {value}: there is nothing to find")]
@@ -134,17 +156,36 @@ pub fn detect(image: &Plane, options: &DetectOptions) -> Result<Detections, Dete
     Ok(found)
 }
 
-/// The image without a straight black margin, whose edges look like cones and which has a spectrum of its own; and where what is left
-/// begins, px.
+/// Returns the image without a straight black margin, whose edges look like cones and which has a spectrum of its own; and where
+/// what is left begins, px.
 fn without_margin(image: &Plane) -> Result<(Cow<'_, Plane>, usize, usize), DetectError> {
     check(image)?;
     let part = imaged_part(image);
-    if (part.height, part.width) == image.dim() {
-        return Ok((Cow::Borrowed(image), 0, 0));
+    let (height, width) = image.dim();
+    if (part.height, part.width) == (height, width) {
+        return Ok((in_range(Cow::Borrowed(image)), 0, 0));
+    }
+    if is_too_small(part.width, part.height) {
+        let (imaged_width, imaged_height) = (part.width, part.height);
+        return Err(DetectError::TooLittleImaged { width, height, imaged_width, imaged_height });
     }
     let imaged = crop(image, part.top, part.left, part.height, part.width);
     check(&imaged)?;
-    Ok((Cow::Owned(imaged), part.left, part.top))
+    Ok((in_range(Cow::Owned(imaged)), part.left, part.top))
+}
+
+/// Brings grey values whose squares or sums single precision cannot hold into its range, by a power of two, which changes nothing
+/// else. Integers of 64 bits that use but a few of them are that small.
+fn in_range(image: Cow<'_, Plane>) -> Cow<'_, Plane> {
+    let largest = f64::from(image.iter().fold(0f32, |top, v| top.max(v.abs())));
+    let exponent = largest.log2().floor();
+    if exponent.abs() <= USUAL_EXPONENT {
+        return image;
+    }
+    let factor = (-exponent).exp2();
+    let mut image = image.into_owned();
+    image.mapv_inplace(|v| (f64::from(v) * factor) as f32);
+    Cow::Owned(image)
 }
 
 /// What the modality and the polarity of an image are decided by.
@@ -188,39 +229,37 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
         Some(spacing) => Start { map: SpacingMap::constant(spacing), least: 0. },
     };
     let clarity = |spacing: f64| rings.whole().clarity(spacing);
-    let model = model_for(options, modality)?;
-    let search = |start: &Start, model: Option<&learned::Model>| match model {
-        None => field.until_settled(start, SETTLED, |part, spacing| {
-            Ok(filter::cones(part, modality, polarity, spacing, clarity(spacing)))
-        }),
-        Some(model) => field.until_settled(start, LEARNED_SETTLED, |part, spacing| {
-            model.cones(part, polarity, spacing, clarity(spacing)).map_err(|source| match &options.model {
-                Some(own) => DetectError::Model { name: own.name().to_owned(), source },
+    let spec = spec(modality);
+    let own = options.model.as_ref().and_then(|own| Some((own, own.for_modality(modality)?)));
+    let network = network_for(options, spec, own.map(|(_, model)| model))?;
+    let search = |start: &Start, finder: &dyn ConeFinder| {
+        field.until_settled(start, finder.settled(), |part, spacing| {
+            let sought = Sought { polarity, spacing, clarity: clarity(spacing) };
+            finder.find(part, sought).map_err(|source| match own {
+                Some((own, _)) => DetectError::Model { name: own.name().to_owned(), source },
                 None => DetectError::Weights { modality, source },
             })
-        }),
+        })
     };
-    // waveguides and inner segments are counted well enough by the quick filter, which a network follows; that of discs counts rods
-    // and gaps too, so that the program's network comes at once
-    let users = options.model.as_ref().is_some_and(|m| m.for_modality(modality).is_some());
-    let at_once = model.filter(|_| modality == Modality::Histology && !users);
-    let (mut found, mut map) = search(&start, at_once)?;
+    let at_once = network.filter(|_| spec.starts_with_network && own.is_none());
+    let first: &dyn ConeFinder = at_once.map_or(&spec.filter, |network| network);
+    let (mut found, mut map) = search(&start, first)?;
     if given.is_none()
         && let Some(other) = start.contradicted_by(&found.centres(), field.image.dim(), field.empty)
     {
         // ring and density cannot both be right: the more regular mosaic is
-        let searched = search(&other, at_once)?;
+        let searched = search(&other, first)?;
         let dim = field.image.dim();
         if regularity(&searched.0.centres(), dim) > regularity(&found.centres(), dim) {
             (found, map) = searched;
             start = other;
         }
     }
-    if at_once.is_none() && model.is_some() {
-        (found, map) = search(&Start { map, ..start }, model)?;
+    if let (None, Some(network)) = (at_once, network) {
+        (found, map) = search(&Start { map, ..start }, network)?;
     }
     let spacing = map.typical();
-    // it finds dark cells as well as bright ones, and cells tell better than gaps what they are
+    // a network that runs first finds dark cells as well as bright ones, and cells tell their polarity more surely than the image
     if at_once.is_some() && options.polarity.is_none() && !found.cones.is_empty() {
         polarity = modality::of_cells(field.image, &found.centres(), spacing);
     }
@@ -232,7 +271,7 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
         modality,
         modality_confidence,
         polarity,
-        detector: if model.is_some() { Detector::Learned } else { Detector::Classical },
+        detector: if network.is_some() { Detector::Learned } else { Detector::Classical },
         ring_spacing: ring.spacing,
         ring_confidence: ring.confidence,
         clarity,
@@ -246,21 +285,27 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
     Ok(detections)
 }
 
-/// The network to use, or none for the classical filters.
-fn model_for(options: &DetectOptions, modality: Modality) -> Result<Option<&learned::Model>, DetectError> {
-    if let Some(model) = options.model.as_ref().and_then(|m| m.for_modality(modality)) {
-        return Ok(Some(model));
+/// Returns the network to use, the user's `own` before that of the program, or none for the classical filter.
+fn network_for<'a>(
+    options: &DetectOptions,
+    spec: &'a ModalitySpec,
+    own: Option<&'a learned::Model>,
+) -> Result<Option<&'a learned::Model>, DetectError> {
+    if own.is_some() || options.detector == Detector::Classical {
+        return Ok(own);
     }
-    if options.detector == Detector::Classical {
-        return Ok(None);
-    }
-    let model = learned::model(modality).map_err(|source| DetectError::Weights { modality, source })?;
+    let model =
+        spec.network.model().map_err(|source| DetectError::Weights { modality: spec.modality, source })?;
     Ok((options.detector == Detector::Learned || model.better).then_some(model))
+}
+
+const fn is_too_small(width: usize, height: usize) -> bool {
+    width < MIN_SIDE || height < MIN_SIDE
 }
 
 fn check(image: &Plane) -> Result<(), DetectError> {
     let (height, width) = image.dim();
-    if width < MIN_SIDE || height < MIN_SIDE {
+    if is_too_small(width, height) {
         return Err(DetectError::TooSmall { width, height });
     }
     if let Some(((y, x), &value)) = image.indexed_iter().find(|(_, v)| !v.is_finite()) {
@@ -298,5 +343,44 @@ mod tests {
                 (a.centre.x + 40. - b.centre.x).abs() < 1e-9 && (a.centre.y + 15. - b.centre.y).abs() < 1e-9
             );
         }
+    }
+
+    fn waves(height: usize, width: usize) -> Plane {
+        Plane::from_shape_fn((height, width), |(y, x)| {
+            1. + (0.7 * x as f32).sin() * (0.75 * y as f32).cos() + 0.1 * ((x * 31 + y * 17) % 11) as f32
+        })
+    }
+
+    #[test]
+    fn the_unit_of_grey_values_changes_nothing_however_small_or_large() {
+        let image = waves(90, 100);
+        let found = detect(&image, &DetectOptions::default()).unwrap();
+        assert!(!found.cones.is_empty());
+        for exponent in [-120, -56, 60, 120] {
+            let scaled = image.mapv(|v| v * 2f32.powi(exponent));
+            let cones = detect(&scaled, &DetectOptions::default()).unwrap().cones;
+            assert_eq!(cones.len(), found.cones.len());
+            for (a, b) in cones.iter().zip(&found.cones) {
+                assert!(a.centre.distance(b.centre) < 1e-3, "{a:?} {b:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_image_of_which_little_was_imaged_is_said_to_be_that() {
+        let mut image = Plane::zeros((150, 150));
+        image[[70, 80]] = 0.5;
+        image[[71, 81]] = 0.7;
+        let error = detect(&image, &DetectOptions::default()).unwrap_err().to_string();
+        assert!(error.starts_with("only 2 × 2 px of the 150 × 150 px"), "{error}");
+    }
+
+    #[test]
+    fn detections_become_a_mosaic_in_the_window_of_their_image() {
+        let image = waves(90, 100);
+        let found = detect(&image, &DetectOptions::default()).unwrap();
+        let mosaic = found.mosaic(&image, None).unwrap();
+        assert_eq!(mosaic.points(), found.centres());
+        assert_eq!(mosaic.window().area(), 9000.);
     }
 }

@@ -1,11 +1,30 @@
 use super::{DetectError, Modality, Polarity, SPACING_RANGE, UserModel, WIDEST_SPACING};
+use crate::choice::UnknownChoice;
 use serde::{Deserialize, Serialize};
-use std::fmt;
-use std::str::FromStr;
+use strum::{Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
 
 /// Which family of filters finds the cones.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    Serialize,
+    Deserialize,
+    Display,
+    EnumString,
+    IntoStaticStr,
+    VariantArray,
+    VariantNames,
+)]
 #[serde(rename_all = "snake_case")]
+#[strum(
+    serialize_all = "kebab-case",
+    parse_err_ty = UnknownChoice,
+    parse_err_fn = UnknownChoice::among::<Detector>
+)]
 pub enum Detector {
     /// The one that measured best on hand-marked images of the modality.
     #[default]
@@ -17,33 +36,9 @@ pub enum Detector {
 }
 
 impl Detector {
-    /// Every detector.
-    pub const ALL: [Self; 3] = [Self::Auto, Self::Classical, Self::Learned];
-
-    /// As it is written in options and tables.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Auto => "auto",
-            Self::Classical => "classical",
-            Self::Learned => "learned",
-        }
-    }
-}
-
-impl fmt::Display for Detector {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
-
-impl FromStr for Detector {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        Self::ALL
-            .into_iter()
-            .find(|d| d.name() == text)
-            .ok_or_else(|| format!("“{text}” is none of auto, classical, learned"))
+    /// Returns the word for it in options and tables.
+    pub fn name(self) -> &'static str {
+        self.into()
     }
 }
 

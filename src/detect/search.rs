@@ -1,5 +1,6 @@
 //! Searches an image at a spacing that may vary from place to place, and again at the spacing that its own detections show.
 
+use super::finder::Found;
 use super::spacing::{SpacingMap, Start, refined_map};
 use super::suppress::{by_score, suppress_sorted};
 use super::tiles::{Area, Tile, tiles};
@@ -17,34 +18,6 @@ const MAP_SETTLED: f64 = 0.08;
 const OVERLAP: f64 = 0.5;
 /// Of two detections of neighbouring tiles nearer to each other than this, in spacings, the lower one goes.
 const SAME: f64 = 0.5;
-
-/// What a search finds: cones, and candidates that were too faint; scores are probabilities.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Found {
-    pub cones: Vec<Detection>,
-    pub rejected: Vec<Detection>,
-}
-
-impl Found {
-    pub(super) fn centres(&self) -> Vec<Point> {
-        self.cones.iter().map(|d| d.centre).collect()
-    }
-
-    fn each(&mut self, change: impl Fn(&mut Detection)) {
-        self.cones.iter_mut().chain(&mut self.rejected).for_each(change);
-    }
-
-    fn retain(&mut self, keep: impl Fn(&Detection) -> bool) {
-        self.cones.retain(&keep);
-        self.rejected.retain(&keep);
-    }
-
-    /// The same `left` and `top` px further on.
-    fn moved(mut self, left: usize, top: usize) -> Self {
-        self.each(|d| d.centre = Point::new(d.centre.x + left as f64, d.centre.y + top as f64));
-        self
-    }
-}
 
 /// Regularity index of cones, mean over standard deviation of the distances to the nearest neighbour, less its standard error: of few
 /// points it is high by chance. 0 where it is not defined.

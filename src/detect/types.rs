@@ -1,85 +1,8 @@
 use super::{Detector, SpacingMap};
-use crate::geometry::Point;
+use crate::geometry::{Point, Window};
+use crate::image::{Modality, Plane, Polarity};
+use crate::mosaic::{LengthUnit, Mosaic, MosaicError, Scale};
 use serde::{Deserialize, Serialize};
-use std::fmt;
-use std::str::FromStr;
-
-/// How the image was taken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Modality {
-    /// Confocal adaptive-optics ophthalmoscopy: a cone is a bright spot.
-    Confocal,
-    /// Split-detector adaptive-optics ophthalmoscopy: an inner segment is a dark–bright pair along x.
-    Split,
-    /// Histology: an inner segment is a disc, brighter or darker than what surrounds it.
-    Histology,
-}
-
-impl Modality {
-    /// Every modality.
-    pub const ALL: [Self; 3] = [Self::Confocal, Self::Split, Self::Histology];
-
-    /// As it is written in options and tables.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Confocal => "confocal",
-            Self::Split => "split",
-            Self::Histology => "histology",
-        }
-    }
-}
-
-impl fmt::Display for Modality {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
-
-impl FromStr for Modality {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        Self::ALL
-            .into_iter()
-            .find(|m| m.name() == text)
-            .ok_or_else(|| format!("“{text}” is none of confocal, split, histology"))
-    }
-}
-
-/// Which way round the contrast of a cone runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Polarity {
-    /// Cones brighter than what surrounds them; in split detection, dark on the left and bright on the right.
-    Positive,
-    /// The same with the sign turned.
-    Negative,
-}
-
-impl Polarity {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Positive, Self::Negative];
-
-    /// As it is written in options and tables.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Positive => "positive",
-            Self::Negative => "negative",
-        }
-    }
-}
-
-impl FromStr for Polarity {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        Self::ALL
-            .into_iter()
-            .find(|p| p.name() == text)
-            .ok_or_else(|| format!("“{text}” is none of positive, negative"))
-    }
-}
 
 /// One cone found in an image.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -149,6 +72,17 @@ impl Detections {
         self.ring_spacing *= times;
         self.spacing *= times;
         self.spacing_map.enlarge(times);
+    }
+
+    /// Returns the cones as a mosaic in the window of the whole of `image`, in which they were found, in px. Without a
+    /// `scale`, what is measured in it stays in px.
+    ///
+    /// # Errors
+    /// If the image has no pixels, or a centre is not a finite number.
+    pub fn mosaic(&self, image: &Plane, scale: Option<Scale>) -> Result<Mosaic, MosaicError> {
+        // refined centres may lie up to half a pixel from their own, never beyond the window of the image
+        let (mosaic, _) = Mosaic::new(self.centres(), Window::of(image)?, LengthUnit::Pixel, scale)?;
+        Ok(mosaic)
     }
 
     /// The centres in px, in the order of `cones`.

@@ -1,3 +1,4 @@
+use super::{extensions_in_words, formats_in_words};
 use std::io;
 use thiserror::Error;
 
@@ -28,8 +29,8 @@ pub enum ImageError {
         /// The file.
         name: String,
     },
-    /// Neither PNG nor TIFF, whatever it is called.
-    #[error("{name}: expected a PNG or TIFF image, found {found}: save it as PNG or TIFF")]
+    /// None of the formats that are read, whatever it is called.
+    #[error("{name}: expected a {formats} image, found {found}: save it as {formats}", formats = formats_in_words())]
     NotAnImage {
         /// The file.
         name: String,
@@ -41,19 +42,20 @@ pub enum ImageError {
     Damaged {
         /// The file.
         name: String,
-        /// PNG or TIFF.
+        /// Name of its format.
         format: &'static str,
         /// What the decoder says.
         reason: String,
     },
     /// Sound, but of a kind that is not read.
     #[error(
-        "{name}: {format} of a kind that is not read ({reason}): save it as 8 or 16 bit grey PNG or TIFF"
+        "{name}: {format} of a kind that is not read ({reason}): save it as 8 or 16 bit grey {formats}",
+        formats = formats_in_words()
     )]
     Unsupported {
         /// The file.
         name: String,
-        /// PNG or TIFF.
+        /// Name of its format.
         format: &'static str,
         /// What kind.
         reason: String,
@@ -103,7 +105,7 @@ pub enum ImageError {
         value: f32,
     },
     /// The name of the file to be written does not tell its format.
-    #[error("{name}: expected a name that ends in .png, .tif or .tiff")]
+    #[error("{name}: expected a name that ends in {}", extensions_in_words())]
     UnknownExtension {
         /// The file.
         name: String,

@@ -1,5 +1,5 @@
 use super::pad::framed;
-use super::{Plane, fill_rows, mirror};
+use super::{Plane, fill_rows, mirror, values};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 
 /// Where the kernel ends, in standard deviations.
@@ -97,8 +97,7 @@ fn fine_rows(plane: &Plane, sigma: f64) -> Plane {
     let (h, w) = plane.dim();
     let kernel = half_kernel(sigma);
     let reach = kernel.len() - 1;
-    let plane = plane.as_standard_layout();
-    let data = plane.as_slice().unwrap_or_default();
+    let data = values(plane);
     fill_rows(h, w, |y, out| {
         let row = &data[y * w..(y + 1) * w];
         let framed = framed(row, reach, reach);
@@ -109,8 +108,7 @@ fn fine_rows(plane: &Plane, sigma: f64) -> Plane {
 fn fine_columns(plane: &Plane, sigma: f64) -> Plane {
     let (h, w) = plane.dim();
     let kernel = half_kernel(sigma);
-    let plane = plane.as_standard_layout();
-    let data = plane.as_slice().unwrap_or_default();
+    let data = values(plane);
     fill_rows(h, w, |y, out| {
         weigh_rows(out, &kernel, |k| {
             let i = mirror(y as isize + k, h);
@@ -186,8 +184,7 @@ fn coarse_rows(plane: &Plane, sigma: f64, step: usize) -> Plane {
     let (h, w) = plane.dim();
     let grid = Coarse::new(w, sigma, step);
     let cubics = grid.cubics(w);
-    let plane = plane.as_standard_layout();
-    let data = plane.as_slice().unwrap_or_default();
+    let data = values(plane);
     fill_rows(h, w, |y, out| {
         let framed = framed(&data[y * w..(y + 1) * w], grid.frame(), grid.frame());
         let mean = |i| framed[grid.first(i)..].iter().zip(&grid.hat).map(|(v, weight)| weight * v).sum();
@@ -203,8 +200,7 @@ fn coarse_rows(plane: &Plane, sigma: f64, step: usize) -> Plane {
 /// Columns to a coarser grid, its rows filtered, and back: so the fewest rows are filtered along x.
 fn coarse(plane: &Plane, sigma: f64, step: usize) -> Plane {
     let (h, w) = plane.dim();
-    let plane = plane.as_standard_layout();
-    let data = plane.as_slice().unwrap_or_default();
+    let data = values(plane);
     let grid = Coarse::new(h, sigma, step);
     let points = fill_rows(grid.points(), w, |i, out| {
         let last = grid.hat.len() - 1;
@@ -219,7 +215,7 @@ fn coarse(plane: &Plane, sigma: f64, step: usize) -> Plane {
         });
         weigh(out, &pairs.collect::<Vec<_>>());
     });
-    let points = points.as_slice().unwrap_or_default();
+    let points = values(&points);
     let coarse = fill_rows(grid.samples(), w, |i, out| {
         weigh_rows(out, &grid.kernel, |k| {
             let j = (grid.middle(i) as isize + k) as usize;
@@ -227,7 +223,7 @@ fn coarse(plane: &Plane, sigma: f64, step: usize) -> Plane {
         });
     });
     let coarse = coarse_rows(&coarse, sigma, step);
-    let coarse = coarse.as_slice().unwrap_or_default();
+    let coarse = values(&coarse);
     let cubics = grid.cubics(h);
     fill_rows(h, w, |y, out| {
         let (at, [a, b, c, d]) = cubics[y];

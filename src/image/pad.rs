@@ -1,4 +1,4 @@
-use super::{Plane, fill_rows};
+use super::{Plane, fill_rows, values};
 use ndarray::{Axis, Zip};
 
 /// The index inside `0..length` that a mirror at the edges shows at `index`, the edge pixel repeated
@@ -33,8 +33,7 @@ pub(super) fn framed(row: &[f32], before: usize, after: usize) -> Vec<f32> {
 /// `height` × `width`, which must hold it all.
 pub fn reflect_pad(plane: &Plane, top: usize, left: usize, height: usize, width: usize) -> Plane {
     let (h, w) = plane.dim();
-    let plane = plane.as_standard_layout();
-    let data = plane.as_slice().unwrap_or_default();
+    let data = values(plane);
     fill_rows(height, width, |y, out| {
         let y = mirror(y as isize - top as isize, h);
         out.copy_from_slice(&framed(&data[y * w..(y + 1) * w], left, width - left - w));

@@ -1,8 +1,8 @@
 mod grey;
-mod png;
-mod tiff;
+pub(super) mod png;
+pub(super) mod tiff;
 
-use super::{ImageError, Plane};
+use super::{Format, ImageError, Plane};
 use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
@@ -11,14 +11,6 @@ use std::path::Path;
 pub const MAX_PIXELS: usize = 1 << 27;
 /// Most bytes a file may have: a pixel of the largest kind read, RGBA of 32 bits, takes 16.
 const MAX_BYTES: u64 = 16 * MAX_PIXELS as u64;
-
-const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
-
-/// Whether the name ends in `.png`, `.tif` or `.tiff`, in any case of letters.
-pub fn is_image_path(path: &Path) -> bool {
-    let known = |extension: &str| ["png", "tif", "tiff"].iter().any(|k| extension.eq_ignore_ascii_case(k));
-    path.extension().and_then(|e| e.to_str()).is_some_and(known)
-}
 
 /// The image in a PNG or TIFF file as one grey plane; see [`decode`].
 ///
@@ -63,13 +55,10 @@ pub fn decode(bytes: &[u8], name: &str) -> Result<Plane, ImageError> {
     if bytes.is_empty() {
         return Err(ImageError::Empty { name: name.to_owned() });
     }
-    let plane = if bytes.starts_with(PNG_SIGNATURE) {
-        png::decode(bytes, name)?
-    } else if tiff::has_signature(bytes) {
-        tiff::decode(bytes, name)?
-    } else {
+    let Some(format) = Format::of_bytes(bytes) else {
         return Err(ImageError::NotAnImage { name: name.to_owned(), found: looks_like(bytes) });
     };
+    let plane = (format.decode)(bytes, name)?;
     match plane.indexed_iter().find(|(_, v)| !v.is_finite()) {
         Some(((y, x), &value)) => Err(ImageError::NotFinite { name: name.to_owned(), x, y, value }),
         None => Ok(plane),
@@ -89,7 +78,7 @@ fn check_size(width: u32, height: u32, name: &str) -> Result<(), ImageError> {
     Ok(())
 }
 
-/// In words, what a file that is neither PNG nor TIFF begins like.
+/// Describes the first bytes of a file of no format that is read.
 fn looks_like(bytes: &[u8]) -> &'static str {
     const KINDS: [(&[u8], &str); 10] = [
         (b"\x89PNG", "a damaged PNG signature (was it transferred as text?)"),

@@ -1,5 +1,5 @@
 use super::error::one_line;
-use super::{ImageError, Plane};
+use super::{Format, ImageError, Plane};
 use crate::files::write_atomically;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
@@ -22,12 +22,8 @@ pub enum BitDepth {
 /// # Errors
 /// If the name ends otherwise, a pixel is not a finite number, the plane has none, or the file cannot be written.
 pub fn write_grey(path: &Path, plane: &Plane, depth: BitDepth) -> Result<(), ImageError> {
-    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
-    match extension.as_str() {
-        "png" => write_png(path, plane, depth),
-        "tif" | "tiff" => write_tiff(path, plane, depth),
-        _ => Err(ImageError::UnknownExtension { name: path.display().to_string() }),
-    }
+    let unknown = || ImageError::UnknownExtension { name: path.display().to_string() };
+    (Format::of_path(path).ok_or_else(unknown)?.write)(path, plane, depth)
 }
 
 /// Writes a plane in [0, 1] as grey PNG; see [`write_grey`].

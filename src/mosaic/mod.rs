@@ -7,7 +7,7 @@ mod scale;
 pub use normative::{Meridian, RetinalPlace};
 pub use scale::{MICROMETRES_PER_DEGREE, Scale, ScaleError, micrometres_per_degree};
 
-use crate::geometry::{Point, Window};
+use crate::geometry::{Point, Window, WindowError};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -60,6 +60,9 @@ pub enum MosaicError {
         /// Its y.
         y: f64,
     },
+    /// A window that is none.
+    #[error(transparent)]
+    Window(#[from] WindowError),
 }
 
 /// Cone centres, where they could have been seen, and how large that is.

@@ -1,8 +1,8 @@
 //! What is known of cone density by place in the average eye.
 
 use serde::{Deserialize, Serialize};
-use std::fmt;
 use std::str::FromStr;
+use strum::{Display, IntoStaticStr, VariantArray};
 
 // Eccentricity in mm of retina, cones per mm²: Curcio, Sloan, Kalina & Hendrickson (1990), read off their published curves, means of
 // their eyes. The nasal one has no value at 4 mm, where the optic disc is.
@@ -145,8 +145,21 @@ const INFERIOR: &[(f64, f64)] = &[
 ];
 
 /// Direction from the fovea on the retina (not in the visual field, where it is the opposite one).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    PartialEq,
+    Eq,
+    Serialize,
+    Deserialize,
+    Display,
+    IntoStaticStr,
+    VariantArray,
+    strum::VariantNames,
+)]
 #[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum Meridian {
     /// Towards the nose and the optic disc.
     Nasal,
@@ -159,17 +172,9 @@ pub enum Meridian {
 }
 
 impl Meridian {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::Nasal, Self::Temporal, Self::Superior, Self::Inferior];
-
-    /// As it is written in tables.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Nasal => "nasal",
-            Self::Temporal => "temporal",
-            Self::Superior => "superior",
-            Self::Inferior => "inferior",
-        }
+    /// Returns the word for it in options and tables.
+    pub fn name(self) -> &'static str {
+        self.into()
     }
 
     const fn densities(self) -> &'static [(f64, f64)] {
@@ -201,12 +206,6 @@ impl Meridian {
     }
 }
 
-impl fmt::Display for Meridian {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
 impl FromStr for Meridian {
     type Err = String;
 
@@ -214,7 +213,7 @@ impl FromStr for Meridian {
     fn from_str(text: &str) -> Result<Self, String> {
         let text = text.trim().to_lowercase();
         let fits = |m: &Self| text == m.name() || text == m.name()[..1];
-        Self::ALL.into_iter().find(fits).ok_or_else(|| {
+        Self::VARIANTS.iter().copied().find(fits).ok_or_else(|| {
             format!("“{text}” is no meridian: expected nasal, temporal, superior or inferior (of the retina)")
         })
     }
@@ -236,7 +235,7 @@ impl RetinalPlace {
         match self.meridian {
             Some(meridian) => meridian.cones_per_mm2(self.eccentricity_mm),
             None => {
-                let all = Meridian::ALL.map(|m| m.cones_per_mm2(self.eccentricity_mm));
+                let all = Meridian::VARIANTS.iter().map(|m| m.cones_per_mm2(self.eccentricity_mm));
                 let known: Option<Vec<f64>> = all.into_iter().collect();
                 known.map(|known| known.iter().sum::<f64>() / known.len() as f64)
             }
@@ -251,7 +250,7 @@ mod tests {
     #[test]
     fn published_values_are_given_back_and_those_between_lie_between() {
         let at = |m: Meridian, mm: f64| m.cones_per_mm2(mm);
-        for meridian in Meridian::ALL {
+        for &meridian in Meridian::VARIANTS {
             for &(mm, density) in meridian.densities() {
                 assert!((at(meridian, mm).unwrap() / density - 1.).abs() < 1e-12, "{meridian} {mm}");
             }
@@ -282,7 +281,7 @@ mod tests {
 
     #[test]
     fn meridians_are_read_by_name_and_letter() {
-        for meridian in Meridian::ALL {
+        for &meridian in Meridian::VARIANTS {
             assert_eq!(meridian.name().parse(), Ok(meridian));
             assert_eq!(meridian.name()[..1].to_uppercase().parse(), Ok(meridian));
         }

@@ -30,9 +30,9 @@ pub use options::{PointSpread, RenderOptions};
 pub use presets::{PRESETS, Preset};
 pub use visibility::{ConeClass, Visibility};
 
-use crate::detect::{Modality, Polarity};
 use crate::geometry::Point;
 use crate::image::Plane;
+use crate::image::{Modality, Polarity};
 use field::SlowField;
 use montage::Montage;
 use rand::Rng;

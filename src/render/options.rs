@@ -1,6 +1,6 @@
 use super::RenderError;
 use super::error::check;
-use crate::detect::{Modality, Polarity};
+use crate::image::{Modality, Polarity};
 use serde::Serialize;
 
 /// Longest side of a simulated image, px.
@@ -236,10 +236,11 @@ pub(super) fn validate_size(width: usize, height: usize) -> Result<(), RenderErr
 #[cfg(test)]
 mod tests {
     use super::*;
+    use strum::VariantArray;
 
     #[test]
     fn the_values_of_every_modality_are_within_their_ranges() {
-        for modality in Modality::ALL {
+        for &modality in Modality::VARIANTS {
             assert_eq!(RenderOptions::new(modality).validate(), Ok(()));
         }
     }

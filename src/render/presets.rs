@@ -1,5 +1,5 @@
 use super::{GradientShape, MosaicOptions, PointSpread, RenderOptions};
-use crate::detect::Modality;
+use crate::image::Modality;
 
 /// A kind of retinal image, as a starting point.
 #[derive(Clone, Copy, Debug)]

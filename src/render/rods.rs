@@ -127,7 +127,7 @@ impl Buckets {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::detect::Modality;
+    use crate::image::Modality;
     use crate::render::{MosaicOptions, cone_mosaic};
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;

@@ -1,8 +1,9 @@
 //! What is known of one mosaic, in the form in which it is written to files.
 
 use super::VerdictRecord;
-use crate::detect::{Detections, Detector, FourierEstimate, Modality, Polarity};
+use crate::detect::{Detections, Detector, FourierEstimate};
 use crate::geometry::{Polygon, Window};
+use crate::image::{Modality, Polarity};
 use crate::mosaic::{LengthUnit, Mosaic, RetinalPlace, hexagonal_spacing};
 use crate::stats;
 use serde::{Deserialize, Serialize};

@@ -1,5 +1,7 @@
+use crate::choice::UnknownChoice;
 use crate::geometry::{NearestNeighbours, Point, Window};
 use serde::{Deserialize, Serialize};
+use strum::{Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
 
 /// Points whose distance to the border is at least the distance to their nearest neighbour: for them no neighbour
 /// beyond the border could have been nearer. All points of a torus.
@@ -13,8 +15,27 @@ pub(super) fn interior_by(borders: &[f64], nearest: &NearestNeighbours) -> impl 
 }
 
 /// The divisor of the variance.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    Serialize,
+    Deserialize,
+    Display,
+    EnumString,
+    IntoStaticStr,
+    VariantArray,
+    VariantNames,
+)]
 #[serde(rename_all = "snake_case")]
+#[strum(
+    serialize_all = "kebab-case",
+    parse_err_ty = UnknownChoice,
+    parse_err_fn = UnknownChoice::among::<Deviation>
+)]
 pub enum Deviation {
     /// n − 1: of a sample.
     #[default]
@@ -24,12 +45,9 @@ pub enum Deviation {
 }
 
 impl Deviation {
-    /// As it is written in options and tables.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Sample => "sample",
-            Self::Population => "population",
-        }
+    /// Returns the word for it in options and tables.
+    pub fn name(self) -> &'static str {
+        self.into()
     }
 }
 

@@ -11,6 +11,7 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use std::path::Path;
+use strum::VariantArray;
 
 /// Simulated images of each modality and polarity in which everything is drawn at random.
 const EACH: u64 = 60;
@@ -178,11 +179,15 @@ fn confusion(cases: impl IntoParallelIterator<Item = Case>) -> (String, Vec<Stri
     taken.iter().for_each(|(is, as_, _)| counts[*is][*as_] += 1);
     let mut text = String::from("is \\ taken for     confocal + −   split + −   histology + −\n");
     for (row, count) in counts.iter().enumerate().filter(|(_, c)| c.iter().any(|n| *n > 0)) {
-        let (modality, polarity) = (Modality::ALL[row / 2], Polarity::ALL[row % 2]);
+        let (modality, polarity) = (Modality::VARIANTS[row / 2], Polarity::VARIANTS[row % 2]);
         text += &format!("{:<10}{:<9}{count:?}\n", modality.name(), polarity.name());
     }
     let wrong = taken.into_iter().filter(|(is, as_, _)| is != as_).map(|(_, as_, name)| {
-        format!("{name} taken for {} {}", Modality::ALL[as_ / 2].name(), Polarity::ALL[as_ % 2].name())
+        format!(
+            "{name} taken for {} {}",
+            Modality::VARIANTS[as_ / 2].name(),
+            Polarity::VARIANTS[as_ % 2].name()
+        )
     });
     (text, wrong.collect())
 }
@@ -191,7 +196,7 @@ fn confusion(cases: impl IntoParallelIterator<Item = Case>) -> (String, Vec<Stri
 fn simulated_images_of_every_look_are_taken_for_what_they_are() {
     let mut all = Vec::new();
     for preset in &PRESETS {
-        for polarity in Polarity::ALL {
+        for &polarity in Polarity::VARIANTS {
             for what in DEGRADED {
                 all.extend((0..DENSITIES).map(|k| (preset, polarity, what, k)));
             }
@@ -205,7 +210,7 @@ fn simulated_images_of_every_look_are_taken_for_what_they_are() {
 
 #[test]
 fn nearly_all_images_are_taken_for_what_they_are_however_much_is_wrong_with_them() {
-    let kinds = Modality::ALL.into_iter().flat_map(|m| Polarity::ALL.map(|p| (m, p)));
+    let kinds = Modality::VARIANTS.iter().flat_map(|&m| Polarity::VARIANTS.iter().map(move |&p| (m, p)));
     let cases: Vec<(Modality, Polarity, u64)> =
         kinds.flat_map(|(m, p)| (0..EACH).map(move |k| (m, p, k))).collect();
     let count = cases.len();

@@ -10,6 +10,7 @@ use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::path::Path;
+use strum::VariantArray;
 
 /// Numbers in [0, 1), multiples of 2⁻²⁰, so that every program makes the same point sets.
 struct Numbers(u64);
@@ -141,7 +142,7 @@ fn counts_on_real_marks_equal_those_of_the_published_rule() {
 #[test]
 fn perfect_detections_score_one() {
     let marks = marks(11, 150., 150., 8., 2., false);
-    for assignment in Assignment::ALL {
+    for &assignment in Assignment::VARIANTS {
         let (score, matching) = validate(&marks, &marks, 150, 150, &options(assignment)).unwrap();
         let rates = &score.rates;
         assert_eq!((rates.sensitivity, rates.fdr, rates.dice, rates.precision), (1., 0., 1., 1.));
@@ -339,7 +340,7 @@ proptest! {
     fn pairs_are_one_to_one_and_everything_outside_the_border_counts_once(
         marks in places(40), found in places(40), border in 0f64..8.,
     ) {
-        for assignment in Assignment::ALL {
+        for &assignment in Assignment::VARIANTS {
             let options = MatchOptions { border, assignment, ..MatchOptions::default() };
             let m = match_points(&marks, &found, 40, 40, &options).unwrap();
             let mut used = vec![0; found.len()];
@@ -374,7 +375,7 @@ proptest! {
     ) {
         let points = |v: Vec<(f64, f64)>| v.iter().map(|p| Point::new(p.0 * scale, p.1 * scale)).collect::<Vec<_>>();
         let (marks, found) = (points(marks), points(found));
-        for assignment in Assignment::ALL {
+        for &assignment in Assignment::VARIANTS {
             let _ = validate(&marks, &found, 3, 3, &options(assignment));
         }
     }

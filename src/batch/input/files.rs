@@ -1,5 +1,5 @@
 use crate::batch::BatchError;
-use crate::image::is_image_path;
+use crate::image::{extensions_in_words, is_image_path};
 use std::collections::{HashMap, HashSet};
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -26,7 +26,7 @@ const COORDINATE_EXTENSIONS: [&str; 7] = ["csv", "tsv", "txt", "json", "tar", "r
 pub fn image_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec<Input>, BatchError> {
     let files = walk(paths, except, |path| is_image_path(path) && !is_overlay(path))?;
     if files.is_empty() {
-        let expected = "files ending in .png, .tif or .tiff";
+        let expected = format!("files ending in {}", extensions_in_words()).into();
         return Err(BatchError::Nothing { what: "images", paths: listed(paths), expected });
     }
     Ok(named(files))
@@ -40,7 +40,7 @@ pub fn coordinate_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec<
     let known = |path: &Path| COORDINATE_EXTENSIONS.contains(&extension(path).as_str()) && !is_table(path);
     let files = walk(paths, except, known)?;
     if files.is_empty() {
-        let expected = "files ending in .csv, .tsv, .txt, .json, .tar, .roi or .zip";
+        let expected = "files ending in .csv, .tsv, .txt, .json, .tar, .roi or .zip".into();
         return Err(BatchError::Nothing { what: "coordinate files", paths: listed(paths), expected });
     }
     Ok(named(files))

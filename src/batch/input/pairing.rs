@@ -1,6 +1,5 @@
+use crate::image::extensions;
 use std::path::{Path, PathBuf};
-
-const IMAGE_EXTENSIONS: [&str; 9] = ["png", "tif", "tiff", "PNG", "TIF", "TIFF", "Png", "Tif", "Tiff"];
 
 /// The name of the image that a coordinate file belongs to: its own less the extension and a final `_coords`.
 pub(in crate::batch) fn image_name(coordinates: &Path) -> String {
@@ -13,9 +12,16 @@ pub(in crate::batch) fn says_coords(path: &Path) -> bool {
     path.file_stem().unwrap_or_default().to_string_lossy().ends_with("_coords")
 }
 
-/// The image of that name in a folder.
+/// The image of that name in a folder; its extension in small, in capital or in both letters.
 pub(in crate::batch) fn image_in(folder: &Path, name: &str) -> Option<PathBuf> {
-    IMAGE_EXTENSIONS.iter().map(|e| folder.join(format!("{name}.{e}"))).find(|p| p.is_file())
+    let spellings: [fn(&str) -> String; 3] = [str::to_owned, str::to_uppercase, capitalised];
+    let endings = spellings.iter().flat_map(|spelt| extensions().map(spelt));
+    endings.map(|e| folder.join(format!("{name}.{e}"))).find(|p| p.is_file())
+}
+
+fn capitalised(word: &str) -> String {
+    let mut letters = word.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// The image beside a coordinate file.

@@ -1,4 +1,5 @@
 use crate::batch::BatchError;
+use crate::image::extensions;
 use crate::report::{ColumnNames, column_names};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -55,9 +56,10 @@ impl Readings {
             let row = row.map_err(|e| fail(format!("line {line} cannot be read: {e}")))?;
             let name = row.get(key).unwrap_or_default().trim();
             let base = name.rsplit(['/', '\\']).next().unwrap_or(name);
-            let known = [".csv", ".png", ".tif", ".tiff", ".txt", ".json", ".roi", ".zip", ".tsv", ".tar"];
+            let known = ["csv", "txt", "json", "roi", "zip", "tsv", "tar"].into_iter().chain(extensions());
             let lower = base.to_lowercase();
-            let ending = known.iter().find(|e| lower.ends_with(**e)).map_or(0, |e| e.len());
+            let ending = |e: &str| lower.strip_suffix(e).is_some_and(|rest| rest.ends_with('.'));
+            let ending = known.into_iter().find(|e| ending(e)).map_or(0, |e| e.len() + 1);
             let item = base[..base.len() - ending].trim_end_matches("_coords").to_owned();
             if item.is_empty() {
                 return Err(fail(format!("line {line} names no image: fill column {}", header[key])));

@@ -34,7 +34,7 @@ impl Pairs<'_> {
         });
         if marks.is_empty() {
             let paths = self.reference.display().to_string();
-            let expected = "NAME_coords.csv, or NAME.csv beside NAME.png or NAME.tif";
+            let expected = "NAME_coords.csv, or NAME.csv beside NAME.png or NAME.tif".into();
             return Err(BatchError::Nothing { what: "hand marks", paths, expected });
         }
         let mut taken: HashSet<String> = marks.iter().map(|m| m.name.clone()).collect();

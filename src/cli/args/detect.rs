@@ -4,18 +4,19 @@ use clap::builder::PossibleValuesParser;
 use conemosaic::detect::{DetectOptions, Detector, Modality, Polarity, UserModel};
 use std::fs;
 use std::path::{Path, PathBuf};
+use strum::VariantNames;
 
 /// What may be fixed about detection; the defaults decide everything from the image.
 #[derive(Args)]
 pub struct DetectArgs {
     /// How the images were taken
-    #[arg(long, value_name = "M", default_value = "auto", value_parser = or_auto(Modality::ALL.map(Modality::name)))]
+    #[arg(long, value_name = "M", default_value = "auto", value_parser = or_auto(Modality::VARIANTS))]
     modality: String,
     /// Contrast: positive is bright cones, in split detection dark left and bright right
-    #[arg(long, value_name = "P", default_value = "auto", value_parser = or_auto(Polarity::ALL.map(Polarity::name)))]
+    #[arg(long, value_name = "P", default_value = "auto", value_parser = or_auto(Polarity::VARIANTS))]
     polarity: String,
     /// Filters that find the cones
-    #[arg(long, value_name = "D", default_value = "auto", value_parser = PossibleValuesParser::new(Detector::ALL.map(Detector::name)))]
+    #[arg(long, value_name = "D", default_value = "auto", value_parser = PossibleValuesParser::new(Detector::VARIANTS))]
     detector: String,
     /// Cone spacing in px (4–160) to start from [default: from Yellott's ring]
     #[arg(long, value_name = "PX")]
@@ -48,8 +49,8 @@ fn read_model(path: &Path) -> Result<UserModel> {
     UserModel::new(&name, &bytes).context(name)
 }
 
-fn or_auto<const N: usize>(names: [&'static str; N]) -> PossibleValuesParser {
-    PossibleValuesParser::new(["auto"].into_iter().chain(names))
+fn or_auto(names: &'static [&'static str]) -> PossibleValuesParser {
+    PossibleValuesParser::new(["auto"].into_iter().chain(names.iter().copied()))
 }
 
 impl DetectArgs {

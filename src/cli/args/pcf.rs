@@ -1,16 +1,18 @@
 use anyhow::Result;
 use clap::Args;
+use clap::builder::PossibleValuesParser;
 use conemosaic::stats::{EdgeCorrection, Kernel, PcfOptions};
+use strum::VariantNames;
 
 /// How the pair correlation function is estimated. The unit s is the hexagonal spacing of the mosaic.
 #[derive(Args)]
 #[command(next_help_heading = "Pair correlation function (s: hexagonal spacing)")]
 pub struct PcfArgs {
     /// What makes up for pairs hidden by the border; torus needs --torus
-    #[arg(long, value_name = "E", default_value = "set-covariance", value_parser = ["set-covariance", "translation", "isotropic", "torus", "none"])]
+    #[arg(long, value_name = "E", default_value = "set-covariance", value_parser = PossibleValuesParser::new(EdgeCorrection::VARIANTS))]
     edge: String,
     /// Shape of the smoothing kernel
-    #[arg(long, value_name = "K", default_value = "gaussian", value_parser = ["gaussian", "box", "triangle"])]
+    #[arg(long, value_name = "K", default_value = "gaussian", value_parser = PossibleValuesParser::new(Kernel::VARIANTS))]
     kernel: String,
     /// Standard deviation of the kernel in s (0.005–1)
     #[arg(long, value_name = "S", default_value_t = PcfOptions::default().bandwidth)]
@@ -31,31 +33,14 @@ impl PcfArgs {
     /// Returns the validated options; `r_max` in s.
     pub fn options(&self, r_max: Option<f64>) -> Result<PcfOptions> {
         let options = PcfOptions {
-            kernel: kernel(&self.kernel),
+            kernel: self.kernel.parse()?,
             bandwidth: self.bandwidth,
             r_min: self.r_min,
             r_max: r_max.unwrap_or(PcfOptions::default().r_max),
             bins: self.bins,
-            edge: edge(&self.edge),
+            edge: self.edge.parse()?,
         };
         options.validate()?;
         Ok(options)
-    }
-}
-
-fn kernel(t: &str) -> Kernel {
-    match t {
-        "box" => Kernel::Box,
-        "triangle" => Kernel::Triangle,
-        _ => Kernel::Gaussian,
-    }
-}
-fn edge(t: &str) -> EdgeCorrection {
-    match t {
-        "translation" => EdgeCorrection::Translation,
-        "isotropic" => EdgeCorrection::Isotropic,
-        "torus" => EdgeCorrection::Torus,
-        "none" => EdgeCorrection::None,
-        _ => EdgeCorrection::SetCovariance,
     }
 }

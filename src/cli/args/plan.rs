@@ -5,12 +5,14 @@ use super::scale::ScaleArgs;
 use super::summary::SummaryArgs;
 use anyhow::Result;
 use clap::Args;
+use clap::builder::PossibleValuesParser;
 use conemosaic::batch::Plan;
 use conemosaic::compare::VerdictOptions;
 use conemosaic::mosaic::io::ReadOptions;
 use conemosaic::report::{FigureFormat, PowerScale};
 use conemosaic::sample::samplers_named;
 use conemosaic::stats::{Deviation, FunctionOptions, MeasureOptions, SpectrumOptions};
+use strum::VariantNames;
 
 /// What is computed of every mosaic and written about it: the same for images and coordinate files.
 #[derive(Args)]
@@ -20,7 +22,7 @@ pub struct PlanArgs {
     #[arg(long, value_name = "A,B,…", value_delimiter = ',', help_heading = "Comparison with samplers")]
     samplers: Vec<String>,
     /// Standard deviation: sample (n − 1) or population (n, as in the tables of Lanaro et al.)
-    #[arg(long, value_name = "SD", default_value = "sample", value_parser = ["sample", "population"])]
+    #[arg(long, value_name = "SD", default_value = "sample", value_parser = PossibleValuesParser::new(Deviation::VARIANTS))]
     sd: String,
     #[command(flatten)]
     summary: SummaryArgs,
@@ -72,7 +74,7 @@ impl PlanArgs {
             self.functions.then_some(FunctionOptions { r_step: self.r_step, r_max: self.pcf.r_max });
         // with functions, the largest distance is theirs, in the unit of the coordinates
         let r_max = self.pcf.r_max.filter(|_| !self.functions);
-        let deviation = if self.sd == "population" { Deviation::Population } else { Deviation::Sample };
+        let deviation: Deviation = self.sd.parse()?;
         let compared = defaults.compare || defaults.verdict.is_some() || !self.samplers.is_empty();
         let spectrum = self.spectrum.as_ref().map(|scale| {
             let options = SpectrumOptions { max_frequency: self.max_frequency };

@@ -1,15 +1,35 @@
 use super::assignment::assign;
+use crate::choice::UnknownChoice;
 use crate::geometry::Point;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use serde::{Deserialize, Serialize};
-use std::fmt;
 use std::num::NonZero;
-use std::str::FromStr;
+use strum::{Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
 use thiserror::Error;
 
 /// Who gets whom where several marks and detections are within reach of each other.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    Hash,
+    Serialize,
+    Deserialize,
+    Display,
+    EnumString,
+    IntoStaticStr,
+    VariantArray,
+    VariantNames,
+)]
 #[serde(rename_all = "snake_case")]
+#[strum(
+    serialize_all = "kebab-case",
+    parse_err_ty = UnknownChoice,
+    parse_err_fn = UnknownChoice::among::<Assignment>
+)]
 pub enum Assignment {
     /// Every mark claims its nearest detection, and of several claims the nearest is granted; the others are
     /// misses even if a second detection is near (Cunefare et al. 2017).
@@ -21,32 +41,9 @@ pub enum Assignment {
 }
 
 impl Assignment {
-    /// Every assignment.
-    pub const ALL: [Self; 2] = [Self::Nearest, Self::Optimal];
-
-    /// As it is written in options and tables.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Nearest => "nearest",
-            Self::Optimal => "optimal",
-        }
-    }
-}
-
-impl fmt::Display for Assignment {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
-
-impl FromStr for Assignment {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        Self::ALL
-            .into_iter()
-            .find(|a| a.name() == text)
-            .ok_or_else(|| format!("“{text}” is none of nearest, optimal"))
+    /// Returns the word for it in options and tables.
+    pub fn name(self) -> &'static str {
+        self.into()
     }
 }
 

@@ -13,7 +13,7 @@ const CRITERION: Criterion = Criterion { threshold: 0., suppression: 0.55, relat
 
 /// A cone is a bright spot: −∇² of G(σ)∗I, σ = .13 s, up to .21 s in noise (by the `clarity` of the image's ring). Any concave
 /// place is a candidate.
-pub(super) fn response(image: &Plane, spacing: f64, clarity: f64) -> (Plane, Criterion) {
+pub(in crate::detect) fn response(image: &Plane, spacing: f64, clarity: f64) -> (Plane, Criterion) {
     let blurred = gaussian(image, sigma(clarity) * spacing);
     (negative_laplacian(&blurred), CRITERION)
 }

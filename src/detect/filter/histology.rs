@@ -13,7 +13,7 @@ const CRITERION: Criterion = Criterion { threshold: 0.65, suppression: 0.45, rel
 
 /// An inner segment is a disc, brighter than what surrounds it: −∇² of G(.22 s)∗I, divided by its local root mean
 /// square (σ = 2 s).
-pub(super) fn response(image: &Plane, spacing: f64) -> (Plane, Criterion) {
+pub(in crate::detect) fn response(image: &Plane, spacing: f64, _clarity: f64) -> (Plane, Criterion) {
     (normalise(&blobs(image, spacing), CONTRAST * spacing), CRITERION)
 }
 

@@ -1,15 +1,17 @@
 //! Filters whose local maxima are cones, one a modality. All take a plane and the cone spacing in px.
 
-mod confocal;
-mod histology;
-mod split;
+pub(super) mod confocal;
+pub(super) mod histology;
+pub(super) mod split;
 
 pub(super) use histology::blobs;
 
-use crate::detect::calibration;
-use crate::detect::search::Found;
+use crate::detect::calibration::{Logistic, Reference};
+use crate::detect::finder::{ConeFinder, Found, Sought};
+use crate::detect::learned::WeightsError;
+use crate::detect::spec::spec;
 use crate::detect::{Detection, Modality, Polarity, local_maxima, suppress};
-use crate::image::{Plane, fill_rows};
+use crate::image::{Plane, fill_rows, values};
 
 /// What counts as a cone in a filter's response.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,25 +51,48 @@ impl Criterion {
     }
 }
 
-/// The cones that the modality's filter finds in an image whose cones are about `spacing` px apart.
-pub(super) fn cones(
-    image: &Plane,
-    modality: Modality,
-    polarity: Polarity,
-    spacing: f64,
-    clarity: f64,
-) -> Found {
-    let (response, criterion) = response(image, modality, polarity, spacing, clarity);
-    let maxima = suppress(local_maxima(&response, criterion.threshold), criterion.suppression * spacing);
-    let least = criterion.least(&maxima);
-    let (mut cones, mut rejected): (Vec<_>, Vec<_>) = maxima.into_iter().partition(|d| d.score > least);
-    let probability = calibration::classical(modality, &cones, least);
-    cones.iter_mut().chain(&mut rejected).for_each(|d| d.score = probability(d.score));
-    Found { cones, rejected }
+/// A classical filter, and the probability that its maxima are cones.
+pub(super) struct Filter {
+    /// Returns the response of an image whose cones are so many px apart, of positive polarity, and what counts as a cone in it; the
+    /// last argument is the clarity of the image.
+    pub response: fn(&Plane, f64, f64) -> (Plane, Criterion),
+    /// Probability of a cone by the height of its maximum,
+    pub probability: Logistic,
+    /// measured against this.
+    pub reference: Reference,
 }
 
-/// The response of the modality's classical filter at the given cone spacing (px), and what counts as a cone in it. The
-/// filters are odd: the other polarity is the same with the sign turned. That of confocal images is wider where the `clarity` of
+impl Filter {
+    /// Returns the response in either polarity. The filters are odd: the other polarity is the same with the sign turned.
+    fn respond(&self, image: &Plane, sought: Sought) -> (Plane, Criterion) {
+        let (mut response, criterion) = (self.response)(image, sought.spacing, sought.clarity);
+        if sought.polarity == Polarity::Negative {
+            response.mapv_inplace(|v| -v);
+        }
+        (response, criterion)
+    }
+}
+
+impl ConeFinder for Filter {
+    fn find(&self, image: &Plane, sought: Sought) -> Result<Found, WeightsError> {
+        let (response, criterion) = self.respond(image, sought);
+        let maxima =
+            suppress(local_maxima(&response, criterion.threshold), criterion.suppression * sought.spacing);
+        let least = criterion.least(&maxima);
+        let (cones, rejected): (Vec<_>, Vec<_>) = maxima.into_iter().partition(|d| d.score > least);
+        let height = self.reference.against(&cones, least);
+        let mut found = Found { cones, rejected };
+        found.each(|d| d.score = self.probability.at(height(d.score)));
+        Ok(found)
+    }
+
+    /// A filter follows the spacing closely.
+    fn settled(&self) -> f64 {
+        0.005
+    }
+}
+
+/// The response of the modality's classical filter at the given cone spacing (px), and what counts as a cone in it. That of confocal images is wider where the `clarity` of
 /// the image is low ([`RingProfile::clarity`](crate::detect::RingProfile::clarity)); infinity: a clear one.
 pub fn response(
     image: &Plane,
@@ -76,22 +101,13 @@ pub fn response(
     spacing: f64,
     clarity: f64,
 ) -> (Plane, Criterion) {
-    let (mut response, criterion) = match modality {
-        Modality::Confocal => confocal::response(image, spacing, clarity),
-        Modality::Split => split::response(image, spacing),
-        Modality::Histology => histology::response(image, spacing),
-    };
-    if polarity == Polarity::Negative {
-        response.mapv_inplace(|v| -v);
-    }
-    (response, criterion)
+    spec(modality).filter.respond(image, Sought { polarity, spacing, clarity })
 }
 
 /// −∇² by five points, the border mirrored.
 fn negative_laplacian(plane: &Plane) -> Plane {
     let (h, w) = plane.dim();
-    let plane = plane.as_standard_layout();
-    let data = plane.as_slice().unwrap_or_default();
+    let data = values(plane);
     let row = |y: usize| &data[y * w..(y + 1) * w];
     fill_rows(h, w, |y, out| {
         let (here, up, down) = (row(y), row(y.saturating_sub(1)), row((y + 1).min(h - 1)));

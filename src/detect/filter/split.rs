@@ -21,7 +21,7 @@ const CONTRAST: f64 = 0.8;
 /// brings the centre of the pair to a maximum: the spectrum times
 /// i · sign(fx) · |fx s|^½ · exp(−2π²(.14 s f)²) · (1 − exp(−2π²(.25 s f)²)), divided by its local root mean square
 /// (σ = .8 s). Made for dark on the left.
-pub(super) fn response(image: &Plane, spacing: f64) -> (Plane, Criterion) {
+pub(in crate::detect) fn response(image: &Plane, spacing: f64, _clarity: f64) -> (Plane, Criterion) {
     let (h, w) = image.dim();
     // mirror images keep the transform's wrapping away; a longer frame than s makes the transform fast
     let pad = spacing.round() as usize;

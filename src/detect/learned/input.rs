@@ -1,4 +1,4 @@
-use crate::image::{PARALLEL_PIXELS, Plane, gaussian, mirror};
+use crate::image::{PARALLEL_PIXELS, Plane, gaussian, mirror, plane_of, values};
 use rayon::prelude::*;
 
 /// Widths, in px of the network, of what is taken off as drift and of the neighbourhood that contrast is measured in.
@@ -23,8 +23,7 @@ pub(super) fn normalised(image: &Plane) -> Plane {
 pub(super) fn resampled(image: &Plane, step: f64) -> Plane {
     let (h, w) = image.dim();
     let blurred = if step > 1. { gaussian(image, 0.5 * (step * step - 1.).sqrt()) } else { image.clone() };
-    let source = blurred.as_standard_layout();
-    let source = source.as_slice().unwrap_or_default();
+    let source = values(&blurred);
     let (rows, columns) = (taps(h, step), taps(w, step));
     let width = columns.len();
     let mut data = vec![0f32; rows.len() * width];
@@ -42,7 +41,7 @@ pub(super) fn resampled(image: &Plane, step: f64) -> Plane {
     } else {
         data.chunks_mut(width).zip(&rows).for_each(fill);
     }
-    Plane::from_shape_vec((rows.len(), width), data).unwrap_or_default()
+    plane_of(rows.len(), width, data)
 }
 
 /// Which samples make a new one, and how.

@@ -14,23 +14,13 @@ pub use user::UserModel;
 pub use weights::WeightsError;
 
 use super::calibration::Logistic;
-use super::search::Found;
+use super::finder::{ConeFinder, Found, Sought};
 use super::spacing::CLEAR;
 use super::{Detection, Modality, Polarity, local_maxima, suppress};
 use crate::geometry::Point;
 use crate::image::Plane;
 use std::ops::RangeInclusive;
-use std::sync::OnceLock;
 use weights::Weights;
-
-static CONFOCAL: &[u8] = include_bytes!("confocal.safetensors");
-static SPLIT: &[u8] = include_bytes!("split.safetensors");
-static HISTOLOGY: &[u8] = include_bytes!("histology.safetensors");
-
-/// The weights compiled into the program.
-pub(super) const fn weights() -> [&'static [u8]; 3] {
-    [CONFOCAL, SPLIT, HISTOLOGY]
-}
 
 /// Spacings that a model can be made for, in px, and radii of suppression, in spacings.
 const SPACING: RangeInclusive<f64> = 2. ..=64.;
@@ -50,7 +40,7 @@ pub(super) struct Model {
     /// Of two maxima nearer to each other than this, in units of the spacing, the lower one goes.
     suppression: f64,
     /// The images it is for; `None`: all.
-    modality: Option<Modality>,
+    pub(super) modality: Option<Modality>,
     /// The probability of a cone by how far a logit is above the threshold.
     calibration: Logistic,
     /// Whether it was measured to find cones better than the classical filters do: by mean Dice coefficients on subjects left out
@@ -75,22 +65,12 @@ enum Threshold {
     Relative { below: f64, floor: f32, radius: f64 },
 }
 
-/// The network for `modality`.
-///
-/// # Errors
-/// If the weights in the program cannot be read.
-pub(super) fn model(modality: Modality) -> Result<&'static Model, WeightsError> {
-    static MODELS: [OnceLock<Result<Model, WeightsError>>; 3] = [const { OnceLock::new() }; 3];
-    let (slot, file) = match modality {
-        Modality::Confocal => (&MODELS[0], CONFOCAL),
-        Modality::Split => (&MODELS[1], SPLIT),
-        Modality::Histology => (&MODELS[2], HISTOLOGY),
-    };
-    slot.get_or_init(|| Model::read(file)).as_ref().map_err(Clone::clone)
-}
-
 impl Model {
-    fn read(file: &[u8]) -> Result<Self, WeightsError> {
+    /// Returns the network in a file of weights.
+    ///
+    /// # Errors
+    /// If the weights are damaged, or their metadata out of range.
+    pub(super) fn read(file: &[u8]) -> Result<Self, WeightsError> {
         let weights = Weights::read(file)?;
         let threshold = match weights.word("rule")? {
             "absolute" => Threshold::Absolute {
@@ -127,39 +107,6 @@ impl Model {
         Err(WeightsError::NoOnnx)
     }
 
-    /// The cones of an image whose cones are about `spacing` px apart, best first; `clarity` of its ring at that spacing.
-    ///
-    /// # Errors
-    /// If a user's model fails.
-    pub(super) fn cones(
-        &self,
-        image: &Plane,
-        polarity: Polarity,
-        spacing: f64,
-        clarity: f64,
-    ) -> Result<Found, WeightsError> {
-        let step = spacing / self.spacing;
-        let seen = input::normalised(&input::resampled(image, step));
-        let seen = if polarity == Polarity::Negative { -seen } else { seen };
-        let (right, lower) = (image.ncols() as f64 - 0.5, image.nrows() as f64 - 0.5);
-        let logits = match &self.network {
-            Network::Own(network) => network.logits(&seen),
-            #[cfg(feature = "onnx")]
-            Network::Onnx(network) => network.logits(&seen)?,
-        };
-        let maxima = local_maxima(&logits, self.candidate());
-        let threshold = self.threshold_for(&maxima, clarity);
-        let (mut cones, mut rejected): (Vec<_>, Vec<_>) =
-            suppress(maxima, self.suppression * self.spacing).into_iter().partition(|d| d.score > threshold);
-        for cone in cones.iter_mut().chain(&mut rejected) {
-            let Point { x, y } = cone.centre;
-            cone.centre =
-                Point::new(((x + 0.5) * step - 0.5).min(right), ((y + 0.5) * step - 0.5).min(lower));
-            cone.score = self.calibration.at(cone.score - threshold);
-        }
-        Ok(Found { cones, rejected })
-    }
-
     /// The logit from which on a maximum is looked at.
     fn candidate(&self) -> f32 {
         match self.threshold {
@@ -182,6 +129,36 @@ impl Model {
     }
 }
 
+impl ConeFinder for Model {
+    fn find(&self, image: &Plane, sought: Sought) -> Result<Found, WeightsError> {
+        let step = sought.spacing / self.spacing;
+        let seen = input::normalised(&input::resampled(image, step));
+        let seen = if sought.polarity == Polarity::Negative { -seen } else { seen };
+        let (right, lower) = (image.ncols() as f64 - 0.5, image.nrows() as f64 - 0.5);
+        let logits = match &self.network {
+            Network::Own(network) => network.logits(&seen),
+            #[cfg(feature = "onnx")]
+            Network::Onnx(network) => network.logits(&seen)?,
+        };
+        let maxima = local_maxima(&logits, self.candidate());
+        let threshold = self.threshold_for(&maxima, sought.clarity);
+        let (mut cones, mut rejected): (Vec<_>, Vec<_>) =
+            suppress(maxima, self.suppression * self.spacing).into_iter().partition(|d| d.score > threshold);
+        for cone in cones.iter_mut().chain(&mut rejected) {
+            let Point { x, y } = cone.centre;
+            cone.centre =
+                Point::new(((x + 0.5) * step - 0.5).min(right), ((y + 0.5) * step - 0.5).min(lower));
+            cone.score = self.calibration.at(cone.score - threshold);
+        }
+        Ok(Found { cones, rejected })
+    }
+
+    /// Networks are trained at spacings off by up to 15 %.
+    fn settled(&self) -> f64 {
+        0.03
+    }
+}
+
 /// A number among a model's metadata.
 fn in_range(
     key: &'static str,
@@ -201,15 +178,7 @@ fn quantile(rising: &[f64], part: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_networks_in_the_program_are_better_than_the_filters() {
-        for modality in Modality::ALL {
-            let model = model(modality).unwrap();
-            assert_eq!(model.modality, Some(modality));
-            assert!(model.better);
-        }
-    }
+    use crate::detect::spec::{SPECS, spec};
 
     /// The script that trains writes an image, in which cones are 10 px apart, and its own network's answer beside the weights.
     #[test]
@@ -219,8 +188,9 @@ mod tests {
             include_bytes!("split.example.safetensors"),
             include_bytes!("histology.example.safetensors"),
         ];
-        for (weights, example) in weights().into_iter().zip(examples) {
-            let [weights, example] = [weights, example].map(|file| Weights::read(file).unwrap());
+        for (spec, example) in SPECS.iter().zip(examples) {
+            let [weights, example] =
+                [spec.network.weights(), example].map(|file| Weights::read(file).unwrap());
             let plane =
                 |name, h, w| Plane::from_shape_vec((h, w), example.tensor(name, &[h, w]).unwrap()).unwrap();
             let image = plane("image", 44, 40);
@@ -244,9 +214,10 @@ mod tests {
     #[test]
     fn the_reverse_of_an_image_has_the_same_cones_in_the_reverse_polarity() {
         let image = Plane::from_shape_fn((96, 96), |(y, x)| (0.7 * x as f32).sin() * (0.75 * y as f32).cos());
-        let model = model(Modality::Confocal).unwrap();
-        let found = model.cones(&image, Polarity::Positive, 9., f64::INFINITY).unwrap();
+        let model = spec(Modality::Confocal).network.model().unwrap();
+        let sought = |polarity| Sought { polarity, spacing: 9., clarity: f64::INFINITY };
+        let found = model.find(&image, sought(Polarity::Positive)).unwrap();
         assert!(found.cones.len() > 20);
-        assert_eq!(model.cones(&-&image, Polarity::Negative, 9., f64::INFINITY).unwrap(), found);
+        assert_eq!(model.find(&-&image, sought(Polarity::Negative)).unwrap(), found);
     }
 }

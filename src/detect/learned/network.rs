@@ -182,13 +182,14 @@ fn pieces(length: usize, longest: usize, reach: usize) -> Vec<Piece> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::detect::spec::SPECS;
 
     #[test]
     fn pieces_make_no_seams() {
         let seen = Plane::from_shape_fn((93, 121), |(y, x)| {
             (0.7 * x as f32).sin() * (0.6 * y as f32).cos() + ((x * 31 + y * 17) % 13) as f32 / 13.
         });
-        for file in super::super::weights() {
+        for file in SPECS.iter().map(|spec| spec.network.weights()) {
             let network = Network::new(&Weights::read(file).unwrap()).unwrap();
             let whole = network.logits_by_pieces(&seen, 200);
             let cut = network.logits_by_pieces(&seen, 40);

@@ -66,8 +66,10 @@ impl Serialize for UserModel {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{CONFOCAL, SPLIT};
     use super::*;
+
+    static CONFOCAL: &[u8] = include_bytes!("confocal.safetensors");
+    static SPLIT: &[u8] = include_bytes!("split.safetensors");
 
     #[test]
     fn weights_serve_the_modality_they_were_trained_for() {

@@ -2,7 +2,7 @@
 
 use crate::detect::spacing::{AROUND as AROUND_RING, RingProfile};
 use crate::detect::{Modality, Polarity, filter, flatten::normalise, local_maxima, suppress};
-use crate::image::{Plane, gaussian};
+use crate::image::{Plane, gaussian, values};
 
 /// Widths of Gaussians, in spacings: of slopes, fine and coarse, and of grey values that noise must not blur.
 const FINE: f64 = 0.1;
@@ -110,11 +110,11 @@ struct Slopes {
 
 impl Slopes {
     fn of(plane: &Plane) -> Self {
-        let (width, plane) = (plane.ncols(), plane.as_standard_layout());
-        let data = plane.as_slice().unwrap_or_default();
+        let (width, data) = (plane.ncols(), values(plane));
         let along_x: Vec<f32> =
             data.chunks_exact(width.max(1)).flat_map(|row| row.windows(2).map(|p| p[1] - p[0])).collect();
-        let along_y: Vec<f32> = data.iter().skip(width).zip(data).map(|(below, here)| below - here).collect();
+        let along_y: Vec<f32> =
+            data.iter().skip(width).zip(&*data).map(|(below, here)| below - here).collect();
         Self { along_x: Moments::of(along_x.iter()), along_y: Moments::of(along_y.iter()) }
     }
 }

@@ -10,6 +10,7 @@ mod network;
 pub(super) use network::weights;
 
 use super::spacing::RingProfile;
+use super::spec::{PolarityCue, spec};
 use super::{Modality, Polarity};
 use crate::geometry::Point;
 use crate::image::{Plane, gaussian};
@@ -50,10 +51,9 @@ pub(super) fn decide(
     let features = features_of(flat, ring);
     let (modality, confidence) =
         modality.map_or_else(|| network::most_probable(&features.of_modality()), |given| (given, 1.));
-    let evidence = || match modality {
-        Modality::Split => network::dark_left(&features.of_direction(flat)) + USUAL,
-        // cones make high maxima, what lies between them shallow minima
-        Modality::Confocal | Modality::Histology => features.blobs_skewness,
+    let evidence = || match spec(modality).polarity {
+        PolarityCue::DarkSide => network::dark_left(&features.of_direction(flat)) + USUAL,
+        PolarityCue::Blobs => features.blobs_skewness,
     };
     let polarity =
         polarity.unwrap_or_else(|| if evidence() >= 0. { Polarity::Positive } else { Polarity::Negative });
@@ -88,6 +88,7 @@ pub(super) fn of_cells(image: &Plane, centres: &[Point], spacing: f64) -> Polari
 mod tests {
     use super::*;
     use crate::detect::flatten;
+    use strum::VariantArray;
 
     #[test]
     fn what_is_given_is_beyond_doubt_and_the_rest_is_not() {
@@ -95,7 +96,7 @@ mod tests {
             (0.7 * x as f32).sin() * (0.75 * y as f32).cos() + 0.1 * ((x * 31 + y * 17) % 11) as f32
         }));
         let ring = RingProfile::of(&flat);
-        for modality in Modality::ALL {
+        for &modality in Modality::VARIANTS {
             let (taken, confidence, _) = decide(&flat, &ring, Some(modality), None);
             assert_eq!((taken, confidence), (modality, 1.));
         }

@@ -4,12 +4,13 @@
 use super::features::{DIRECTION, MODALITY};
 use crate::detect::Modality;
 use std::sync::OnceLock;
+use strum::VariantArray;
 
 /// Units of the hidden layer: those of four networks whose scores are averaged.
 const HIDDEN: usize = 64;
-const CLASSES: usize = Modality::ALL.len();
+const CLASSES: usize = Modality::VARIANTS.len();
 
-/// Weights (out × in) and biases of either layer, modalities in the order of [`Modality::ALL`], then those of the direction: 32-bit
+/// Weights (out × in) and biases of either layer, modalities in the order of [`Modality::VARIANTS`], then those of the direction: 32-bit
 /// floats, little endian.
 static FILE: &[u8; 4 * COUNT] = include_bytes!("modality.f32");
 const FIRST: usize = HIDDEN * (MODALITY + 1);
@@ -31,7 +32,7 @@ pub(super) fn most_probable(features: &[f64; MODALITY]) -> (Modality, f64) {
     let scores = scores(features);
     let best = (0..CLASSES).max_by(|&a, &b| scores[a].total_cmp(&scores[b])).unwrap_or(0);
     let sum: f64 = scores.iter().map(|s| (s - scores[best]).exp()).sum();
-    (Modality::ALL[best], 1. / sum)
+    (Modality::VARIANTS[best], 1. / sum)
 }
 
 /// Logarithm of the odds of each modality, up to a constant.

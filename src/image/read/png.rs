@@ -7,7 +7,7 @@ use image::{ImageDecoder, Limits};
 use std::io::Cursor;
 
 /// The picture in the bytes of a PNG file. Palettes and fewer than 8 bits are expanded by the decoder.
-pub(super) fn decode(bytes: &[u8], name: &str) -> Result<Plane, ImageError> {
+pub(in crate::image) fn decode(bytes: &[u8], name: &str) -> Result<Plane, ImageError> {
     let failed = |error: image::ImageError| {
         let (name, format, reason) = (name.to_owned(), "PNG", one_line(&error));
         match error {

@@ -22,13 +22,8 @@ const PLANAR: u16 = 2;
 
 type Source<'a> = Decoder<Cursor<&'a [u8]>>;
 
-/// Whether the bytes begin as a TIFF or BigTIFF of either byte order.
-pub(super) fn has_signature(bytes: &[u8]) -> bool {
-    [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"].iter().any(|s| bytes.starts_with(*s))
-}
-
 /// The one picture in the bytes of a TIFF file.
-pub(super) fn decode(bytes: &[u8], name: &str) -> Result<Plane, ImageError> {
+pub(in crate::image) fn decode(bytes: &[u8], name: &str) -> Result<Plane, ImageError> {
     let place = Place { name };
     let mut decoder = open(bytes).map_err(|e| place.failed(e))?;
     let pages = count_pages(&mut decoder);

@@ -1,27 +1,40 @@
+use crate::choice::UnknownChoice;
 use crate::geometry::Point;
 use serde::{Deserialize, Serialize};
-use std::fmt;
 use std::str::FromStr;
+use strum::{Display, VariantArray};
 
 /// What a file calls the centre of the top-left pixel, along both axes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    Serialize,
+    Deserialize,
+    Display,
+    VariantArray,
+    strum::VariantNames,
+)]
 pub enum Origin {
     /// (0, 0): this crate, NumPy, OpenCV, integer ROIs and, since 1.52t, all point ROIs of ImageJ.
     #[default]
     #[serde(rename = "0")]
+    #[strum(serialize = "0")]
     Zero,
     /// (0.5, 0.5): distances from the top-left corner, as WebPlotDigitizer counts.
     #[serde(rename = "0.5")]
+    #[strum(serialize = "0.5")]
     Half,
     /// (1, 1): MATLAB.
     #[serde(rename = "1")]
+    #[strum(serialize = "1")]
     One,
 }
 
 impl Origin {
-    /// Every origin.
-    pub const ALL: [Self; 3] = [Self::Zero, Self::Half, Self::One];
-
     /// The coordinate of the centre of the first pixel: 0, 0.5 or 1.
     pub const fn value(self) -> f64 {
         match self {
@@ -37,25 +50,14 @@ impl Origin {
     }
 }
 
-impl fmt::Display for Origin {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::Zero => "0",
-            Self::Half => "0.5",
-            Self::One => "1",
-        })
-    }
-}
-
 impl FromStr for Origin {
-    type Err = String;
+    type Err = UnknownChoice;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    /// Reads it as a number: 1.0 is 1.
+    fn from_str(text: &str) -> Result<Self, UnknownChoice> {
         let value: Option<f64> = text.parse().ok();
-        Self::ALL
-            .into_iter()
-            .find(|o| value == Some(o.value()))
-            .ok_or_else(|| format!("“{text}” is none of 0, 0.5, 1"))
+        let fits = |o: &Self| value == Some(o.value());
+        Self::VARIANTS.iter().copied().find(fits).ok_or_else(|| UnknownChoice::among::<Self>(text))
     }
 }
 
@@ -65,7 +67,7 @@ mod tests {
 
     #[test]
     fn the_first_pixel_is_zero_whatever_the_file_calls_it() {
-        for origin in Origin::ALL {
+        for &origin in Origin::VARIANTS {
             let first = Point::new(origin.value(), origin.value());
             assert_eq!(origin.to_zero_based(first), Point::new(0., 0.));
             assert_eq!(origin.to_string().parse(), Ok(origin));

@@ -2,7 +2,7 @@ use super::MetricGroup::{Nearest, Samplers};
 use super::Quantity::{Length, Plain};
 use super::{Metric, metric};
 use crate::report::tables::EdgeRule::{All, Bound, Interior, Own};
-use crate::report::tables::{Part, column};
+use crate::report::tables::column;
 
 pub(super) const NEAREST: &[Metric] = &[
     metric(
@@ -100,21 +100,19 @@ pub(super) const SAMPLERS: &[Metric] = &[
             "l_infinity_SAMPLER",
             "ratio",
             "Greatest difference of the mosaic's pair correlation function and the mean one of \
-                samples of as many points in the same window; one column a sampler. Pairs hidden \
+                samples of as many points in the same window; one column per sampler. Pairs hidden \
                 by the border are made up for by the window's set covariance.",
         )
         .edge(Own)
         .source("Lanaro et al. 2020")
-        .only(Part::Images)
         .per_sampler(|s, name| s.mosaic().distance_to(name).into()),
     ),
     metric(
         Samplers,
         Plain,
-        column("closest_sampler", "text", "The sampler of the least of these distances.")
+        column("closest_sampler", "text", "Sampler with the smallest of these distances.")
             .edge(Own)
             .source("Lanaro et al. 2020")
-            .only(Part::Images)
             .of(|s| s.mosaic().closest_sampler().into()),
     ),
 ];

@@ -1,5 +1,5 @@
 use super::unit::Unit;
-use super::{Metric, MetricSelection, Quantity, Subject, SummaryKind, metrics};
+use super::{Metric, MetricGroup, MetricSelection, Quantity, Subject, SummaryKind, metrics};
 use crate::report::tables::{Value, sheet};
 use crate::report::{Cell, ReportError};
 
@@ -74,6 +74,8 @@ impl Summary {
     ) -> Self {
         let columns: Vec<Column> = metrics()
             .filter(|m| m.is_of(kind))
+            // where nothing was compared, nothing is closest
+            .filter(|m| m.group != MetricGroup::Samplers || !samplers.is_empty())
             .flat_map(|m| columns(m, kind, samplers))
             .filter(|c| selection.has(c.metric, &c.name))
             .collect();

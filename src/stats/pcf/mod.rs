@@ -1,3 +1,4 @@
+use crate::choice::UnknownChoice;
 mod smoother;
 
 use super::StatsError;
@@ -11,10 +12,29 @@ use serde::{Deserialize, Serialize};
 pub use smoother::Kernel;
 pub(super) use smoother::Smoother;
 use std::f64::consts::TAU;
+use strum::{Display, EnumString, VariantArray, VariantNames};
 
 /// How the pairs that the border hides are made up for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    Serialize,
+    Deserialize,
+    Display,
+    EnumString,
+    VariantArray,
+    VariantNames,
+)]
 #[serde(rename_all = "snake_case")]
+#[strum(
+    serialize_all = "kebab-case",
+    parse_err_ty = UnknownChoice,
+    parse_err_fn = UnknownChoice::among::<EdgeCorrection>
+)]
 pub enum EdgeCorrection {
     /// The sum at r is divided by the isotropised set covariance, in a w × h window 1 − 2r(w+h)/(πwh) + r²/(πwh); beyond
     /// the shorter side, where that does not hold, translation weights. In a polygon the covariance is averaged over

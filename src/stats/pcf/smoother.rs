@@ -1,10 +1,30 @@
 use super::PcfOptions;
+use crate::choice::UnknownChoice;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
+use strum::{Display, EnumString, VariantArray, VariantNames};
 
 /// Shape of the kernel that smooths pair distances; all have integral 1 and the same standard deviation, the bandwidth.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    Serialize,
+    Deserialize,
+    Display,
+    EnumString,
+    VariantArray,
+    VariantNames,
+)]
 #[serde(rename_all = "snake_case")]
+#[strum(
+    serialize_all = "kebab-case",
+    parse_err_ty = UnknownChoice,
+    parse_err_fn = UnknownChoice::among::<Kernel>
+)]
 pub enum Kernel {
     /// exp(−t²/2σ²), cut at 6.5 σ: what the paper's numbers were made with.
     #[default]

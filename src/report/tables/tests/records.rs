@@ -61,7 +61,7 @@ pub fn records(held: &mut Held) {
         ("verdict", "differs".into()),
         ("p_envelope", 0.03.into()),
         ("outside_r_in_spacings", "0.5000–0.7500 1.2500–1.5000".into()),
-        ("l_infinity", 0.41.into()),
+        ("l_infinity_to_simulations", 0.41.into()),
         ("p_l_infinity", 0.02.into()),
         ("l_infinity_usual", 0.1.into()),
         ("l_infinity_95_percent", 0.2.into()),

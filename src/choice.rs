@@ -1,0 +1,36 @@
+//! The error of a word that names none of the variants of an enum.
+
+use strum::VariantNames;
+use thiserror::Error;
+
+/// A word that is none of those that may be chosen.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("“{given}” is none of {}", .choices.join(", "))]
+pub struct UnknownChoice {
+    given: String,
+    choices: &'static [&'static str],
+}
+
+impl UnknownChoice {
+    /// Returns the error of `given`, which names no variant of `T`.
+    pub fn among<T: VariantNames>(given: &str) -> Self {
+        Self { given: given.to_owned(), choices: T::VARIANTS }
+    }
+
+    /// Returns the words that may be chosen.
+    pub const fn choices(&self) -> &'static [&'static str] {
+        self.choices
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::image::Modality;
+
+    #[test]
+    fn the_error_names_every_choice() {
+        let error = "infrared".parse::<Modality>().unwrap_err();
+        assert_eq!(error.to_string(), "“infrared” is none of confocal, split, histology");
+        assert_eq!(error.choices(), ["confocal", "split", "histology"]);
+    }
+}

@@ -1,0 +1,10 @@
+//! The names that most uses of this library begin with: `use conemosaic::prelude::*;`.
+
+pub use crate::compare::{MatchOptions, match_points};
+pub use crate::detect::{DetectError, DetectOptions, Detection, Detections, Detector, detect};
+pub use crate::geometry::{Point, Window};
+pub use crate::image::{Modality, Plane, Polarity, read};
+pub use crate::mosaic::{LengthUnit, Mosaic, Scale};
+pub use crate::render::{MosaicOptions, RenderOptions, simulate};
+pub use crate::sample::Sampler;
+pub use crate::stats::{MeasureOptions, Measures, PcfOptions, measure, pcf};
