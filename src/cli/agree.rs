@@ -102,5 +102,5 @@ fn words(outcome: &AgreementOutcome) -> String {
             ]
         })
         .collect();
-    short_table(&headers, &rows, "agreement.csv", false)
+    short_table(&headers, &rows, "agreement.csv")
 }

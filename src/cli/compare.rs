@@ -95,7 +95,7 @@ fn distances(outcome: &CoordinatesOutcome, samplers: &[&'static dyn Sampler]) ->
                 .collect()
         })
         .collect();
-    short_table(&headers, &rows, "l_infinity.csv", warned(outcome))
+    short_table(&headers, &rows, "l_infinity.csv") + &warned(outcome, "l_infinity.csv")
 }
 
 /// One row a file: the samplers it could be of, or how it differs from the one nearest to it.
@@ -122,7 +122,7 @@ fn verdicts(outcome: &CoordinatesOutcome) -> String {
             Some(vec![r.file.clone(), distance, usual, most, p, told.join("; ") + &others])
         })
         .collect();
-    short_table(&headers, &rows, "verdicts.csv", false)
+    short_table(&headers, &rows, "verdicts.csv")
 }
 
 /// A line a sampler, or one for all of them where nothing was tested.

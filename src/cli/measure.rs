@@ -1,6 +1,6 @@
 use super::args::{Common, Defaults, PlanArgs};
 use super::mosaic_args::MosaicArgs;
-use super::{Done, ending_words, short_table};
+use super::{Done, ending_words, short_table, warnings_table};
 use anyhow::Result;
 use clap::Args;
 use conemosaic::batch::{CoordinatesOptions, CoordinatesOutcome, coordinate_files, measure_files};
@@ -98,7 +98,7 @@ fn summary(outcome: &CoordinatesOutcome, options: &CoordinatesOptions) -> String
     let subjects: Vec<Subject> = outcome.records.iter().map(Subject::Coordinates).collect();
     if let Some((headers, rows)) = options.plan.summary(SummaryKind::Coordinates).readable(&subjects) {
         let headers: Vec<&str> = headers.iter().map(String::as_str).collect();
-        return short_table(&headers, &rows, "summary.csv", false);
+        return short_table(&headers, &rows, "summary.csv") + &warned(outcome, "summary.csv");
     }
     let scaled = outcome.records.iter().any(|r| r.mosaic.um_per_unit.is_some());
     let density = if scaled { "points/mm²" } else { "points/unit²" };
@@ -121,7 +121,7 @@ fn summary(outcome: &CoordinatesOutcome, options: &CoordinatesOptions) -> String
             ]
         })
         .collect();
-    short_table(&headers, &rows, "summary.csv", warned(outcome))
+    short_table(&headers, &rows, "summary.csv") + &warned(outcome, "summary.csv")
 }
 
 /// The file's name, marked if there is a warning.
@@ -129,6 +129,8 @@ pub fn marked(record: &CoordinatesRecord) -> String {
     format!("{}{}", record.file, if record.warnings.is_empty() { "" } else { " !" })
 }
 
-pub fn warned(outcome: &CoordinatesOutcome) -> bool {
-    outcome.records.iter().any(|r| !r.warnings.is_empty())
+/// The warnings of the files, as the end of a table.
+pub fn warned(outcome: &CoordinatesOutcome, table: &str) -> String {
+    let files = outcome.records.iter().map(|r| (r.file.as_str(), r.warnings.as_slice()));
+    warnings_table(files, table)
 }

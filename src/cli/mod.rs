@@ -198,14 +198,30 @@ fn one_line(text: &str) -> String {
 /// More rows than these are for the file.
 const MOST_ROWS: usize = 24;
 
-/// The first rows of a table; where the others are, and the warnings that rows are marked for.
-fn short_table(headers: &[&str], rows: &[Vec<String>], file: &str, warned: bool) -> String {
+/// The first rows of a table, and where the others are.
+fn short_table(headers: &[&str], rows: &[Vec<String>], file: &str) -> String {
     let mut text = table(headers, &rows[..rows.len().min(MOST_ROWS)]);
     if rows.len() > MOST_ROWS {
         text.push_str(&format!("\n… and {} more in {file}", rows.len() - MOST_ROWS));
     }
-    if warned {
-        text.push_str(&format!("\n! has a warning: see the column warnings of {file}"));
+    text
+}
+
+/// Files whose warnings are told on the terminal.
+const MOST_WARNED: usize = 5;
+
+/// The warnings of the first files that have any, and where the others are; empty without.
+fn warnings_table<'a>(warned: impl Iterator<Item = (&'a str, &'a [String])>, file: &str) -> String {
+    let warned: Vec<(&str, &[String])> = warned.filter(|(_, warnings)| !warnings.is_empty()).collect();
+    let mut text = String::new();
+    for (name, warnings) in warned.iter().take(MOST_WARNED) {
+        for warning in *warnings {
+            text.push_str(&format!("\n! {}", one_line(&format!("{name}: {warning}"))));
+        }
+    }
+    if warned.len() > MOST_WARNED {
+        let more = counted(warned.len() - MOST_WARNED, "file");
+        text.push_str(&format!("\n! … and {more} more with warnings: column warnings of {file}"));
     }
     text
 }

@@ -1,5 +1,5 @@
 use super::args::{Common, CoordinateArgs, Defaults, DetectArgs, PlanArgs};
-use super::{Done, ending_words, short_table};
+use super::{Done, ending_words, short_table, warnings_table};
 use anyhow::{Result, bail};
 use clap::Args;
 use conemosaic::batch::{
@@ -171,10 +171,12 @@ impl Run {
         let subjects: Vec<Subject> = need.iter().map(|&k| Subject::Image(&outcome.records[k])).collect();
         if let Some((headers, rows)) = summary.readable(&subjects).filter(|(_, rows)| !rows.is_empty()) {
             let headers: Vec<&str> = headers.iter().map(String::as_str).collect();
-            text = format!("{}\n\n", short_table(&headers, &rows, "summary.csv", false));
+            text = format!("{}\n\n", short_table(&headers, &rows, "summary.csv"));
         } else if !rows.is_empty() {
-            let warned = outcome.records.iter().any(|r| !r.warnings.is_empty());
-            text = short_table(&headers, &rows, "summary.csv", warned);
+            text = short_table(&headers, &rows, "summary.csv");
+            let warned = need.iter().map(|&k| &outcome.records[k]);
+            let warned = warned.map(|r| (r.name.as_str(), r.warnings.as_slice()));
+            text.push_str(&warnings_table(warned, "summary.csv"));
             text.push_str("\n\n");
         }
         let cones: usize = outcome.records.iter().map(|r| r.mosaic.n).sum();

@@ -1,11 +1,14 @@
 use crate::batch::BatchError;
 use crate::compare::{NotCompared, ReferenceCurve, SamplerCurves, l_infinity};
 use crate::detect::Detections;
+use crate::geometry::Point;
 use crate::report::{MosaicRecord, SamplerDistance, counted};
 use crate::stats::Measures;
 
 /// Fewer cones than this leave every statistic uncertain: the RI of 30 points scatters by about 15 %.
 const FEW: usize = 30;
+/// Fewer points than this may be whole numbers by chance or in an example.
+const ROUNDED: usize = 10;
 /// Below this confidence in the modality or the spacing, a person should look.
 pub(in crate::batch) const CONFIDENT: f64 = 0.8;
 
@@ -26,11 +29,20 @@ pub(super) fn not_compared(curves: &SamplerCurves) -> impl Iterator<Item = Strin
     curves.missing.iter().map(NotCompared::to_string)
 }
 
-/// What a reader of the numbers should know.
+/// Tells whether points were rounded to whole units, whatever their origin: rare by chance from a
+/// few points on.
+fn whole_numbers(points: &[Point]) -> bool {
+    let Some(first) = points.first() else { return false };
+    let whole = |d: f64| (d - d.round()).abs() < 1e-9;
+    points.len() >= ROUNDED && points.iter().all(|p| whole(p.x - first.x) && whole(p.y - first.y))
+}
+
+/// Warns of what a reader of the numbers should know.
 pub(super) fn warnings_of(
     found: Option<&Detections>,
     record: &MosaicRecord,
     measures: &Measures,
+    points: &[Point],
 ) -> Vec<String> {
     let mut warnings = Vec::new();
     if let Some(found) = found {
@@ -47,6 +59,13 @@ pub(super) fn warnings_of(
                 found.ring_spacing, found.spacing
             ));
         }
+    }
+    if found.is_none() && whole_numbers(points) {
+        warnings.push(
+            "all coordinates are whole numbers: rounding lowers the regularity index (by 6 to 20 % at spacings of 5 to 10 \
+             px) and can change which sampler is closest; export them with decimals if there are any"
+                .into(),
+        );
     }
     if record.n < FEW {
         warnings.push(format!("only {}: every statistic is uncertain", counted(record.n, "point")));

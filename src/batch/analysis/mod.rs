@@ -89,7 +89,7 @@ pub(super) fn analyse(
     record.verdicts = verdicts::records(&verdicts);
     let compared = clock.elapsed().as_secs_f64();
 
-    let mut warnings = warnings_of(specimen.found, &record, &measures);
+    let mut warnings = warnings_of(specimen.found, &record, &measures, mosaic.points());
     if specimen.outside > 0 {
         warnings.push(format!("{} points outside the window are left out", specimen.outside));
     }

@@ -151,7 +151,7 @@ pub(super) fn rows(
             let mut record = MosaicRecord::new(&roi, &measures, Vec::new());
             record.labels.clone_from(&whole.labels);
             record.place = whole.place;
-            let warnings = warnings_of(None, &record, &measures);
+            let warnings = warnings_of(None, &record, &measures, &[]);
             let (file, name) = (input.path.display().to_string(), input.name.clone());
             Ok(CoordinatesRecord { file, name, outside: 0, mosaic: record, warnings })
         };

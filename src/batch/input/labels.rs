@@ -42,6 +42,17 @@ impl FromStr for GroupBy {
     }
 }
 
+impl GroupBy {
+    /// Takes a rule that is nothing but names of columns of the manifest for those columns: a person
+    /// who writes `diagnosis` beside such a manifest means no regular expression.
+    #[must_use]
+    pub fn with(self, manifest: &Manifest) -> Self {
+        let Self::Name(Grouping::Pattern(pattern)) = &self else { return self };
+        let names: Vec<String> = pattern.as_str().split(',').map(|n| n.trim().to_owned()).collect();
+        if names.iter().all(|name| manifest.columns().contains(name)) { Self::Columns(names) } else { self }
+    }
+}
+
 /// Densities this many times the expected one, or its part, are rare in healthy eyes: in the foveal centre, where eyes differ most,
 /// Curcio et al. (1990) counted 100 000 to 324 000 per mm², 0.5 to 1.6 times their mean.
 const UNLIKELY: f64 = 2.;

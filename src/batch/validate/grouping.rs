@@ -42,7 +42,7 @@ impl Grouping {
                 let found = pattern.captures(name);
                 let group = found.as_ref().and_then(|c| c.get(1).or_else(|| c.get(0)));
                 group.map(|g| g.as_str().to_owned()).filter(|g| !g.is_empty()).ok_or_else(|| {
-                    format!("“{name}” has no match for {pattern}: give a --group-by that fits every name")
+                    format!("“{name}” has no match for {pattern}: give a rule that fits every name, or a manifest with a column of that name")
                 })
             }
             Self::Table(table) => table
@@ -74,6 +74,6 @@ mod tests {
     fn names_without_a_group_say_what_to_do() {
         assert!(group("prefix:0", "a").unwrap_err().contains("1 or more"));
         assert!(group("(", "a").unwrap_err().contains("regular expression"));
-        assert!(group("x", "a").unwrap_err().contains("--group-by"));
+        assert!(group("x", "a").unwrap_err().contains("a rule that fits"));
     }
 }

@@ -19,7 +19,8 @@ pub struct SummaryArgs {
     /// superior, inferior, of the retina) bring the density of Curcio et al. (1990) at that place beside the measured one
     #[arg(long, value_name = "FILE")]
     manifest: Option<PathBuf>,
-    /// Also write groups.csv, mean, SD and number of every column by group: column:NAME[,NAME] of the manifest, prefix:N (the
+    /// Also write groups.csv, mean, SD and number of every column by group: a column of the manifest
+    /// (NAME or column:NAME[,NAME]), prefix:N (the
     /// first N parts of the name between underscores) or a regular expression on the name
     #[arg(long, value_name = "RULE")]
     group_by: Option<GroupBy>,
@@ -35,6 +36,10 @@ impl SummaryArgs {
         if manifest.is_none() && matches!(self.group_by, Some(GroupBy::Columns(_))) {
             bail!("--group-by column:NAME needs --manifest FILE");
         }
-        Ok(Labels { manifest, group_by: self.group_by.clone() })
+        let group_by = match (&self.group_by, &manifest) {
+            (Some(rule), Some(manifest)) => Some(rule.clone().with(manifest)),
+            (rule, _) => rule.clone(),
+        };
+        Ok(Labels { manifest, group_by })
     }
 }
