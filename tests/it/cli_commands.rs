@@ -78,14 +78,14 @@ fn the_same_window_has_three_spellings() {
         let row = &place.table(&format!("{out}/summary.csv"))[0];
         assert_eq!((row["n"].as_str(), row["outside_window"].as_str()), ("5", "1"));
         assert!((number(row, "density") - 5. / 22500.).abs() < 1e-15);
-        assert!(row["warnings"].contains("1 points outside"), "{}", row["warnings"]);
+        assert!(row["warnings"].contains("1 point outside the window is left out"), "{}", row["warnings"]);
     }
     for file in ["a.pcf.csv", "summary.csv"] {
         assert_eq!(place.read(&format!("1/{file}")), place.read(&format!("2/{file}")));
         assert_eq!(place.read(&format!("1/{file}")), place.read(&format!("3/{file}")));
     }
     let said = place.ok(&["measure", "a.csv", "--window", "150x150", "--out", "1"]).stdout;
-    assert!(said.contains("a.csv !") && said.contains("column warnings of summary.csv"), "{said}");
+    assert!(said.contains("a.csv !") && said.contains("\n! a.csv: only 5 points"), "{said}");
 }
 
 #[test]
@@ -135,11 +135,14 @@ fn compare_keeps_the_samplers_asked_for_in_their_order() {
     assert!(number(row, "jittered") < number(row, "square"));
     let files = [
         "a.envelope.csv",
+        "a.pcf.csv",
         "a.verdict.svg",
         "finding.csv",
         "l_infinity.csv",
         "options.json",
         "regularity.csv",
+        "summary.csv",
+        "summary.json",
         "verdicts.csv",
     ];
     assert_eq!(place.names("out"), files);

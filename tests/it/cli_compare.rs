@@ -40,7 +40,7 @@ fn a_mosaic_is_as_its_own_sampler_and_differs_from_another() {
     assert!(text.contains("as bridson: p = ") && text.contains("; differs from 1 more"), "{text}");
     let envelope = place.header("out/b.envelope.csv");
     assert_eq!(envelope[..5], ["r", "g", "mean_bridson", "low_bridson", "high_bridson"]);
-    assert!(place.read("out/b.verdict.svg").contains("jittered  p = 0.0050"));
+    assert!(place.read("out/b.verdict.svg").contains("jittered, p = 0.0050"));
 }
 
 #[test]

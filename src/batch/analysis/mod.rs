@@ -25,7 +25,7 @@ use crate::detect::{Detections, FourierEstimate, fourier_spacing};
 use crate::image::Plane;
 use crate::mosaic::Mosaic;
 use crate::report::tables::RoiRow;
-use crate::report::{LandmarkRecord, MosaicRecord};
+use crate::report::{LandmarkRecord, MosaicRecord, counted};
 use crate::stats::{Functions, Maps, Measures, PowerSpectrum, functions, measure, spectrum};
 use measured::{distances, not_compared, warnings_of};
 use std::time::Instant;
@@ -91,7 +91,11 @@ pub(super) fn analyse(
 
     let mut warnings = warnings_of(specimen.found, &record, &measures, mosaic.points());
     if specimen.outside > 0 {
-        warnings.push(format!("{} points outside the window are left out", specimen.outside));
+        let (points, are) = match specimen.outside {
+            1 => ("1 point".to_owned(), "is"),
+            n => (counted(n, "point"), "are"),
+        };
+        warnings.push(format!("{points} outside the window {are} left out"));
     }
     warnings.extend(not_compared(&curves));
     warnings.extend(no_verdicts);

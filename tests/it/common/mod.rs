@@ -92,7 +92,7 @@ impl Place {
         self.ok(&["render", "--width", &width, "--height", &height, "--seed", &seed, "--out", path, "-q"]);
     }
 
-    /// Every file below a folder, by its path in it.
+    /// Every file below a folder but those of its ledger, by its path in it.
     pub fn files(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
         let mut found = BTreeMap::new();
         collect(&self.path(folder), &self.path(folder), &mut found);
@@ -129,6 +129,10 @@ fn collect(root: &Path, folder: &Path, found: &mut BTreeMap<String, Vec<u8>>) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries {
         let path = entry.unwrap().path();
+        // the ledger of a result folder is the program's own business
+        if path.ends_with(".conemosaic") {
+            continue;
+        }
         if path.is_dir() {
             collect(root, &path, found);
         } else {
