@@ -13,7 +13,7 @@ pub fn words(error: &BatchError) -> String {
     }
 }
 
-const fn options_for(error: &BatchError) -> Option<&'static str> {
+fn options_for(error: &BatchError) -> Option<&'static str> {
     Some(match error {
         BatchError::Output { .. }
         | BatchError::ForeignFolder { .. }
@@ -23,13 +23,16 @@ const fn options_for(error: &BatchError) -> Option<&'static str> {
         BatchError::Nowhere { .. } | BatchError::NothingCropped { .. } | BatchError::CropUnit { .. } => {
             "--window, --crop"
         }
-        BatchError::NoTorus { .. } => "--torus, --window WxH",
+        BatchError::NoTorus { .. } => "--torus, --window",
         BatchError::NoScale { .. } | BatchError::ShrinkageWithoutScale { .. } => {
             "--um-per-px, --scale-table, --px-per-degree, --field-um or --field-degrees"
         }
         BatchError::Foreign { .. } => "--replace-corrections, --out",
         BatchError::Corrected { .. } => "leave out --fresh, or --replace-corrections, or another --out",
         BatchError::NoRoi { .. } => "--roi-side",
+        BatchError::ScaleTable(_) => "--scale-table, --unscaled",
+        BatchError::Group(_) => "--group-by, --manifest",
+        BatchError::Pairing { problem, .. } if problem.contains("folder of the images") => "--images, --size",
         _ => return None,
     })
 }

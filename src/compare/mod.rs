@@ -7,13 +7,12 @@ mod samplers;
 
 pub use agreement::{
     Agreement, ClusteredAgreement, Interval, Intraclass, RESAMPLES, SubjectMean, agreement,
-    agreement_of_clusters, bootstrap, intraclass, least_p, mean_over_subjects, sign_flip_test,
+    agreement_of_clusters, bootstrap, clusters, intraclass, least_p, mean_over_subjects, sign_flip_test,
 };
 pub use marks::{
     Assignment, Difference, Froc, FrocPoint, GroupSummary, Judged, JudgedImage, MatchError, MatchOptions,
     Matching, MeanOverGroups, Pair, Rates, Reliability, ReliabilityBin, Score, Summary, Verdict, by_group,
-    clusters, compare_scores, froc, intervals, judge, match_points, mean_over_groups, reliability, summarise,
-    validate,
+    compare_scores, froc, intervals, judge, match_points, mean_over_groups, reliability, summarise, validate,
 };
 #[doc(hidden)]
 pub use samplers::make_table;

@@ -6,36 +6,35 @@ use std::path::{Path, PathBuf};
 
 /// Modules that each module may import, itself aside.
 const ALLOWED: &[(&str, &[&str])] = &[
+    ("choice", &[]),
     ("files", &[]),
     ("geometry", &[]),
     ("numeric", &[]),
-    ("image", &["files", "geometry", "numeric"]),
-    ("mosaic", &["files", "geometry", "numeric"]),
-    ("stats", &["geometry", "numeric", "mosaic"]),
+    ("image", &["choice", "files", "geometry", "numeric"]),
+    ("mosaic", &["choice", "files", "geometry", "numeric"]),
+    ("stats", &["choice", "geometry", "numeric", "mosaic"]),
     ("sample", &["geometry", "numeric", "mosaic", "stats"]),
-    ("detect", &["image", "geometry", "numeric", "mosaic"]),
-    ("compare", &["geometry", "numeric", "mosaic", "stats", "sample"]),
-    // from detect only the words Modality and Polarity
-    ("render", &["image", "geometry", "numeric", "mosaic", "detect"]),
+    ("detect", &["choice", "image", "geometry", "numeric", "mosaic"]),
+    ("compare", &["choice", "geometry", "numeric", "mosaic", "stats", "sample"]),
+    ("render", &["image", "geometry", "numeric", "mosaic"]),
     // writes down the results of all of them: needs their types
-    ("report", &["files", "image", "geometry", "numeric", "mosaic", "stats", "compare", "detect"]),
+    ("report", &["image", "geometry", "numeric", "mosaic", "stats", "sample", "compare", "detect"]),
     (
         "batch",
         &[
-            "files", "image", "geometry", "numeric", "mosaic", "stats", "sample", "detect", "compare",
-            "render", "report",
+            "choice", "files", "image", "geometry", "numeric", "mosaic", "stats", "sample", "detect",
+            "compare", "report",
         ],
     ),
 ];
 
 /// Files and folders below `src` whose strings may name flags of the command line: the command line itself, and tables
 /// and pages that say which command writes them.
-const FLAGS: &[&str] = &["cli", "batch", "report/tables", "report/metrics", "report/landmarks.rs"];
+const FLAGS: &[&str] = &["cli", "report/tables", "report/metrics", "report/landmarks.rs"];
 
-/// What may hold two hyphens before a letter elsewhere: how to build the program, an error of a file's reader whose remedy
-/// the command line has yet to give, and the colours of a page's style sheet.
-const STRINGS: &[&str] =
-    &["cargo install --path . --features onnx", "or work in pixels (--unscaled)", "var(--", ":root {"];
+/// What may hold two hyphens before a letter elsewhere: how to build the program, and the colours of a page's
+/// style sheet.
+const STRINGS: &[&str] = &["cargo install --path . --features onnx", "var(--", ":root {"];
 
 fn source() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("src")

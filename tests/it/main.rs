@@ -10,6 +10,7 @@ mod cli_metrics;
 mod cli_model;
 mod cli_page;
 mod cli_paper;
+mod cli_results;
 mod cli_rois;
 mod cli_run;
 mod cli_spectrum;

@@ -1,6 +1,7 @@
 //! Where the cones of an image come from: this program, marks from elsewhere, or this program and a
 //! person who corrected them.
 
+use super::done::{POINTS, earlier_cones};
 use super::{GivenCones, IMAGES, Job};
 use crate::batch::detect::{describe, detect_in, formatted};
 use crate::batch::output::Standing;
@@ -14,9 +15,6 @@ use crate::report::{ConesFrom, counted};
 use sha2::{Digest, Sha256};
 use std::fs;
 use std::path::Path;
-
-/// The file of an image's cones in its folder.
-pub(super) const POINTS: &str = "points.csv";
 
 /// Where the cones of a run come from.
 #[derive(Clone, Debug)]
@@ -115,7 +113,7 @@ impl Job<'_> {
     /// corrected before an earlier run.
     pub(super) fn is_corrected(&self, input: &Input) -> bool {
         let listed = format!("{IMAGES}/{}/{POINTS}", input.name);
-        let before = || super::resume::cones_of(&self.images.join(&input.name)) == Some(ConesFrom::Corrected);
+        let before = || earlier_cones(&self.images.join(&input.name)) == Some(ConesFrom::Corrected);
         match self.out.standing(&listed) {
             Standing::Missing => false,
             Standing::Own => before(),

@@ -1,4 +1,4 @@
-use super::cones::POINTS;
+use super::done::POINTS;
 use crate::batch::input::image_name;
 use crate::batch::{BatchError, Input, coordinate_files};
 use crate::mosaic::io::ReadOptions;

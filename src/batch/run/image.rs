@@ -1,7 +1,8 @@
 //! One image: its cones, their analysis, its folder.
 
-use super::cones::{Cones, Origin, POINTS, cones_of};
-use super::record::{METRICS, metrics};
+use super::cones::{Cones, Origin, cones_of};
+use super::done::{Done, METRICS, OVERLAY, POINTS, Seconds};
+use super::record::metrics;
 use super::resume::{earlier, fingerprint};
 use super::{IMAGES, Job};
 use crate::batch::analysis::{Analysis, Layout, Specimen, analyse, write};
@@ -10,34 +11,9 @@ use crate::batch::output::hex;
 use crate::batch::{BatchError, Input};
 use crate::image::Plane;
 use crate::mosaic::{LengthUnit, Mosaic};
-use crate::report::tables::RoiRow;
-use crate::report::{DetectionRecord, ImageRecord, LandmarkRecord};
-use serde::Serialize;
+use crate::report::{DetectionRecord, ImageRecord};
 use sha2::{Digest, Sha256};
 use std::time::Instant;
-
-/// The picture with its cones.
-pub(super) const OVERLAY: &str = "overlay.png";
-
-/// Wall-clock seconds of the stages of one image. A core that helps another image meanwhile counts
-/// on both.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
-pub(super) struct Seconds {
-    read: f64,
-    detect: f64,
-    measure: f64,
-    compare: f64,
-    report: f64,
-}
-
-/// What is kept of an image when its results are written.
-pub(super) struct Done {
-    pub record: ImageRecord,
-    pub landmarks: Option<LandmarkRecord>,
-    pub regions: Vec<RoiRow>,
-    /// `None` if earlier results were kept.
-    pub seconds: Option<Seconds>,
-}
 
 /// Works on one image and writes its folder, or keeps that of an earlier run.
 pub(super) fn one_image(input: &Input, job: &Job) -> Result<(Done, String), BatchError> {

@@ -1,6 +1,7 @@
 //! The main job: the cones of every image, found or given, analysed and reported into one folder.
 
 mod cones;
+mod done;
 mod given;
 mod image;
 mod record;
@@ -16,7 +17,8 @@ use super::{BatchError, Crop, Failure, ImageWindow, Input, Progress};
 use crate::compare::References;
 use crate::report::tables::RoiRow;
 use crate::report::{ImageRecord, LandmarkRecord, Subject, SummaryKind, page};
-use image::{Done, one_image};
+use done::Done;
+use image::one_image;
 use std::fs;
 use std::path::Path;
 use std::time::Instant;

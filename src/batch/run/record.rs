@@ -1,6 +1,6 @@
 //! The records of a run: `metrics.json` of every image, `run.json` of all.
 
-use super::image::Done;
+use super::done::Done;
 use super::{ConeSource, RunOptions};
 use crate::batch::analysis::Analysis;
 use crate::batch::output::Worked;
@@ -10,8 +10,6 @@ use crate::stats::{Histogram, PcfOptions};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::time::Instant;
-
-pub(super) const METRICS: &str = "metrics.json";
 
 /// All of `metrics.json`.
 #[derive(Serialize)]

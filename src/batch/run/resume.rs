@@ -1,9 +1,8 @@
 //! Results of an earlier run that still hold: the same image, options, cones and program, and every
 //! file as it was written.
 
-use super::cones::{Origin, POINTS};
-use super::image::{Done, OVERLAY};
-use super::record::METRICS;
+use super::cones::Origin;
+use super::done::{Done, METRICS, OVERLAY, POINTS};
 use super::{FAILED, IMAGES, Job};
 use crate::batch::analysis::{Plan, required_files};
 use crate::batch::input::Label;
@@ -16,7 +15,6 @@ use crate::report::{ConesFrom, ImageRecord, LandmarkRecord};
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use std::fs;
-use std::path::Path;
 
 /// What of `metrics.json` stands outside the record and is wanted again.
 #[derive(Deserialize)]
@@ -76,14 +74,4 @@ pub(super) fn earlier(job: &Job, input: &Input, sha256: &str, options_sha256: &s
     let regions = regions.into_iter().map(|r| RoiRow { file: file.clone(), ..r }).collect();
     let record = ImageRecord { file, name: input.name.clone(), ..record };
     Some(Done { record, landmarks, regions, seconds: None })
-}
-
-/// Returns where the cones of earlier results were from.
-pub(super) fn cones_of(folder: &Path) -> Option<ConesFrom> {
-    #[derive(Deserialize)]
-    struct Origin {
-        cones_from: ConesFrom,
-    }
-    let text = fs::read(folder.join(METRICS)).ok()?;
-    serde_json::from_slice::<Origin>(&text).ok().map(|o| o.cones_from)
 }

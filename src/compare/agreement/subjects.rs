@@ -1,5 +1,4 @@
-use super::{Interval, agreement};
-use crate::compare::clusters;
+use super::{Interval, agreement, clusters};
 
 /// A mean over subjects of whom some have several images.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
