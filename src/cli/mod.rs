@@ -216,7 +216,10 @@ fn warnings_table<'a>(warned: impl Iterator<Item = (&'a str, &'a [String])>, fil
     let mut text = String::new();
     for (name, warnings) in warned.iter().take(MOST_WARNED) {
         for warning in *warnings {
-            text.push_str(&format!("\n! {}", one_line(&format!("{name}: {warning}"))));
+            text.push_str(&format!(
+                "\n! {}",
+                one_line(&remedies::with_options(&format!("{name}: {warning}")))
+            ));
         }
     }
     if warned.len() > MOST_WARNED {

@@ -1,5 +1,5 @@
 use super::args::{Common, CoordinateArgs, DetectArgs, ScaleArgs};
-use super::{Done, ending_words};
+use super::{Done, ending_words, remedies};
 use anyhow::{Result, bail};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
@@ -206,7 +206,7 @@ impl Validate {
                 ));
             }
             for note in &analysis.notes {
-                text.push_str(&format!("note: {note}\n"));
+                text.push_str(&format!("note: {}\n", remedies::with_options(note)));
             }
             text.push('\n');
         }

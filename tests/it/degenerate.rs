@@ -81,6 +81,7 @@ fn empty(row: &std::collections::BTreeMap<String, String>) -> BTreeSet<String> {
     let known = ["_um", "_mm2", "_deg2", "_arcmin", "_arcmin2", "_um_per_unit"];
     let other = [
         "um_per_unit",
+        "um_per_px",
         "um_per_degree",
         "eccentricity_mm",
         "meridian",
@@ -90,6 +91,11 @@ fn empty(row: &std::collections::BTreeMap<String, String>) -> BTreeSet<String> {
     let unscaled = |name: &str| {
         known.iter().any(|end| name.ends_with(end))
             || other.contains(&name)
+            // the same in px, which the coordinates are in
+            || ["_px", "_per_px2", "_px2"]
+                .iter()
+                .filter_map(|end| name.strip_suffix(end))
+                .any(|stem| row.get(stem).is_some_and(String::is_empty))
             // a length in degrees, as there is one of the same name without unit; an angle has none
             || name.strip_suffix("_deg").is_some_and(|stem| row.contains_key(stem))
     };
@@ -105,7 +111,7 @@ fn what_few_points_do_not_define_is_empty_and_the_rest_is_not() {
     place.ok(&["measure", "in", "--window", "0,0,10,10", "--functions", "--out", "out", "-q"]);
     let rows = place.table("out/summary.csv");
     for (name, lists) in [
-        ("n0", &[&["spacing"][..], NEED_TWO, NEED_THREE, NEED_BOUND, NEED_MORE, NEED_RECOVERY][..]),
+        ("n0", &[&["spacing_density"][..], NEED_TWO, NEED_THREE, NEED_BOUND, NEED_MORE, NEED_RECOVERY][..]),
         ("n1", &[NEED_TWO, NEED_THREE, NEED_BOUND, NEED_MORE, NEED_RECOVERY]),
         ("n2", &[NEED_THREE, NEED_BOUND, NEED_MORE, NEED_RECOVERY]),
         ("n3", &[NEED_BOUND, NEED_MORE, NEED_RECOVERY]),
