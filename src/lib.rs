@@ -20,7 +20,7 @@
 //! let mosaic = found.mosaic(&image, Some(scale))?;
 //! let measures = measure(&mosaic, &MeasureOptions::default());
 //!
-//! let regularity = measures.nearest.ri.ok_or("all distances are equal")?;
+//! let regularity = measures.summary.nearest.ri.ok_or("all distances are equal")?;
 //! let cones_per_px2 = mosaic.density();
 //! let g = measures.pcf?.g;
 //! assert!(regularity > 3. && cones_per_px2 > 0.005 && g.len() == PcfOptions::default().bins);
@@ -29,6 +29,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+#[cfg(feature = "report")]
 pub mod batch;
 pub mod choice;
 pub mod compare;
@@ -40,6 +41,7 @@ pub mod mosaic;
 mod numeric;
 pub mod prelude;
 pub mod render;
+#[cfg(feature = "report")]
 pub mod report;
 pub mod sample;
 pub mod stats;

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod marks;
+#[cfg(feature = "report")]
 pub mod paper;
 mod samplers;
 
@@ -20,6 +21,7 @@ pub use samplers::{
     CompareError, Envelope, NotCompared, POOR_FIT, ReferenceCurve, References, SamplerCurves, SamplerVerdict,
     TargetFit, VerdictOptions, l_infinity, mean_curve, target_fit, verdict,
 };
+#[cfg(feature = "report")]
 pub(crate) use samplers::{curve, draw, of_sampler};
 
 /// The middle value, or the mean of the two middle ones; `None` without values.

@@ -34,7 +34,18 @@ pub(super) fn read_roi(name: &str, bytes: &[u8], wanted: Wanted) -> Result<RawFi
     Ok(file(vec![parse(name, bytes, wanted)?]))
 }
 
+/// Refuses a `RoiSet.zip`, for which this library was built without the feature `archives`.
+#[cfg(not(feature = "archives"))]
+pub(super) fn read_set(_bytes: &[u8], _wanted: Wanted) -> Result<RawFile, Located> {
+    Err(ReadFault::Archive {
+        expected: "a set of ImageJ ROIs (.zip)",
+        detail: "this build has no feature “archives”: unpack it and give the .roi files".into(),
+    }
+    .into())
+}
+
 /// A `RoiSet.zip` of the ROI manager.
+#[cfg(feature = "archives")]
 pub(super) fn read_set(bytes: &[u8], wanted: Wanted) -> Result<RawFile, Located> {
     let broken = |detail: &dyn std::fmt::Display| ReadFault::Archive {
         expected: "a set of ImageJ ROIs (.zip)",

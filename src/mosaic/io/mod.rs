@@ -4,10 +4,15 @@
 
 mod cells;
 mod delimited;
+#[cfg_attr(not(feature = "archives"), allow(dead_code, reason = "faults of archives and their members"))]
 mod error;
 mod group_table;
 mod header;
 mod identifier;
+#[cfg_attr(
+    not(feature = "archives"),
+    allow(unused_imports, dead_code, reason = "for the readers of archives")
+)]
 mod imagej;
 mod manifest;
 mod origin;
@@ -16,6 +21,10 @@ mod read;
 mod roi_table;
 mod scale_table;
 mod text;
+#[cfg_attr(
+    not(feature = "archives"),
+    allow(unused_imports, dead_code, reason = "for the readers of archives")
+)]
 mod webplotdigitizer;
 mod write;
 

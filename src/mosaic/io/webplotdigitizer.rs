@@ -55,7 +55,18 @@ pub(super) fn read_json(text: &str) -> Result<RawFile, Located> {
     })
 }
 
+/// Refuses a project as `.tar`, for which this library was built without the feature `archives`.
+#[cfg(not(feature = "archives"))]
+pub(super) fn read_tar(_bytes: &[u8]) -> Result<RawFile, Located> {
+    Err(ReadFault::Archive {
+        expected: "a WebPlotDigitizer project (.tar)",
+        detail: "this build has no feature “archives”: unpack it and give wpd.json".into(),
+    }
+    .into())
+}
+
 /// A project as `.tar`: the image and, in some folder, `wpd.json`.
+#[cfg(feature = "archives")]
 pub(super) fn read_tar(bytes: &[u8]) -> Result<RawFile, Located> {
     let broken = |e: std::io::Error| ReadFault::Archive {
         expected: "a WebPlotDigitizer project (.tar)",
