@@ -15,7 +15,7 @@ pub struct Metrics {
     /// List them (the default)
     #[arg(long)]
     list: bool,
-    /// As CSV, a row a column
+    /// As CSV, one row per column
     #[arg(long, conflicts_with_all = ["list", "markdown"])]
     csv: bool,
     /// As a page in Markdown

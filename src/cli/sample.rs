@@ -26,7 +26,8 @@ Examples:
   conemosaic sample bnot -n 5000 --density picture.png --out stipples.csv
   conemosaic sample --target-pcf measured/retina.pcf.csv -n 1024 --out like_retina.csv
 
-Writes x,y in [0, 1)² or the window, to the terminal without --out.")]
+Writes x,y in [0, 1)² or the window, to the terminal without --out. With --target-pcf also NAME.fit.json
+beside --out: how near the points come to the curve.")]
 pub struct Sample {
     /// Name of the sampler
     #[arg(required_unless_present_any = ["list", "target_pcf", "target_spectrum"])]

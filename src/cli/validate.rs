@@ -24,10 +24,10 @@ Marks are NAME_coords.csv or NAME.csv. A mark matches the nearest detection with
 
 Writes to scores/:
   index.html          all of it as a page, the worst images first
-  validation.csv      one row an image
+  validation.csv      one row per image
   validation.json     means, pooled rates, intervals, and everything below
   bland_altman.svg    agreement of count and density
-  groups.csv          with --group-by or --group-table: one row a group
+  groups.csv          with --group-by or --group-table: one row per group
   froc.csv, .svg      with scores: sensitivity and false alarms over the threshold
   reliability.csv, .svg  with scores from 0 to 1: are they the probability of a hit?
   comparison.csv, .svg   with --versus: paired differences of two detectors or graders
