@@ -1,5 +1,6 @@
 use super::{Score, Summary, summarise};
-use crate::compare::mean;
+use crate::compare::clusters;
+use crate::numeric::mean;
 use crate::stats::{Deviation, moments};
 use serde::Serialize;
 
@@ -32,20 +33,6 @@ pub struct MeanOverGroups {
     pub dice_sd: Option<f64>,
 }
 
-/// The images of every group, by index: groups in order of name, without names every image its own.
-pub fn clusters(names: &[Option<&str>]) -> Vec<Vec<usize>> {
-    let mut clusters: Vec<(Option<&str>, Vec<usize>)> = Vec::new();
-    let mut order: Vec<usize> = (0..names.len()).collect();
-    order.sort_by_key(|&i| (names[i], i));
-    for i in order {
-        match clusters.last_mut() {
-            Some((name, members)) if name.is_some() && *name == names[i] => members.push(i),
-            _ => clusters.push((names[i], vec![i])),
-        }
-    }
-    clusters.into_iter().map(|(_, members)| members).collect()
-}
-
 /// The summary of every group, in order of name. Images without a group are in none.
 pub fn by_group(names: &[Option<&str>], scores: &[Score]) -> Vec<GroupSummary> {
     let summary_of = |members: Vec<usize>| {
@@ -69,16 +56,4 @@ pub fn mean_over_groups(groups: &[GroupSummary]) -> Option<MeanOverGroups> {
         dice: mean(&values(|s| s.dice))?,
         dice_sd: moments(&values(|s| s.dice), Deviation::Sample).sd,
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn images_of_a_name_are_together_and_images_without_alone() {
-        let names = [Some("b"), None, Some("a"), Some("b"), None];
-        assert_eq!(clusters(&names), [vec![1], vec![4], vec![2], vec![0, 3]]);
-        assert!(clusters(&[]).is_empty());
-    }
 }

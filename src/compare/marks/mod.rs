@@ -11,7 +11,7 @@ mod validation;
 
 pub use comparison::{Difference, compare_scores};
 pub use froc::{Froc, FrocPoint, Judged, JudgedImage, Verdict, froc, judge};
-pub use groups::{GroupSummary, MeanOverGroups, by_group, clusters, mean_over_groups};
+pub use groups::{GroupSummary, MeanOverGroups, by_group, mean_over_groups};
 pub use matching::{Assignment, MatchError, MatchOptions, Matching, Pair, match_points};
 pub use reliability::{Reliability, ReliabilityBin, reliability};
 pub use summary::{Summary, intervals, summarise};
