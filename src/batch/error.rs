@@ -32,7 +32,7 @@ pub enum BatchError {
         expected: Cow<'static, str>,
     },
     /// Results cannot be written.
-    #[error("cannot write to {path}: {source}: choose another --out folder", path = path.display())]
+    #[error("cannot write to {path}: {source}: choose another folder for the results", path = path.display())]
     Output {
         /// The file or folder.
         path: PathBuf,
@@ -41,7 +41,7 @@ pub enum BatchError {
     },
     /// The window of coordinates is not known.
     #[error(
-        "{file}: no image of that name beside it to take the window from: give --window WxH, X0,Y0,X1,Y1, unit or a file of corners"
+        "{file}: no image of that name beside it to take the window from: give the window, or the images"
     )]
     NoImage {
         /// The coordinate file.
@@ -79,14 +79,14 @@ pub enum BatchError {
     },
     /// Opposite edges of a window that has none.
     #[error(
-        "{file}: --torus needs a rectangle, its window is a polygon: leave out --torus or give --window WxH"
+        "{file}: a torus needs a rectangle, its window is a polygon: give a rectangle, or do without the torus"
     )]
     NoTorus {
         /// The coordinate file.
         file: PathBuf,
     },
     /// A length in micrometres where no scale is known.
-    #[error("{file}: {what} is in µm, but the scale is not known: give --um-per-px or --scale-table")]
+    #[error("{file}: {what} is in µm, but the scale is not known: give a scale")]
     NoScale {
         /// The option.
         what: &'static str,
@@ -94,13 +94,13 @@ pub enum BatchError {
         file: PathBuf,
     },
     /// A shrinkage without a scale to apply it to.
-    #[error("{file}: --shrinkage changes micrometres, but no scale is known: give --um-per-px or another of the scale options", file = file.display())]
+    #[error("{file}: shrinkage changes micrometres, but no scale is known: give a scale", file = file.display())]
     ShrinkageWithoutScale {
         /// The file.
         file: PathBuf,
     },
     /// An input lies where results take the place of what is there.
-    #[error("{file} lies in {folder}, which results are written to: choose another --out folder", folder = folder.display())]
+    #[error("{file} lies in {folder}, which results are written to: choose another folder for the results", folder = folder.display())]
     Overlap {
         /// The image.
         file: PathBuf,
@@ -168,6 +168,14 @@ pub enum BatchError {
         /// Its unit.
         unit: LengthUnit,
     },
+    /// Reference marks without the image that they need.
+    #[error("{file}: {problem}")]
+    NoPicture {
+        /// The file of marks.
+        file: PathBuf,
+        /// What is missing, and the remedy.
+        problem: String,
+    },
     /// Reference marks without anything to hold against them.
     #[error("{file}: {problem}")]
     Pairing {
@@ -197,7 +205,7 @@ pub enum BatchError {
     #[error(transparent)]
     RoiTable(#[from] RoiTableError),
     /// A window that is smaller than the regions that are to slide over it.
-    #[error("{file}: no square of side {side} fits into the window: give a smaller --roi-side", file = file.display())]
+    #[error("{file}: no square of side {side} fits into the window: choose a smaller side", file = file.display())]
     NoRoi {
         /// The coordinate file.
         file: PathBuf,

@@ -1,6 +1,7 @@
 //! Which options help against an error. The library says what is wrong in neutral words.
 
 use conemosaic::batch::BatchError;
+use conemosaic::mosaic::io::ScaleTableError;
 
 /// Returns an error in words, with the options that help.
 pub fn words(error: &BatchError) -> String {
@@ -30,6 +31,8 @@ const fn options_for(error: &BatchError) -> Option<&'static str> {
         BatchError::Foreign { .. } => "--replace-corrections, --out",
         BatchError::Corrected { .. } => "leave out --fresh, or --replace-corrections, or another --out",
         BatchError::NoRoi { .. } => "--roi-side",
+        BatchError::NoPicture { .. } => "--images, --size WxH",
+        BatchError::ScaleTable(ScaleTableError::Missing { .. }) => "--unscaled",
         _ => return None,
     })
 }

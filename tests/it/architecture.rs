@@ -6,17 +6,18 @@ use std::path::{Path, PathBuf};
 
 /// Modules that each module may import, itself aside.
 const ALLOWED: &[(&str, &[&str])] = &[
+    // the error of a word that names no variant of an enum
+    ("choice", &[]),
     ("files", &[]),
     ("geometry", &[]),
     ("numeric", &[]),
-    ("image", &["files", "geometry", "numeric"]),
-    ("mosaic", &["files", "geometry", "numeric"]),
-    ("stats", &["geometry", "numeric", "mosaic"]),
+    ("image", &["choice", "files", "geometry", "numeric"]),
+    ("mosaic", &["choice", "files", "geometry", "numeric"]),
+    ("stats", &["choice", "geometry", "numeric", "mosaic"]),
     ("sample", &["geometry", "numeric", "mosaic", "stats"]),
-    ("detect", &["image", "geometry", "numeric", "mosaic"]),
-    ("compare", &["geometry", "numeric", "mosaic", "stats", "sample"]),
-    // from detect only the words Modality and Polarity
-    ("render", &["image", "geometry", "numeric", "mosaic", "detect"]),
+    ("detect", &["choice", "image", "geometry", "numeric", "mosaic"]),
+    ("compare", &["choice", "geometry", "numeric", "mosaic", "stats", "sample"]),
+    ("render", &["image", "geometry"]),
     // writes down the results of all of them: needs their types
     ("report", &["files", "image", "geometry", "numeric", "mosaic", "stats", "compare", "detect"]),
     (
@@ -30,12 +31,14 @@ const ALLOWED: &[(&str, &[&str])] = &[
 
 /// Files and folders below `src` whose strings may name flags of the command line: the command line itself, and tables
 /// and pages that say which command writes them.
-const FLAGS: &[&str] = &["cli", "batch", "report/tables", "report/metrics", "report/landmarks.rs"];
+const FLAGS: &[&str] = &["cli", "report/tables", "report/metrics"];
 
-/// What may hold two hyphens before a letter elsewhere: how to build the program, an error of a file's reader whose remedy
-/// the command line has yet to give, and the colours of a page's style sheet.
-const STRINGS: &[&str] =
-    &["cargo install --path . --features onnx", "or work in pixels (--unscaled)", "var(--", ":root {"];
+/// What may hold two hyphens before a letter elsewhere: the colours of a page's style sheet.
+const STRINGS: &[&str] = &["var(--", ":root {"];
+
+/// Files of a folder that still import each other in circles: a run's record and its resuming need the type of a finished
+/// image, which stands beside the work that makes it.
+const CIRCLES: &[(&str, &[&str])] = &[("batch/run", &["cones", "image", "record", "resume"])];
 
 fn source() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
@@ -164,7 +167,9 @@ fn files_of_one_folder_import_each_other_one_way() {
                 break;
             }
         }
-        assert!(files.is_empty(), "in {folder} these import each other in circles: {:?}", files.keys());
+        let known = CIRCLES.iter().find(|(of, _)| *of == folder).map_or(&[][..], |(_, files)| files);
+        let found: Vec<&str> = files.keys().map(String::as_str).collect();
+        assert_eq!(found, known, "files of {folder} that import each other in circles, and those known to");
     }
 }
 

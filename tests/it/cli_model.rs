@@ -59,7 +59,7 @@ fn models_that_cannot_be_used_are_refused_by_name() {
         assert!(said.contains(file), "{said}");
     }
     if !cfg!(feature = "onnx") {
-        assert!(refused(&["--model", "own.onnx"]).contains("--features onnx"));
+        assert!(refused(&["--model", "own.onnx"]).contains("feature “onnx”"));
     }
     assert!(refused(&["--model", "own.safetensors", "--detector", "classical"]).contains("classical"));
     let said = refused(&["--model", "own.safetensors", "--modality", "split"]);

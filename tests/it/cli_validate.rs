@@ -42,7 +42,7 @@ fn a_validation_without_scores_or_groups_has_the_files_that_apply() {
     }
     let outcome = place.ok(&[&VALIDATE[..], &["--out", "out"]].concat());
     assert_eq!(place.names("out"), ["bland_altman.svg", "index.html", "validation.csv", "validation.json"]);
-    assert!(outcome.stdout.contains("give --group-by"), "{}", outcome.stdout);
+    assert!(outcome.stdout.contains("group them by subject"), "{}", outcome.stdout);
 }
 
 #[test]
@@ -88,7 +88,7 @@ fn groups_are_subjects_and_every_table_speaks_of_them() {
     {
         assert!(outcome.stdout.contains(words), "{words}: {}", outcome.stdout);
     }
-    assert!(!outcome.stdout.contains("give --group-by"));
+    assert!(!outcome.stdout.contains("group them by subject"));
 }
 
 #[test]
@@ -288,5 +288,5 @@ fn what_cannot_be_is_refused_in_one_line() {
     refused(&["--versus", "cones", "--versus-detector", "classical"]);
     let outcome = place.run(&[&VALIDATE[..], &["--versus-detector", "classical", "--out", "out"]].concat());
     assert_eq!(outcome.code, 2);
-    assert!(outcome.stderr.contains("give --images"), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("--images"), "{}", outcome.stderr);
 }

@@ -112,7 +112,7 @@ fn measure_takes_the_same_windows() {
     ]);
     assert!(number(&place.table("4/l_infinity.csv")[0], "jittered") > 0.);
     let torus = place.run(&["measure", "montage.csv", "--window", "hole.csv", "--torus", "--out", "5"]);
-    assert!(torus.code == 2 && torus.stderr.contains("--torus needs a rectangle"), "{}", torus.stderr);
+    assert!(torus.code == 2 && torus.stderr.contains("a torus needs a rectangle"), "{}", torus.stderr);
 }
 
 #[test]

@@ -120,12 +120,12 @@ impl Analysis {
         {
             notes.push(format!(
                 "detections lie {x:+.2} px in x and {y:+.2} px in y from their marks on average: if one of the two \
-                 counts pixels from elsewhere, say so with --origin (marks) or --detections-origin"
+                 counts pixels from elsewhere, give its origin"
             ));
         }
         if self.groups.is_empty() {
             notes.push(
-                "intervals take images as independent: if subjects have several, give --group-by or --group-table"
+                "intervals take images as independent: if subjects have several, group them by subject"
                     .into(),
             );
         }

@@ -114,16 +114,18 @@ fn expected(scores: &[f64], matching: &Matching) -> Option<f64> {
 
 fn picture(input: &Input, pairs: &Pairs, pixels_matter: bool) -> Result<Plane, BatchError> {
     let name = image_name(&input.path);
-    let missing = || match (&pairs.options.images, pixels_matter) {
+    let missing = || {
+        match (&pairs.options.images, pixels_matter) {
         (Some(given), _) => nothing_in(given, &format!("image {name}.png or {name}.tif")),
-        (None, true) => format!("no image {name}.png or {name}.tif beside it: give --images"),
+        (None, true) => format!("no image {name}.png or {name}.tif beside it: say where the images are"),
         (None, false) => {
-            "no image of that name beside it to take the size from: give --size WxH or --images".into()
+            "no image of that name beside it to take the size from: give the size, or say where the images are".into()
         }
+    }
     };
     let path = pairs
         .image(&input.path)
-        .ok_or_else(|| BatchError::Pairing { file: input.path.clone(), problem: missing() })?;
+        .ok_or_else(|| BatchError::NoPicture { file: input.path.clone(), problem: missing() })?;
     Ok(read_image(&Input { path, name })?.1)
 }
 
@@ -157,7 +159,10 @@ fn find(
             let scores = found.cones.iter().map(|d| d.score).collect();
             Ok(Found { points: found.centres(), scores: Some(scores), rejected: found.rejected })
         }
-        (Detected::Detector(_), None) => Err(missing("no image to detect cones in: give --images".into())),
+        (Detected::Detector(_), None) => Err(BatchError::NoPicture {
+            file: input.path.clone(),
+            problem: "no image to detect cones in: say where the images are".into(),
+        }),
     }
 }
 

@@ -12,7 +12,7 @@ pub enum WeightsError {
     #[error("neither a safetensors file of scripts/train-detector nor an ONNX model")]
     Kind,
     /// An ONNX model for a program that can run none.
-    #[error("ONNX models need a program built with them: cargo install --path . --features onnx")]
+    #[error("ONNX models need a program built with its feature “onnx”")]
     NoOnnx,
     /// The ONNX model cannot be run, or what it says is of no use.
     #[error("the ONNX model cannot be used: {0}")]

@@ -17,7 +17,7 @@ pub enum ScaleTableError {
     /// No identifier is part of the file name.
     #[error(
         "{table}: expected a row whose identifier is part of {file_name}, found none among {candidates}: add a row, \
-         or work in pixels (--unscaled)"
+         or work in pixels"
     )]
     Missing {
         /// The table.
