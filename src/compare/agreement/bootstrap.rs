@@ -1,5 +1,5 @@
-use crate::compare::mean;
 use crate::numeric::linear_quantile;
+use crate::numeric::mean;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use statrs::distribution::{ContinuousCDF, Normal};

@@ -1,4 +1,4 @@
-use crate::compare::mean;
+use crate::numeric::mean;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 

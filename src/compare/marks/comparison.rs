@@ -1,5 +1,6 @@
 use super::Score;
-use crate::compare::{Interval, bootstrap, least_p, mean, sign_flip_test};
+use crate::compare::{Interval, bootstrap, least_p, sign_flip_test};
+use crate::numeric::mean;
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 

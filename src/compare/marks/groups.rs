@@ -1,5 +1,6 @@
 use super::{Score, Summary, summarise};
-use crate::compare::{clusters, mean};
+use crate::compare::clusters;
+use crate::numeric::mean;
 use crate::stats::{Deviation, moments};
 use serde::Serialize;
 

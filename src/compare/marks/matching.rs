@@ -329,7 +329,7 @@ impl<'a> Index<'a> {
             self.nearest(p, 2).into_iter().find(|(other, _)| *other != i).map_or(0., |(_, d)| d)
         };
         let mut distances: Vec<f64> = self.points.iter().enumerate().map(nearest_other).collect();
-        crate::compare::median(&mut distances).unwrap_or(0.)
+        crate::numeric::median(&mut distances).unwrap_or(0.)
     }
 }
 

@@ -36,7 +36,7 @@ pub struct Summary {
 /// Means over images, pooled rates and agreement; `None` without images.
 pub fn summarise(scores: &[Score]) -> Option<Summary> {
     let values = |value: &dyn Fn(&Score) -> Option<f64>| scores.iter().filter_map(value).collect::<Vec<_>>();
-    let mean = |value: &dyn Fn(&Score) -> Option<f64>| crate::compare::mean(&values(value));
+    let mean = |value: &dyn Fn(&Score) -> Option<f64>| crate::numeric::mean(&values(value));
     let offset = |axis: usize| mean(&|s| s.offset_px.map(|o| o[axis]));
     let total = |count: fn(&Rates) -> usize| scores.iter().map(|s| count(&s.rates)).sum();
     Some(Summary {

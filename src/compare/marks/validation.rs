@@ -108,7 +108,7 @@ pub fn validate(
         ways.sum::<f64>() / distances.len() as f64
     };
     let offset_px = (!distances.is_empty()).then(|| [offset(|p| p.x), offset(|p| p.y)]);
-    let localisation_px = crate::compare::median(&mut distances);
+    let localisation_px = crate::numeric::median(&mut distances);
     let area_px = Field::new(width, height, options.border).area();
     let spacing = hexagonal_spacing(marks_inside, area_px).filter(|s| *s > 0.);
 

@@ -1,5 +1,6 @@
 use super::Contour;
 use crate::geometry::Point;
+use crate::numeric::{eigenvalues, eigenvector, inverted};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
@@ -91,48 +92,6 @@ fn geometric([a, b, c]: [f64; 3], [d, e, f]: [f64; 3]) -> Option<Ellipse> {
         semi_minor: one.min(other),
         degrees: along.to_degrees().rem_euclid(180.),
     })
-}
-
-fn inverted(m: [[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
-    let cofactor = |i: usize, j: usize| {
-        let (r, s, u, v) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
-        m[r][u] * m[s][v] - m[r][v] * m[s][u]
-    };
-    let determinant: f64 = (0..3).map(|j| m[0][j] * cofactor(0, j)).sum();
-    let ok = determinant.is_finite() && determinant.abs() > 1e-14;
-    ok.then(|| std::array::from_fn(|i| std::array::from_fn(|j| cofactor(j, i) / determinant)))
-}
-
-/// Of a matrix whose eigenvalues are real: the roots of its characteristic polynomial, by Viète's cosines.
-fn eigenvalues(m: [[f64; 3]; 3]) -> [f64; 3] {
-    let trace = m[0][0] + m[1][1] + m[2][2];
-    let minors = m[0][0] * m[1][1] - m[0][1] * m[1][0] + m[0][0] * m[2][2] - m[0][2] * m[2][0]
-        + m[1][1] * m[2][2]
-        - m[1][2] * m[2][1];
-    let determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
-        - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
-        + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-    // λ = trace/3 + u, u³ − 3 p u − 2 q = 0
-    let shift = trace / 3.;
-    let p = (shift * shift - minors / 3.).max(0.);
-    let q = (determinant - minors * shift) / 2. + shift * shift * shift;
-    let root = p.sqrt();
-    let cosine = if root > 0. { (q / (p * root)).clamp(-1., 1.) } else { 0. };
-    let angle = cosine.acos() / 3.;
-    [0., 1., 2.].map(|k| shift + 2. * root * (angle + k * TAU / 3.).cos())
-}
-
-/// The direction that `m − value` takes to zero: at right angles to its rows.
-fn eigenvector(mut m: [[f64; 3]; 3], value: f64) -> Option<[f64; 3]> {
-    (0..3).for_each(|k| m[k][k] -= value);
-    let product = |a: [f64; 3], b: [f64; 3]| {
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    };
-    let length = |v: &[f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
-    let candidates = [product(m[0], m[1]), product(m[1], m[2]), product(m[2], m[0])];
-    let best = candidates.into_iter().max_by(|a, b| length(a).total_cmp(&length(b)))?;
-    let size = length(&best);
-    (size.is_finite() && size > 0.).then(|| best.map(|c| c / size))
 }
 
 #[cfg(test)]

@@ -1,0 +1,13 @@
+/// Returns the middle value, or the mean of the two middle ones; `None` without values.
+pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
+    values.sort_unstable_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    let upper = values.get(middle)?;
+    let lower = if values.len().is_multiple_of(2) { values.get(middle - 1)? } else { upper };
+    Some((lower + upper) / 2.)
+}
+
+/// Returns the arithmetic mean; `None` without values.
+pub(crate) fn mean(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
