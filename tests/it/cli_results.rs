@@ -124,7 +124,7 @@ fn corrected_cones_are_used_and_never_replaced_unasked() {
     let place = images(2);
     place.ok(&with(&["--um-per-px", "0.5"]));
     let found = number(&place.table("out/summary.csv")[0], "n");
-    append(&place, "out/images/1/points.csv", "20.25,20.5,1,10.125,10.25\n");
+    append(&place, "out/images/1/points.csv", "20.25,20.5\n");
     let corrected = place.read("out/images/1/points.csv");
     for more in [&["--um-per-px", "0.5"][..], &["--um-per-px", "0.4"]] {
         place.ok(&with(more));

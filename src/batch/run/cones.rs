@@ -9,7 +9,7 @@ use crate::batch::{BatchError, Input};
 use crate::detect::{DetectOptions, Detections, weights};
 use crate::geometry::{Point, Window};
 use crate::image::Plane;
-use crate::mosaic::io::{ReadOptions, format_points, read_coordinates};
+use crate::mosaic::io::{ReadOptions, format_points, read_from};
 use crate::mosaic::{LengthUnit, Scale};
 use crate::report::{ConesFrom, counted};
 use sha2::{Digest, Sha256};
@@ -162,39 +162,59 @@ pub(super) fn cones_of(
             let (points, csv) = (found.centres(), formatted(&found.cones, scale));
             Ok(Cones { points, outside: 0, all, found: Some(found), from: ConesFrom::Detected, csv })
         }
-        Origin::Given(_, path) => {
+        Origin::Given(bytes, path) => {
             let read = match &job.options.cones {
                 ConeSource::Given(given) => given.read.clone(),
                 ConeSource::Detector(_) => ReadOptions::default(),
             };
-            let (points, outside) = read_cones(path, &read, window, scale)?;
+            let (points, outside) = read_cones((path, bytes), &read, job, window, scale)?;
             let csv = format_points(&points, None, scale).into_bytes();
             let all = points.len() + outside;
             Ok(Cones { points, outside, all, found: None, from: ConesFrom::Given, csv })
         }
         Origin::Corrected(bytes) => {
             let path = job.images.join(&input.name).join(POINTS);
-            let (points, outside) = read_cones(&path, &ReadOptions::default(), window, scale)?;
+            let centres = without_scores(bytes);
+            let (points, outside) =
+                read_cones((&path, &centres), &ReadOptions::default(), job, window, scale)?;
             let all = points.len() + outside;
             Ok(Cones { points, outside, all, found: None, from: ConesFrom::Corrected, csv: bytes.clone() })
         }
     }
 }
 
+/// Returns the first two columns of a file of detections: a person who adds a row need not know
+/// scores or µm. Any other file is returned as it is.
+fn without_scores(bytes: &[u8]) -> Vec<u8> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) if text.starts_with("x_px,y_px,") => {
+            let centre = |line: &str| line.split(',').take(2).collect::<Vec<_>>().join(",") + "\n";
+            text.lines().map(centre).collect::<String>().into_bytes()
+        }
+        _ => bytes.to_owned(),
+    }
+}
+
 /// Reads cones in px, and counts those outside the window.
 fn read_cones(
-    path: &Path,
+    (path, bytes): (&Path, &[u8]),
     read: &ReadOptions,
+    job: &Job,
     window: &Window,
     scale: Option<Scale>,
 ) -> Result<(Vec<Point>, usize), BatchError> {
-    let file = read_coordinates(path, read)?;
+    let file = read_from(&path.display().to_string(), bytes, read)?;
     let factor = match file.unit.unwrap_or(LengthUnit::Pixel) {
         unit @ LengthUnit::Unit => return Err(BatchError::NotPixels { file: path.to_owned(), unit }),
-        unit => unit
-            .factor_to(LengthUnit::Pixel, scale)
-            .ok_or_else(|| BatchError::NoScale { what: "the file of cones", file: path.to_owned() })?,
+        unit @ LengthUnit::Pixel => unit.factor_to(unit, scale),
+        // µm of the slide; the scale is that of the living tissue
+        unit @ LengthUnit::Micrometre => {
+            let expansion = job.options.plan.scales.expansion();
+            unit.factor_to(LengthUnit::Pixel, scale).map(|factor| factor * expansion)
+        }
     };
+    let factor =
+        factor.ok_or_else(|| BatchError::NoScale { what: "the file of cones", file: path.to_owned() })?;
     let all = file.points.len();
     let scaled = file.points.into_iter().map(|p| Point::new(p.x * factor, p.y * factor));
     let inside: Vec<Point> = scaled.filter(|&p| window.contains(p)).collect();
