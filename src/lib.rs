@@ -29,6 +29,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+#[cfg(feature = "report")]
 pub mod batch;
 pub mod choice;
 pub mod compare;
@@ -40,6 +41,7 @@ pub mod mosaic;
 mod numeric;
 pub mod prelude;
 pub mod render;
+#[cfg(feature = "report")]
 pub mod report;
 pub mod sample;
 pub mod stats;

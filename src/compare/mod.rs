@@ -16,11 +16,13 @@ pub use marks::{
 };
 #[doc(hidden)]
 pub use samplers::make_table;
+#[cfg(feature = "report")]
+pub(crate) use samplers::of_sampler;
 pub use samplers::{
     CompareError, Envelope, NotCompared, POOR_FIT, ReferenceCurve, References, SamplerCurves, SamplerVerdict,
     TargetFit, VerdictOptions, l_infinity, mean_curve, target_fit, verdict,
 };
-pub(crate) use samplers::{curve, draw, of_sampler};
+pub(crate) use samplers::{curve, draw};
 
 /// The middle value, or the mean of the two middle ones; `None` without values.
 fn median(values: &mut [f64]) -> Option<f64> {

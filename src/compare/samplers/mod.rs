@@ -12,7 +12,9 @@ mod target_fit;
 mod verdict;
 
 pub use curves::mean_curve;
-pub(crate) use curves::{curve, draw, of_sampler};
+#[cfg(feature = "report")]
+pub(crate) use curves::of_sampler;
+pub(crate) use curves::{curve, draw};
 pub use l_infinity::{CompareError, l_infinity};
 pub use reference::{NotCompared, ReferenceCurve, References, SamplerCurves};
 #[doc(hidden)]

@@ -2,6 +2,8 @@
 //!
 //! Whatever a file counts from, [`read_coordinates`] gives pixels from 0 at the centre of the top-left pixel.
 
+#[cfg_attr(not(feature = "archives"), path = "no_archives.rs")]
+mod archives;
 mod cells;
 mod delimited;
 mod error;
