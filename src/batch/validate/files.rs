@@ -43,65 +43,45 @@ pub(super) fn write(
             "Bland–Altman: count and density of every image, detections against marks".into(),
         ));
     }
-    match analysis.filter(|a| !a.groups.is_empty()) {
-        Some(analysis) => {
-            out.write(SUBJECT_GROUPS.file, &SUBJECT_GROUPS.csv(&analysis.groups)?)?;
-            made("groups.csv", "a row a group");
-        }
-        None => {}
+    if let Some(analysis) = analysis.filter(|a| !a.groups.is_empty()) {
+        out.write(SUBJECT_GROUPS.file, &SUBJECT_GROUPS.csv(&analysis.groups)?)?;
+        made("groups.csv", "a row a group");
     }
-    match analysis.and_then(|a| Some((a, a.froc.as_ref()?))) {
-        Some((analysis, froc)) => {
-            out.write(FROC.file, &froc_csv(froc)?)?;
-            out.write(
-                "froc.svg",
-                froc_svg(froc, &analysis.summary, analysis.comparison.as_ref()).as_bytes(),
-            )?;
-            figures.push((
-                "froc.svg",
-                "FROC and precision–recall curves over the threshold of the score".into(),
-            ));
-            made("froc.csv", "the curve over the score");
-        }
-        None => {}
+    if let Some((analysis, froc)) = analysis.and_then(|a| Some((a, a.froc.as_ref()?))) {
+        out.write(FROC.file, &froc_csv(froc)?)?;
+        out.write("froc.svg", froc_svg(froc, &analysis.summary, analysis.comparison.as_ref()).as_bytes())?;
+        figures.push(("froc.svg", "FROC and precision–recall curves over the threshold of the score".into()));
+        made("froc.csv", "the curve over the score");
     }
-    match analysis.and_then(|a| a.reliability.as_ref()) {
-        Some(reliability) => {
-            out.write(RELIABILITY.file, &RELIABILITY.csv(&reliability.bins)?)?;
-            let alarms: Vec<(f64, f64)> = rows
-                .iter()
-                .filter_map(|r| Some((r.expected_false_alarms?, r.score.rates.fp as f64)))
-                .collect();
-            let title = "Reliability of the score";
-            let drawn = reliability_figure(&ReliabilityFigure { title, reliability, alarms: &alarms });
-            out.write("reliability.svg", drawn.as_bytes())?;
-            figures.push((
-                "reliability.svg",
-                "Reliability: whether scores are the probabilities of a hit; false alarms expected and observed".into(),
-            ));
-            made("reliability.csv", "hits by bins of the score");
-        }
-        None => {}
+    if let Some(reliability) = analysis.and_then(|a| a.reliability.as_ref()) {
+        out.write(RELIABILITY.file, &RELIABILITY.csv(&reliability.bins)?)?;
+        let alarms: Vec<(f64, f64)> =
+            rows.iter().filter_map(|r| Some((r.expected_false_alarms?, r.score.rates.fp as f64))).collect();
+        let title = "Reliability of the score";
+        let drawn = reliability_figure(&ReliabilityFigure { title, reliability, alarms: &alarms });
+        out.write("reliability.svg", drawn.as_bytes())?;
+        figures.push((
+            "reliability.svg",
+            "Reliability: whether scores are the probabilities of a hit; false alarms expected and observed"
+                .into(),
+        ));
+        made("reliability.csv", "hits by bins of the score");
     }
-    match analysis.and_then(|a| a.comparison.as_ref()) {
-        Some(comparison) => {
-            out.write(COMPARISON.file, &COMPARISON.csv(&comparison.differences)?)?;
-            let pairs: Vec<(Score, Score)> =
-                rows.iter().filter_map(|r| Some((r.score, r.versus.as_ref()?.score))).collect();
-            let (first, second) = (comparison.first.as_str(), comparison.second.as_str());
-            let drawn = agreement(
-                &format!("{first} against {second}"),
-                ("second", "first"),
-                &pairs,
-                &comparison.between,
-                &comparison.between_intervals,
-            );
-            out.write("comparison.svg", drawn.as_bytes())?;
-            figures
-                .push(("comparison.svg", format!("Bland–Altman: {first} (first) against {second} (second)")));
-            made("comparison.csv", "paired differences");
-        }
-        None => {}
+    if let Some(comparison) = analysis.and_then(|a| a.comparison.as_ref()) {
+        out.write(COMPARISON.file, &COMPARISON.csv(&comparison.differences)?)?;
+        let pairs: Vec<(Score, Score)> =
+            rows.iter().filter_map(|r| Some((r.score, r.versus.as_ref()?.score))).collect();
+        let (first, second) = (comparison.first.as_str(), comparison.second.as_str());
+        let drawn = agreement(
+            &format!("{first} against {second}"),
+            ("second", "first"),
+            &pairs,
+            &comparison.between,
+            &comparison.between_intervals,
+        );
+        out.write("comparison.svg", drawn.as_bytes())?;
+        figures.push(("comparison.svg", format!("Bland–Altman: {first} (first) against {second} (second)")));
+        made("comparison.csv", "paired differences");
     }
     let page = page(rows, analysis, failures, &figures, &files, options);
     out.write("index.html", page.as_bytes())
