@@ -2,7 +2,6 @@
 
 mod agreement;
 mod marks;
-#[cfg(feature = "report")]
 pub mod paper;
 mod samplers;
 
@@ -17,9 +16,10 @@ pub use marks::{
 };
 #[doc(hidden)]
 pub use samplers::make_table;
+#[cfg(feature = "report")]
+pub(crate) use samplers::of_sampler;
 pub use samplers::{
     CompareError, Envelope, NotCompared, POOR_FIT, ReferenceCurve, References, SamplerCurves, SamplerVerdict,
     TargetFit, VerdictOptions, l_infinity, mean_curve, target_fit, verdict,
 };
-#[cfg(feature = "report")]
-pub(crate) use samplers::{curve, draw, of_sampler};
+pub(crate) use samplers::{curve, draw};

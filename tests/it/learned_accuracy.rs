@@ -124,11 +124,13 @@ fn holds(modality: Modality, bar: f64, loss: f64) {
 }
 
 #[test]
+#[ignore = "slow: seven changes of 20 images"]
 fn confocal_cones_are_found_through_gamma_noise_and_scale() {
     holds(Modality::Confocal, 0.992, 0.004);
 }
 
 #[test]
+#[ignore = "slow: six changes of 20 images"]
 fn split_cones_are_found_through_gamma_noise_and_scale() {
     holds(Modality::Split, 0.972, 0.01);
 }

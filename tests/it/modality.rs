@@ -193,6 +193,7 @@ fn confusion(cases: impl IntoParallelIterator<Item = Case>) -> (String, Vec<Stri
 }
 
 #[test]
+#[ignore = "slow: every preset, polarity and degradation"]
 fn simulated_images_of_every_look_are_taken_for_what_they_are() {
     let mut all = Vec::new();
     for preset in &PRESETS {
@@ -209,6 +210,7 @@ fn simulated_images_of_every_look_are_taken_for_what_they_are() {
 }
 
 #[test]
+#[ignore = "slow: hundreds of simulated images"]
 fn nearly_all_images_are_taken_for_what_they_are_however_much_is_wrong_with_them() {
     let kinds = Modality::VARIANTS.iter().flat_map(|&m| Polarity::VARIANTS.iter().map(move |&p| (m, p)));
     let cases: Vec<(Modality, Polarity, u64)> =
@@ -222,6 +224,7 @@ fn nearly_all_images_are_taken_for_what_they_are_however_much_is_wrong_with_them
 /// Every image as it is, and every fifth with gamma ½ and 2, noise of .3 standard deviations, blurred by 1 px, as a negative, over-
 /// and underexposed, and as a crop of 80 × 80 px (confocal) or 112 × 112 px (split detector: spacings reach 22 px, and five of them must fit for a ring).
 #[test]
+#[ignore = "slow: hundreds of images"]
 fn hand_marked_images_are_taken_for_what_they_are() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/aoslo");
     if !root.exists() {

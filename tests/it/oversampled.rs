@@ -35,6 +35,7 @@ fn shared(small: &Detections, large: &Detections, times: f64) -> f64 {
 }
 
 #[test]
+#[ignore = "slow: images of a million pixels"]
 fn cones_far_apart_are_found_as_those_of_fewer_pixels_are() {
     for (preset, times) in [("parafovea", 5), ("split", 6), ("histology", 4)] {
         let (image, true_spacing) = common::of_preset(preset, 3, |options| {

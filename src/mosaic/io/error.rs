@@ -160,6 +160,16 @@ pub enum ReadFault {
         /// What to do.
         remedy: &'static str,
     },
+    /// An archive, and this build reads none.
+    #[cfg(not(feature = "archives"))]
+    #[error(
+        "expected a file that is not packed, found {found}, which this build cannot open: unpack it, or build conemosaic \
+         with the feature `archives`"
+    )]
+    WithoutArchives {
+        /// The kind of archive.
+        found: &'static str,
+    },
     /// An ImageJ ROI that ends too early or does not start like one.
     #[error(
         "expected an ImageJ ROI of at least {expected} bytes that begins with “Iout”, found {found}: save the ROI again"
@@ -309,6 +319,7 @@ impl Located {
         Self { place: Some(Place::Line(line)), fault }
     }
 
+    #[cfg(feature = "archives")]
     pub fn member(name: &str, fault: ReadFault) -> Self {
         Self { place: Some(Place::Member(name.to_owned())), fault }
     }

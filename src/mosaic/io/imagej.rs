@@ -1,8 +1,7 @@
-use super::error::{Located, ReadFault, clipped, listed};
+use super::error::{Located, ReadFault, clipped};
 use super::{Dataset, Dialect, Origin, RawFile};
 use crate::geometry::Point;
 use crate::mosaic::LengthUnit;
-use std::io::{Cursor, Read};
 
 /// Bytes of the header; coordinates follow.
 const HEADER: usize = 64;
@@ -25,68 +24,13 @@ pub(super) enum Wanted {
     Outline,
 }
 
-/// Most that one ROI, and all ROIs of a set together, may unpack to: 4 and 16 million sub-pixel points.
-const LARGEST_ROI: u64 = 48 << 20;
-const LARGEST_SET: u64 = 192 << 20;
-
 /// One `.roi` file.
 pub(super) fn read_roi(name: &str, bytes: &[u8], wanted: Wanted) -> Result<RawFile, Located> {
     Ok(file(vec![parse(name, bytes, wanted)?]))
 }
 
-/// Refuses a `RoiSet.zip`, for which this library was built without the feature `archives`.
-#[cfg(not(feature = "archives"))]
-pub(super) fn read_set(_bytes: &[u8], _wanted: Wanted) -> Result<RawFile, Located> {
-    Err(ReadFault::Archive {
-        expected: "a set of ImageJ ROIs (.zip)",
-        detail: "this build has no feature “archives”: unpack it and give the .roi files".into(),
-    }
-    .into())
-}
-
-/// A `RoiSet.zip` of the ROI manager.
-#[cfg(feature = "archives")]
-pub(super) fn read_set(bytes: &[u8], wanted: Wanted) -> Result<RawFile, Located> {
-    let broken = |detail: &dyn std::fmt::Display| ReadFault::Archive {
-        expected: "a set of ImageJ ROIs (.zip)",
-        detail: clipped(&detail.to_string(), 120),
-    };
-    let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|e| broken(&e))?;
-    let mut datasets = Vec::new();
-    let mut others = Vec::new();
-    let mut budget = LARGEST_SET;
-    for index in 0..archive.len() {
-        let member = archive.by_index(index).map_err(|e| broken(&e))?;
-        let name = member.name().map_err(|e| broken(&e))?.into_owned();
-        // Apple's archiver adds a shadow of every file in this folder.
-        if !name.to_ascii_lowercase().ends_with(".roi") || name.starts_with("__MACOSX/") {
-            others.push(name);
-            continue;
-        }
-        let limit = LARGEST_ROI.min(budget);
-        let mut roi = Vec::new();
-        let read = member.take(limit + 1).read_to_end(&mut roi);
-        read.map_err(|e| Located::member(&name, broken(&e)))?;
-        let size = roi.len() as u64;
-        if size > limit {
-            return Err(Located::member(&name, ReadFault::TooLarge { limit_mib: limit >> 20 }));
-        }
-        budget -= size;
-        datasets.push(parse(&name, &roi, wanted).map_err(|fault| Located::member(&name, fault))?);
-    }
-    if !datasets.is_empty() {
-        return Ok(file(datasets));
-    }
-    let spreadsheet = others.iter().any(|name| name.starts_with("xl/") || name == "content.xml");
-    Err(ReadFault::NotInArchive {
-        expected: "ImageJ ROIs (.roi)",
-        found: if spreadsheet { "a spreadsheet".into() } else { listed(others.iter().map(String::as_str)) },
-        remedy: if spreadsheet { "save it as CSV" } else { "save the set with ImageJ's ROI manager" },
-    }
-    .into())
-}
-
-fn file(datasets: Vec<Dataset>) -> RawFile {
+/// The ROIs of a file.
+pub(super) fn file(datasets: Vec<Dataset>) -> RawFile {
     RawFile {
         dialect: Dialect::ImageJRoi,
         unit: Some(LengthUnit::Pixel),
@@ -98,7 +42,7 @@ fn file(datasets: Vec<Dataset>) -> RawFile {
 
 /// A point or multi-point ROI, or an outline: big-endian header, then all x and all y as 16-bit offsets from the bounding box,
 /// then, if sub-pixel, all x and all y as absolute 32-bit floats (format of ImageJ's `ij.io.RoiDecoder`).
-fn parse(name: &str, bytes: &[u8], wanted: Wanted) -> Result<Dataset, ReadFault> {
+pub(super) fn parse(name: &str, bytes: &[u8], wanted: Wanted) -> Result<Dataset, ReadFault> {
     let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let name = name.strip_suffix(".roi").unwrap_or(name).to_owned();
     if bytes.len() < HEADER || !bytes.starts_with(b"Iout") {

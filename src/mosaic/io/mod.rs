@@ -2,17 +2,14 @@
 //!
 //! Whatever a file counts from, [`read_coordinates`] gives pixels from 0 at the centre of the top-left pixel.
 
+#[cfg_attr(not(feature = "archives"), path = "no_archives.rs")]
+mod archives;
 mod cells;
 mod delimited;
-#[cfg_attr(not(feature = "archives"), allow(dead_code, reason = "faults of archives and their members"))]
 mod error;
 mod group_table;
 mod header;
 mod identifier;
-#[cfg_attr(
-    not(feature = "archives"),
-    allow(unused_imports, dead_code, reason = "for the readers of archives")
-)]
 mod imagej;
 mod manifest;
 mod origin;
@@ -21,10 +18,6 @@ mod read;
 mod roi_table;
 mod scale_table;
 mod text;
-#[cfg_attr(
-    not(feature = "archives"),
-    allow(unused_imports, dead_code, reason = "for the readers of archives")
-)]
 mod webplotdigitizer;
 mod write;
 

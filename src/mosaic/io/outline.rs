@@ -1,6 +1,6 @@
 use super::error::{Located, ReadError, ReadFault};
 use super::read::{RawFile, foreign, is_tar, read_file};
-use super::{ReadOptions, delimited, imagej, text, webplotdigitizer};
+use super::{ReadOptions, archives, delimited, imagej, text, webplotdigitizer};
 use crate::geometry::{Ring, Window};
 use crate::mosaic::LengthUnit;
 use std::path::Path;
@@ -38,8 +38,8 @@ pub fn read_outline(path: &Path, options: &ReadOptions) -> Result<OutlineFile, R
 fn raw(name: &str, bytes: &[u8]) -> Result<RawFile, Located> {
     match bytes {
         [b'I', b'o', b'u', b't', ..] => imagej::read_roi(name, bytes, imagej::Wanted::Outline),
-        [b'P', b'K', 3, 4, ..] | [b'P', b'K', 5, 6, ..] => imagej::read_set(bytes, imagej::Wanted::Outline),
-        _ if is_tar(name, bytes) => webplotdigitizer::read_tar(bytes),
+        [b'P', b'K', 3, 4, ..] | [b'P', b'K', 5, 6, ..] => archives::read_set(bytes, imagej::Wanted::Outline),
+        _ if is_tar(name, bytes) => archives::read_tar(bytes),
         _ => {
             if let Some(found) = foreign(bytes) {
                 return Err(ReadFault::NotCoordinates { found: found.into() }.into());

@@ -1,5 +1,5 @@
 use super::error::{Located, ReadError, ReadFault, listed};
-use super::{Origin, delimited, imagej, text, webplotdigitizer};
+use super::{Origin, archives, delimited, imagej, text, webplotdigitizer};
 use crate::geometry::Point;
 use crate::mosaic::LengthUnit;
 use serde::{Deserialize, Serialize};
@@ -131,8 +131,8 @@ pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, ReadFault> {
 fn raw(name: &str, bytes: &[u8]) -> Result<RawFile, Located> {
     match bytes {
         [b'I', b'o', b'u', b't', ..] => imagej::read_roi(name, bytes, imagej::Wanted::Points),
-        [b'P', b'K', 3, 4, ..] | [b'P', b'K', 5, 6, ..] => imagej::read_set(bytes, imagej::Wanted::Points),
-        _ if is_tar(name, bytes) => webplotdigitizer::read_tar(bytes),
+        [b'P', b'K', 3, 4, ..] | [b'P', b'K', 5, 6, ..] => archives::read_set(bytes, imagej::Wanted::Points),
+        _ if is_tar(name, bytes) => archives::read_tar(bytes),
         _ => {
             if let Some(found) = foreign(bytes) {
                 return Err(ReadFault::NotCoordinates { found: found.into() }.into());

@@ -1,10 +1,8 @@
-use super::error::{Located, ReadFault, clipped, listed};
-use super::text::decode;
+use super::error::{Located, ReadFault, clipped};
 use super::{Dataset, Dialect, Origin, RawFile};
 use crate::geometry::Point;
 use crate::mosaic::LengthUnit;
 use serde::Deserialize;
-use std::io::{Cursor, Read};
 
 /// A project: version 4 holds its datasets at the top, version 3 inside `wpd`. Other keys do not matter here:
 /// `x` and `y` are the places clicked, in pixels from the top-left corner, whatever the axes.
@@ -53,49 +51,4 @@ pub(super) fn read_json(text: &str) -> Result<RawFile, Located> {
         datasets: datasets.collect(),
         scores: None,
     })
-}
-
-/// Refuses a project as `.tar`, for which this library was built without the feature `archives`.
-#[cfg(not(feature = "archives"))]
-pub(super) fn read_tar(_bytes: &[u8]) -> Result<RawFile, Located> {
-    Err(ReadFault::Archive {
-        expected: "a WebPlotDigitizer project (.tar)",
-        detail: "this build has no feature “archives”: unpack it and give wpd.json".into(),
-    }
-    .into())
-}
-
-/// A project as `.tar`: the image and, in some folder, `wpd.json`.
-#[cfg(feature = "archives")]
-pub(super) fn read_tar(bytes: &[u8]) -> Result<RawFile, Located> {
-    let broken = |e: std::io::Error| ReadFault::Archive {
-        expected: "a WebPlotDigitizer project (.tar)",
-        detail: clipped(&e.to_string(), 120),
-    };
-    let mut archive = tar::Archive::new(Cursor::new(bytes));
-    let mut members = Vec::new();
-    for entry in archive.entries().map_err(broken)? {
-        let entry = entry.map_err(broken)?;
-        let path = String::from_utf8_lossy(&entry.path_bytes()).into_owned();
-        if path.rsplit('/').next() != Some("wpd.json") {
-            members.push(path);
-            continue;
-        }
-        let size = entry.size();
-        let mut json = Vec::new();
-        // A member cannot be larger than its archive, unless it claims to be sparse.
-        entry.take(bytes.len() as u64).read_to_end(&mut json).map_err(broken)?;
-        if json.len() as u64 != size {
-            let detail = format!("wpd.json should have {size} bytes, {} are there", json.len());
-            return Err(ReadFault::Archive { expected: "a WebPlotDigitizer project (.tar)", detail }.into());
-        }
-        let text = decode(&json).map_err(|fault| Located::member(&path, fault))?;
-        return read_json(&text).map_err(|located| Located::member(&path, located.fault));
-    }
-    Err(ReadFault::NotInArchive {
-        expected: "wpd.json",
-        found: listed(members.iter().map(String::as_str)),
-        remedy: "save the project with WebPlotDigitizer (File, Save Project)",
-    }
-    .into())
 }

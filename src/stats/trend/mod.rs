@@ -165,6 +165,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow: 150 patterns of each sampler"]
     fn false_alarms_stay_at_the_level_for_every_sampler_mosaics_are_compared_with() {
         let windows = [Window::unit_square(), Window::rectangle(-4., 2., -1., 3.).unwrap()];
         for (window, n) in windows.iter().flat_map(|w| [80, 300].map(|n| (w, n))) {
@@ -188,6 +189,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow: 150 patterns of each sampler"]
     fn false_alarms_and_power_in_polygons_are_those_in_rectangles() {
         let l = polygon(&[(0., 0.), (3., 0.), (3., 1.), (1., 1.), (1., 2.5), (0., 2.5)]);
         let tilted = polygon(&[(1., 0.), (3., 1.3), (1.8, 3.), (0., 1.4)]);
