@@ -5,13 +5,18 @@ mod cli_agree;
 mod cli_bad_input;
 mod cli_commands;
 mod cli_compare;
+mod cli_corrections;
+mod cli_given;
 mod cli_maps;
 mod cli_metrics;
 mod cli_model;
 mod cli_page;
 mod cli_paper;
+mod cli_results;
 mod cli_rois;
 mod cli_run;
+#[cfg(unix)]
+mod cli_signals;
 mod cli_spectrum;
 mod cli_validate;
 mod cli_window;

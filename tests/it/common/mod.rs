@@ -92,11 +92,18 @@ impl Place {
         self.ok(&["render", "--width", &width, "--height", &height, "--seed", &seed, "--out", path, "-q"]);
     }
 
-    /// Every file below a folder, by its path in it.
+    /// Every file below a folder, by its path in it; not the program's own notes.
     pub fn files(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
         let mut found = BTreeMap::new();
         collect(&self.path(folder), &self.path(folder), &mut found);
         found
+    }
+
+    /// Results of a run: all but the record of the run itself, which holds times.
+    pub fn results(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
+        let mut files = self.files(folder);
+        files.remove("run.json");
+        files
     }
 
     /// The paths of these files.
@@ -129,6 +136,9 @@ fn collect(root: &Path, folder: &Path, found: &mut BTreeMap<String, Vec<u8>>) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries {
         let path = entry.unwrap().path();
+        if path.ends_with(".conemosaic") {
+            continue;
+        }
         if path.is_dir() {
             collect(root, &path, found);
         } else {
