@@ -93,7 +93,9 @@ fn ending_words(ending: &Ending, total: usize) -> String {
     if !leftovers.moved.is_empty() {
         let files = counted(leftovers.moved.len(), "file");
         let place = leftovers.place.display();
-        lines.push(format!("{files} of earlier results that this run does not have: moved to {place}"));
+        lines.push(format!(
+            "{files} of earlier results that this run does not have, or that were changed: moved to {place}"
+        ));
     }
     if !leftovers.foreign.is_empty() {
         let names = leftovers.foreign.join(", ");

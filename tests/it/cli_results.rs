@@ -2,7 +2,6 @@
 //! options and a person's corrections.
 
 use crate::common::{Place, number};
-use std::collections::BTreeMap;
 use std::fs;
 
 const RUN: [&str; 6] = ["run", "in", "--out", "out", "--samplers", "none"];
@@ -20,13 +19,6 @@ fn images(n: u32) -> Place {
     place
 }
 
-/// All results but the record of the run, which holds times.
-fn results(place: &Place, folder: &str) -> BTreeMap<String, Vec<u8>> {
-    let mut files = place.files(folder);
-    files.remove("run.json");
-    files
-}
-
 fn append(place: &Place, file: &str, text: &str) {
     place.write(file, place.read(file) + text);
 }
@@ -40,7 +32,7 @@ fn put_away(place: &Place, out: &str) -> Vec<String> {
 fn an_image_that_fails_now_keeps_its_results_and_says_so_beside_them() {
     let place = images(3);
     place.ok(&RUN);
-    let before = results(&place, "out");
+    let before = place.results("out");
     place.write("scales.csv", "identifier,um_per_px\nnobody,0.5\n");
     let damaged = place.read_bytes("in/1.png");
     for arguments in [with(&["--scale-table", "scales.csv"]), with(&["--crop", "500,500,600,600", "--fresh"])]
@@ -62,7 +54,7 @@ fn an_image_that_fails_now_keeps_its_results_and_says_so_beside_them() {
     );
     place.write("in/1.png", &damaged);
     place.ok(&RUN);
-    assert_eq!(results(&place, "out"), before);
+    assert_eq!(place.results("out"), before);
 }
 
 #[test]
@@ -74,7 +66,7 @@ fn a_folder_holds_one_run() {
     let outcome = place.ok(&RUN);
     assert!(outcome.stdout.contains("of earlier results that this run does not have"), "{}", outcome.stdout);
     place.ok(&["run", "in", "--out", "other", "--samplers", "none"]);
-    assert_eq!(results(&place, "out"), results(&place, "other"));
+    assert_eq!(place.results("out"), place.results("other"));
     let away = put_away(&place, "out");
     assert!(away.contains(&"landmarks.csv".to_owned()) && away.contains(&"images/3/points.csv".to_owned()));
     place.write("out/images/notes/mine.txt", "a person's");
@@ -107,7 +99,7 @@ fn results_of_files_that_fail_now_do_not_stand_beside_the_others() {
 fn a_changed_file_of_a_result_is_made_anew() {
     let place = images(2);
     place.ok(&RUN);
-    let before = results(&place, "out");
+    let before = place.results("out");
     for file in ["figure.svg", "pcf.csv", "overlay.png", "metrics.json", "points.csv"] {
         let path = place.path(&format!("out/images/1/{file}"));
         let bytes = fs::read(&path).unwrap();
@@ -115,7 +107,7 @@ fn a_changed_file_of_a_result_is_made_anew() {
         fs::write(&path, &bytes[..bytes.len() / 2 - 3]).unwrap();
         let outcome = place.ok(&RUN);
         assert!(outcome.stdout.contains("1 kept"), "{file}: {}", outcome.stdout);
-        assert_eq!(results(&place, "out"), before, "{file}");
+        assert_eq!(place.results("out"), before, "{file}");
     }
 }
 
@@ -301,7 +293,7 @@ mod unix {
         let elsewhere: Vec<&str> =
             arguments.iter().map(|a| if *a == "out" { "undisturbed" } else { *a }).collect();
         place.ok(&elsewhere);
-        assert_eq!(results(&place, "out"), results(&place, "undisturbed"));
+        assert_eq!(place.results("out"), place.results("undisturbed"));
         let ledger = |out: &str| place.read(&format!("{out}/.conemosaic/files.sha256"));
         assert_eq!(ledger("out"), ledger("undisturbed"));
     }

@@ -12,13 +12,6 @@ fn two_images() -> Place {
     place
 }
 
-/// All but the record of the run itself, which holds times.
-fn results(place: &Place, folder: &str) -> BTreeMap<String, Vec<u8>> {
-    let mut files = place.files(folder);
-    files.remove("run.json");
-    files
-}
-
 #[test]
 fn run_writes_the_documented_files_and_nothing_else() {
     let place = two_images();
@@ -135,7 +128,7 @@ fn any_number_of_threads_gives_the_same_bytes() {
     }
     place.ok(&["run", "in", "--out", "one", "--threads", "1", "-q"]);
     place.ok(&["--threads", "2", "run", "in", "--out", "two", "-q"]);
-    assert_eq!(results(&place, "one"), results(&place, "two"));
+    assert_eq!(place.results("one"), place.results("two"));
     for threads in ["1", "2"] {
         place.ok(&["detect", "in", "--overlay", "--out", &format!("d{threads}"), "--threads", threads]);
         place.ok(&[
@@ -172,14 +165,14 @@ fn a_resumed_run_ends_like_an_undisturbed_one() {
     }
     let run = ["run", "in", "--out", "out", "--samplers", "jittered", "--um-per-px", "0.4", "--resume"];
     place.ok(&run);
-    let undisturbed = results(&place, "out");
+    let undisturbed = place.results("out");
     fs::remove_dir_all(place.path("out/images/1")).unwrap();
     fs::remove_file(place.path("out/summary.csv")).unwrap();
     fs::remove_file(place.path("out/images/2/figure.svg")).unwrap();
     fs::rename(place.path("out/images/3"), place.path("out/images/.3.partial")).unwrap();
     let outcome = place.ok(&run);
     assert!(outcome.stdout.contains("1 kept from an earlier run"), "{}", outcome.stdout);
-    assert_eq!(results(&place, "out"), undisturbed);
+    assert_eq!(place.results("out"), undisturbed);
 }
 
 #[test]
@@ -195,7 +188,7 @@ fn resuming_redoes_what_changed() {
         assert!(!outcome.stdout.contains("kept"), "{changed:?}: {}", outcome.stdout);
     }
     place.ok(&["run", "in", "--out", "fresh", "--samplers", "jittered", "--crop", "40x40"]);
-    assert_eq!(results(&place, "fresh"), results(&place, "out"));
+    assert_eq!(place.results("fresh"), place.results("out"));
 }
 
 #[test]
@@ -265,9 +258,9 @@ fn names_that_differ_in_case_only_do_not_meet() {
 fn results_inside_the_folder_of_images_are_not_taken_for_images() {
     let place = two_images();
     place.ok(&["run", "in", "--out", "in/report", "--samplers", "jittered", "-q"]);
-    let first = results(&place, "in/report");
+    let first = place.results("in/report");
     place.ok(&["run", "in", "--out", "in/report", "--samplers", "jittered", "-q"]);
-    assert_eq!(results(&place, "in/report"), first);
+    assert_eq!(place.results("in/report"), first);
     place.ok(&["detect", "in", "--out", "in/cones", "--overlay", "-q"]);
     place.ok(&["detect", "in", "--out", "elsewhere", "--overlay", "-q"]);
     assert_eq!(place.files("in/cones"), place.files("elsewhere"));

@@ -5,6 +5,7 @@ mod cli_agree;
 mod cli_bad_input;
 mod cli_commands;
 mod cli_compare;
+mod cli_kept;
 mod cli_maps;
 mod cli_metrics;
 mod cli_model;
@@ -13,6 +14,7 @@ mod cli_paper;
 mod cli_results;
 mod cli_rois;
 mod cli_run;
+#[cfg(unix)]
 mod cli_spectrum;
 mod cli_validate;
 mod cli_window;

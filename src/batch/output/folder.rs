@@ -31,13 +31,17 @@ impl OutputFolder {
         let listed = format!("{}{name}", self.prefix);
         // a partial folder is the program's own, whatever stands under its later name
         let path = self.join(name);
-        if path == self.ledger.root().join(&listed)
+        let in_place = path == self.ledger.root().join(&listed);
+        if in_place
             && self.ledger.standing(&listed) == Standing::Changed
             && fs::read(&path).is_ok_and(|there| there != bytes)
         {
             self.ledger.put_away(&listed)?;
         }
         self.ledger.note(&listed, bytes)?;
+        if in_place {
+            self.ledger.sync()?;
+        }
         write_atomically(&path, |writer| writer.write_all(bytes))
             .map_err(|source| BatchError::Output { path, source })
     }
@@ -76,7 +80,9 @@ impl OutputFolder {
         remove_folder(&partial).map_err(refused)?;
         fs::create_dir(&partial).map_err(refused)?;
         let done = fill(&Self::new(&partial, &prefix, &self.ledger)).and_then(|()| {
+            self.ledger.sync()?;
             sync_folder(&partial);
+            self.rescue_changed(name)?;
             let old = self.join(format!(".{name}.old"));
             remove_folder(&old).map_err(refused)?;
             if place.is_dir() {
@@ -94,13 +100,34 @@ impl OutputFolder {
         done
     }
 
-    /// Puts back a folder whose replacement was cut off between its two renames.
-    pub fn recover_folder(&self, name: &str) {
-        let (old, place) = (self.join(format!(".{name}.old")), self.join(name));
-        if old.is_dir() && !place.exists() {
-            // if that fails the image is done anew
-            let _ = fs::rename(&old, &place);
+    /// Tidies up after a run that was killed: removes unfinished files and folders, and puts a folder
+    /// back whose replacement was cut off between its two renames.
+    pub fn sweep(&self) {
+        for name in names_in(&self.path) {
+            let Some(hidden) = name.strip_prefix('.') else { continue };
+            let path = self.join(&name);
+            // only the program calls files and folders like these: those of a person stay
+            let ours = |result: &&str| self.ledger.knows_below(&format!("{}{result}/", self.prefix));
+            // what cannot be removed or put back is made anew, or in nobody's way
+            if hidden.starts_with("conemosaic-") && hidden.ends_with(".tmp") {
+                let _ = fs::remove_file(&path);
+            } else if hidden.strip_suffix(".partial").filter(ours).is_some() {
+                let _ = remove_folder(&path);
+            } else if let Some(result) = hidden.strip_suffix(".old").filter(ours) {
+                let place = self.join(result);
+                let _ = if place.exists() { remove_folder(&path) } else { fs::rename(&path, &place) };
+            }
         }
+    }
+
+    /// Puts copies of those files of a sub-folder away that a person has changed and that are not
+    /// written again as they are.
+    fn rescue_changed(&self, name: &str) -> Result<(), BatchError> {
+        let listed =
+            names_in(&self.join(name)).into_iter().map(|file| format!("{}{name}/{file}", self.prefix));
+        listed
+            .filter(|file| self.ledger.knows(file) && self.ledger.standing(file) == Standing::Changed)
+            .try_for_each(|file| self.ledger.copy_away(&file))
     }
 
     /// Tells whether a sub-folder holds results that the program has written.
@@ -110,20 +137,30 @@ impl OutputFolder {
 
     /// Returns the first file of a sub-folder whose name the ledger does not know.
     fn foreign_in(&self, name: &str) -> Option<String> {
-        let prefix = format!("{}{name}/", self.prefix);
-        let mut names: Vec<String> = fs::read_dir(self.join(name))
+        let known = |file: &str| self.ledger.knows(&format!("{}{name}/{file}", self.prefix));
+        names_in(&self.join(name))
             .into_iter()
-            .flatten()
-            .flatten()
-            .map(|entry| entry.file_name().to_string_lossy().into_owned())
-            .collect();
-        names.sort_unstable();
-        names.into_iter().find(|file| !self.ledger.knows(&format!("{prefix}{file}")))
+            .find(|file| !OF_SYSTEMS.contains(&file.as_str()) && !known(file))
     }
 }
 
+/// What file managers leave in every folder that they show.
+const OF_SYSTEMS: [&str; 3] = [".DS_Store", "Thumbs.db", "desktop.ini"];
+
+/// Returns the names in a folder, sorted; none if it cannot be read.
+fn names_in(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    names.sort_unstable();
+    names
+}
+
+/// Removes a folder, or the link to one that stands in its place.
 fn remove_folder(path: &Path) -> io::Result<()> {
-    match fs::remove_dir_all(path) {
+    let link = fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink());
+    let removed = if link { fs::remove_file(path) } else { fs::remove_dir_all(path) };
+    match removed {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
         other => other,
     }

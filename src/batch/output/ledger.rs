@@ -13,6 +13,7 @@ use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
+use std::ops::Bound;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -68,21 +69,24 @@ struct Now {
     written: BTreeMap<String, String>,
     /// Beginnings of paths whose files of earlier runs still hold.
     kept: BTreeSet<String>,
+    /// Files that were put away.
+    moved: Vec<String>,
 }
 
 impl Ledger {
     /// Reads the ledger of the folder `root`; an empty one where there is none.
     pub fn open(root: &Path) -> Result<Self, BatchError> {
         let path = root.join(OWN).join(LIST);
-        let text = match fs::read_to_string(&path) {
-            Ok(text) => text,
+        let text = match fs::read(&path) {
+            // a list that is not text names no file: everything in the folder is then a person's
+            Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
             Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
             Err(source) => return Err(BatchError::Output { path, source }),
         };
         let mut earlier: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
         // a line that a loss of power cut off names no file
-        for (hash, name) in text.lines().filter_map(|line| line.split_once("  ")) {
-            earlier.entry(name.to_owned()).or_default().insert(hash.to_owned());
+        for (hash, name) in text.split('\n').filter_map(parsed) {
+            earlier.entry(name).or_default().insert(hash);
         }
         Ok(Self { root: root.to_owned(), earlier, now: Mutex::default() })
     }
@@ -105,10 +109,18 @@ impl Ledger {
             now.journal = Some(opened.map_err(refused)?);
         }
         if let Some(journal) = now.journal.as_mut().filter(|_| name != VOLATILE) {
-            journal.write_all(format!("{hash}  {name}\n").as_bytes()).map_err(refused)?;
+            // the break comes first: it ends a line that a kill or a full disk cut off
+            journal.write_all(format!("\n{}", line(&hash, name)).as_bytes()).map_err(refused)?;
         }
         now.written.insert(name.to_owned(), hash);
         Ok(())
+    }
+
+    /// Syncs the notes to the disk, before files that they are about take their names: after a loss of
+    /// power no file is there that the ledger does not know.
+    pub fn sync(&self) -> Result<(), BatchError> {
+        let refused = |source| BatchError::Output { path: self.root.join(OWN).join(LIST), source };
+        self.now().journal.as_ref().map_or(Ok(()), File::sync_data).map_err(refused)
     }
 
     /// Takes back a note of a file that was not written after all.
@@ -138,8 +150,10 @@ impl Ledger {
 
     /// Tells whether the program has ever written a file whose path begins with `prefix`.
     pub fn knows_below(&self, prefix: &str) -> bool {
-        self.earlier.keys().any(|name| name.starts_with(prefix))
-            || self.now().written.keys().any(|name| name.starts_with(prefix))
+        let from = prefix.to_owned();
+        let mut earlier = self.earlier.range(from.clone()..);
+        earlier.next().is_some_and(|(name, _)| name.starts_with(prefix))
+            || self.now().written.range(from..).next().is_some_and(|(name, _)| name.starts_with(prefix))
     }
 
     /// Returns the result folder.
@@ -152,6 +166,7 @@ impl Ledger {
         let from = self.root.join(name);
         let to = self.free_place(name)?;
         fs::rename(&from, &to).map_err(|source| BatchError::Output { path: to, source })?;
+        self.now().moved.push(name.to_owned());
         // a folder that is empty now goes too; one that is not stays
         match from.parent() {
             Some(parent) if parent != self.root => fs::remove_dir(parent).or(Ok(())),
@@ -162,9 +177,9 @@ impl Ledger {
     /// Puts a copy of a file of earlier results away.
     pub fn copy_away(&self, name: &str) -> Result<(), BatchError> {
         let to = self.free_place(name)?;
-        fs::copy(self.root.join(name), &to)
-            .map(drop)
-            .map_err(|source| BatchError::Output { path: to, source })
+        fs::copy(self.root.join(name), &to).map_err(|source| BatchError::Output { path: to, source })?;
+        self.now().moved.push(name.to_owned());
+        Ok(())
     }
 
     /// Finds a free place for earlier results of that name, and makes its folder.
@@ -188,7 +203,9 @@ impl Ledger {
             let now = self.now();
             (now.written.clone(), now.kept.clone())
         };
-        let holds = |name: &str| kept.iter().any(|prefix| name.starts_with(prefix.as_str()));
+        // no prefix is the beginning of another, so that only the one next below can be that of a name
+        let below = |name: &str| kept.range::<str, _>((Bound::Unbounded, Bound::Included(name))).next_back();
+        let holds = |name: &str| below(name).is_some_and(|prefix| name.starts_with(prefix.as_str()));
         let mut list = written.clone();
         for (name, hashes) in self.earlier.iter().filter(|(name, _)| !written.contains_key(*name)) {
             match self.standing(name) {
@@ -199,9 +216,11 @@ impl Ledger {
                         list.insert(name.clone(), hash);
                     }
                 }
+                // all results are written: one that cannot be moved is named
                 Standing::Own => {
-                    self.put_away(name)?;
-                    left.moved.push(name.clone());
+                    if self.put_away(name).is_err() {
+                        left.foreign.push(name.clone());
+                    }
                 }
                 Standing::Changed if holds(name) => {
                     list.extend(hashes.first().map(|hash| (name.clone(), hash.clone())));
@@ -210,7 +229,12 @@ impl Ledger {
             }
         }
         list.remove(VOLATILE);
-        let lines: String = list.iter().map(|(name, hash)| format!("{hash}  {name}\n")).collect();
+        if !written.contains_key(VOLATILE) && self.root.join(VOLATILE).is_file() {
+            self.put_away(VOLATILE)?;
+        }
+        left.moved = std::mem::take(&mut self.now().moved);
+        left.moved.sort_unstable();
+        let lines: String = list.iter().map(|(name, hash)| format!("{}\n", line(hash, name))).collect();
         let path = self.root.join(OWN).join(LIST);
         write_atomically(&path, |writer| writer.write_all(lines.as_bytes()))
             .map_err(|source| BatchError::Output { path, source })?;
@@ -224,7 +248,61 @@ impl Ledger {
     }
 }
 
+/// Returns the line of a file. As in `sha256sum`, a backslash before the hash tells that breaks and
+/// backslashes in the name are written as `\\n`, `\\r` and `\\\\`.
+fn line(hash: &str, name: &str) -> String {
+    if !name.contains(['\n', '\r', '\\']) {
+        return format!("{hash}  {name}");
+    }
+    let name = name.replace('\\', r"\\").replace('\n', r"\n").replace('\r', r"\r");
+    format!("\\{hash}  {name}")
+}
+
+/// Reads a line; `None` if it is not whole.
+fn parsed(line: &str) -> Option<(String, String)> {
+    let (hash, name) = line.split_once("  ")?;
+    let Some(hash) = hash.strip_prefix('\\') else { return Some((hash.to_owned(), name.to_owned())) };
+    let mut plain = String::new();
+    let mut characters = name.chars();
+    while let Some(c) = characters.next() {
+        plain.push(match c {
+            '\\' => match characters.next()? {
+                'n' => '\n',
+                'r' => '\r',
+                other => other,
+            },
+            c => c,
+        });
+    }
+    Some((hash.to_owned(), plain))
+}
+
 /// Writes bytes as lower-case hexadecimal digits.
 pub(in crate::batch) fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|b| format!("{b:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_survive_the_list_whatever_is_in_them() {
+        for name in ["a.csv", "images/a  b/points.csv", "a\nb", "a\\n", "\\", "a\rb", "a\r"] {
+            let written = line("12ab", name);
+            assert!(!written.contains(['\n', '\r']), "{written:?}");
+            assert_eq!(parsed(&written), Some(("12ab".to_owned(), name.to_owned())));
+        }
+    }
+
+    #[test]
+    fn a_line_that_was_cut_off_costs_no_other_line() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join(OWN)).unwrap();
+        fs::write(folder.path().join(OWN).join(LIST), b"ab  one.csv\n\xff\xfe  garbage\ncd").unwrap();
+        let ledger = Ledger::open(folder.path()).unwrap();
+        ledger.note("two.csv", b"2").unwrap();
+        let again = Ledger::open(folder.path()).unwrap();
+        assert!(again.knows("one.csv") && again.knows("two.csv") && !again.knows("cd"));
+    }
 }

@@ -41,7 +41,9 @@ impl ResultFolder {
         }
         probe(path).map_err(refused)?;
         let ledger = Arc::new(Ledger::open(path)?);
-        Ok(Self { folder: OutputFolder::new(path, "", &ledger), ledger, _lock: lock })
+        let folder = OutputFolder::new(path, "", &ledger);
+        folder.sweep();
+        Ok(Self { folder, ledger, _lock: lock })
     }
 
     /// Tells how the file of this path compares with what the program wrote there.

@@ -129,11 +129,13 @@ impl Job<'_> {
         }
         let path = self.images.join(&input.name).join(POINTS);
         let bytes = fs::read(&path).map_err(|source| BatchError::Unreadable { path, source })?;
-        // a file that was cut off ends within a line and is the beginning of what was written
+        // a file that was cut off ends within a line and is the beginning of what was written; one
+        // that ends with a whole row was saved by an editor
         if let (false, ConeSource::Detector(options)) = (bytes.ends_with(b"\n"), &self.options.cones) {
             let found = detect_in(input, image, options)?;
             let scale = self.options.plan.scales.scale_of(&input.path, image.ncols())?;
-            if formatted(&found.cones, scale).starts_with(&bytes) {
+            let written = formatted(&found.cones, scale);
+            if written.strip_prefix(&*bytes).is_some_and(|rest| !rest.starts_with(b"\n")) {
                 return Ok(None);
             }
         }

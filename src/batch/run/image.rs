@@ -1,17 +1,17 @@
 //! One image: its cones, their analysis, its folder.
 
 use super::cones::{Cones, Origin, cones_of};
-use super::done::{Done, METRICS, OVERLAY, POINTS, Seconds};
+use super::done::{Done, METRICS, OVERLAY, POINTS, Seconds, earlier_cones};
 use super::record::metrics;
 use super::resume::{earlier, fingerprint};
 use super::{IMAGES, Job};
 use crate::batch::analysis::{Analysis, Layout, Specimen, analyse, write};
 use crate::batch::detect::{mark_cones, overlay_of, read_image};
-use crate::batch::output::hex;
+use crate::batch::output::{Standing, hex};
 use crate::batch::{BatchError, Input};
 use crate::image::Plane;
 use crate::mosaic::{LengthUnit, Mosaic};
-use crate::report::{DetectionRecord, ImageRecord};
+use crate::report::{ConesFrom, DetectionRecord, ImageRecord};
 use sha2::{Digest, Sha256};
 use std::time::Instant;
 
@@ -63,7 +63,8 @@ pub(super) fn one_image(input: &Input, job: &Job) -> Result<(Done, String), Batc
 }
 
 impl Job<'_> {
-    /// Replaces the folder of an image; corrections that are given up are put away first.
+    /// Replaces the folder of an image. Corrections that an earlier run has used and this one gives up
+    /// are put away first; so are points of which nothing tells any more where they are from.
     fn replace(
         &self,
         input: &Input,
@@ -71,7 +72,9 @@ impl Job<'_> {
         fill: impl FnOnce(&crate::batch::output::OutputFolder) -> Result<(), BatchError>,
     ) -> Result<(), BatchError> {
         let listed = format!("{IMAGES}/{}/{POINTS}", input.name);
-        if !matches!(origin, Origin::Corrected(_)) && self.is_corrected(input) {
+        let from = earlier_cones(&self.images.join(&input.name));
+        let at_risk = from.is_none_or(|from| from == ConesFrom::Corrected);
+        if !matches!(origin, Origin::Corrected(_)) && at_risk && self.out.standing(&listed) == Standing::Own {
             self.out.copy_away(&listed)?;
         }
         self.images.replace_folder(&input.name, fill)

@@ -96,9 +96,9 @@ pub fn run_files(
     let windows = ImageWindows::new(&options.window, options.crop.as_ref())?;
     let out = ResultFolder::open(out)?;
     let images = out.folder(IMAGES)?;
+    images.sweep();
     let job = Job { options, windows, references: options.plan.references(), out, images };
     let worked = for_each(inputs, progress, |input| {
-        job.images.recover_folder(&input.name);
         one_image(input, &job).or_else(|error| job.keep_earlier(input, error, progress))
     });
     job.write_tables(&worked, started)?;

@@ -103,6 +103,13 @@ impl Place {
         found
     }
 
+    /// Results of a run: all but the record of the run itself, which holds times.
+    pub fn results(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
+        let mut files = self.files(folder);
+        files.remove("run.json");
+        files
+    }
+
     /// The paths of these files.
     pub fn names(&self, folder: &str) -> Vec<String> {
         self.files(folder).into_keys().collect()
