@@ -15,11 +15,6 @@ fn run(place: &Place, more: &[&str]) -> Outcome {
     place.run(&[&RUN[..], more].concat())
 }
 
-/// Moved results of earlier runs.
-fn earlier(place: &Place, name: &str) -> bool {
-    place.path(&format!("out/.conemosaic/earlier/{name}")).exists()
-}
-
 #[test]
 fn files_of_a_person_are_never_removed() {
     let place = two_images();
