@@ -1,5 +1,6 @@
 use super::Detection;
 use crate::geometry::Point;
+use crate::geometry::index::BucketGrid;
 
 /// Greedy non-maximum suppression: from the highest score down, a detection stays unless one that stayed lies within
 /// `radius` (px). Equal scores go by reading order. The result runs from the highest score to the lowest.
@@ -25,85 +26,33 @@ pub(super) fn suppress_sorted<T>(
     if widest <= 0. {
         return items;
     }
-    let Some(grid) = Grid::around(items.iter().map(&place), widest) else { return items };
-    let mut taken: Vec<u32> = vec![NONE; grid.cells()];
-    // cells are a radius wide: several that stayed may share one, chained from the last to the first
-    let mut before: Vec<u32> = Vec::new();
-    let mut kept: Vec<T> = Vec::new();
+    let Some(mut kept) = grid_over(items.iter().map(&place), widest) else { return items };
     for item in items {
         let here = place(&item);
         let radius = radius(here);
-        let near = |mut k: u32| {
-            while k != NONE {
-                let other = place(&kept[k as usize]);
-                if (other.x - here.x).powi(2) + (other.y - here.y).powi(2) <= radius * radius {
-                    return true;
-                }
-                k = before[k as usize];
-            }
-            false
-        };
-        if !grid.around_cell(here).any(|cell| near(taken[cell])) {
-            let cell = grid.cell(here);
-            before.push(taken[cell]);
-            taken[cell] = kept.len() as u32;
-            kept.push(item);
+        let close = |other: Point| (other.x - here.x).powi(2) + (other.y - here.y).powi(2) <= radius * radius;
+        if !kept.near(here).any(|item| close(place(item))) {
+            kept.insert(here, item);
         }
     }
-    kept
+    kept.into_things()
 }
 
-const NONE: u32 = u32::MAX;
-
-/// Cells of one radius over all places.
-struct Grid {
-    left: f64,
-    top: f64,
-    side: f64,
-    columns: usize,
-    rows: usize,
-}
-
-impl Grid {
-    /// `None` if there is nothing to lay it over.
-    fn around(places: impl ExactSizeIterator<Item = Point> + Clone, radius: f64) -> Option<Self> {
-        let range = |value: fn(Point) -> f64| {
-            let values = places.clone().map(value);
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
-        };
-        let ((left, right), (top, bottom)) = (range(|p| p.x), range(|p| p.y));
-        if !(right >= left && bottom >= top) {
-            return None;
-        }
-        // never many more cells than places, however small the radius
-        let least = ((right - left) * (bottom - top) / (4 * places.len()) as f64).sqrt();
-        let side = radius.max(least).max((right - left).max(bottom - top) / 1e6);
-        let count = |length: f64| (length / side) as usize + 1;
-        Some(Self { left, top, side, columns: count(right - left), rows: count(bottom - top) })
+/// Cells of one radius over all places; `None` if there is nothing to lay them over.
+fn grid_over<T>(places: impl ExactSizeIterator<Item = Point> + Clone, radius: f64) -> Option<BucketGrid<T>> {
+    let range = |value: fn(Point) -> f64| {
+        let values = places.clone().map(value);
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
+    };
+    let ((left, right), (top, bottom)) = (range(|p| p.x), range(|p| p.y));
+    if !(right >= left && bottom >= top) {
+        return None;
     }
-
-    const fn cells(&self) -> usize {
-        self.columns * self.rows
-    }
-
-    fn place(&self, p: Point) -> (usize, usize) {
-        let column = ((p.x - self.left) / self.side) as usize;
-        let row = ((p.y - self.top) / self.side) as usize;
-        (column.min(self.columns - 1), row.min(self.rows - 1))
-    }
-
-    fn cell(&self, p: Point) -> usize {
-        let (column, row) = self.place(p);
-        row * self.columns + column
-    }
-
-    /// The cell of a place and its neighbours.
-    fn around_cell(&self, p: Point) -> impl Iterator<Item = usize> {
-        let (column, row) = self.place(p);
-        let columns = column.saturating_sub(1)..(column + 2).min(self.columns);
-        (row.saturating_sub(1)..(row + 2).min(self.rows))
-            .flat_map(move |j| columns.clone().map(move |i| j * self.columns + i))
-    }
+    // never many more cells than places, however small the radius
+    let least = ((right - left) * (bottom - top) / (4 * places.len()) as f64).sqrt();
+    let side = radius.max(least).max((right - left).max(bottom - top) / 1e6);
+    let count = |length: f64| (length / side) as usize + 1;
+    Some(BucketGrid::new([left, top], side, [count(right - left), count(bottom - top)]))
 }
 
 #[cfg(test)]

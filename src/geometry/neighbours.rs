@@ -1,5 +1,5 @@
-use super::{Point, Rectangle, Window};
-use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use super::index::{NeighbourTree, WindowGrid};
+use super::{Point, Window};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::num::NonZero;
@@ -24,11 +24,11 @@ pub fn nearest_neighbours(points: &[Point], window: &Window) -> NearestNeighbour
     if points.len() < 2 {
         return nearest;
     }
-    let Some(finder) = Finder::new(points, window) else { return nearest };
+    let Some(tree) = planted(points, window) else { return nearest };
     // The point itself is one of the two nearest, unless others coincide with it.
     let two = NonZero::<usize>::MIN.saturating_add(1);
     let other = |(i, &p): (usize, &Point)| {
-        let j = finder.nearest(p, two).find(|&j| j != i)?;
+        let (j, _) = tree.nearest(p, two).find(|&(j, _)| j != i)?;
         // From the coordinates as given, so that moving the window cannot round the distance.
         Some((window.distance(p, points[j]), j))
     };
@@ -44,152 +44,23 @@ pub fn nearest_neighbours(points: &[Point], window: &Window) -> NearestNeighbour
 /// Distance from each of `places` to the nearest of `points`, the short way round on a torus; infinite without points,
 /// and if a coordinate of theirs is not finite.
 pub fn distances_to_nearest(places: &[Point], points: &[Point], window: &Window) -> Vec<f64> {
-    let finder = if points.is_empty() { None } else { Finder::new(points, window) };
-    let Some(finder) = finder else { return vec![f64::INFINITY; places.len()] };
-    let buckets = Buckets::new(points, window);
+    let tree = if points.is_empty() { None } else { planted(points, window) };
+    let Some(tree) = tree else { return vec![f64::INFINITY; places.len()] };
+    let grid = WindowGrid::new(points, window);
     let distance = |&place: &Point| {
-        let near = buckets.nearest(place);
-        let found = near.or_else(|| finder.nearest(place, NonZero::<usize>::MIN).next());
+        let near = grid.nearest(place);
+        let found = near.or_else(|| tree.nearest(place, NonZero::<usize>::MIN).next().map(|(j, _)| j));
         found.map_or(f64::INFINITY, |j| window.distance(place, points[j]))
     };
     places.par_iter().map(distance).collect()
 }
 
-/// The points of a window, to look for those nearest to a place.
-struct Finder<'a> {
-    tree: ImmutableKdTree<f64, 2>,
-    window: &'a Window,
-    origin: [f64; 2],
-    sides: [f64; 2],
-}
-
-impl<'a> Finder<'a> {
-    /// `None` if a coordinate is not finite.
-    fn new(points: &[Point], window: &'a Window) -> Option<Self> {
-        if points.iter().any(|p| !p.is_finite()) {
-            return None;
-        }
-        let bounds = window.bounds();
-        let (origin, sides) = ([bounds.x0(), bounds.y0()], [bounds.width(), bounds.height()]);
-        let coordinates: Vec<[f64; 2]> = points.iter().map(|p| [p.x - origin[0], p.y - origin[1]]).collect();
-        let tree = ImmutableKdTree::new_from_slice(&coordinates).ok()?;
-        Some(Self { tree, window, origin, sides })
+/// `None` if a coordinate is not finite, or there are too many points.
+fn planted(points: &[Point], window: &Window) -> Option<NeighbourTree> {
+    if points.iter().any(|p| !p.is_finite()) {
+        return None;
     }
-
-    /// Indices of the `n` nearest points.
-    fn nearest(&self, place: Point, n: NonZero<usize>) -> impl Iterator<Item = usize> {
-        let at = [place.x - self.origin[0], place.y - self.origin[1]];
-        let query = self.tree.query(&at);
-        let found = if self.window.is_torus() {
-            query.periodic_boundary_condition(&self.sides).nearest_n::<SquaredEuclidean<f64>>(n).execute()
-        } else {
-            query.nearest_n::<SquaredEuclidean<f64>>(n).execute()
-        };
-        found.into_iter().map(|f| f.item as usize)
-    }
-}
-
-/// Points by the cells of a grid, about one a cell: where they lie evenly, the nearest is found sooner than in a tree.
-struct Buckets<'a> {
-    points: &'a [Point],
-    bounds: Rectangle,
-    torus: bool,
-    columns: usize,
-    rows: usize,
-    /// Where each cell begins among `indices`; one more than there are cells.
-    starts: Vec<usize>,
-    indices: Vec<usize>,
-}
-
-impl<'a> Buckets<'a> {
-    /// Of finite points.
-    fn new(points: &'a [Point], window: &Window) -> Self {
-        let bounds = window.bounds();
-        let side = (bounds.area() / points.len().max(1) as f64).sqrt();
-        let along = |length: f64| ((length / side) as usize).clamp(1, points.len().max(1));
-        let (columns, rows) = (along(bounds.width()), along(bounds.height()));
-        let mut buckets = Self {
-            points,
-            bounds,
-            torus: window.is_torus(),
-            columns,
-            rows,
-            starts: vec![0; columns * rows + 1],
-            indices: Vec::new(),
-        };
-        let cells: Vec<usize> = points
-            .iter()
-            .map(|&p| {
-                let (column, row) = buckets.cell(p);
-                row * columns + column
-            })
-            .collect();
-        for cell in &cells {
-            buckets.starts[cell + 1] += 1;
-        }
-        for i in 1..buckets.starts.len() {
-            buckets.starts[i] += buckets.starts[i - 1];
-        }
-        let mut next = buckets.starts.clone();
-        buckets.indices = vec![0; points.len()];
-        for (index, cell) in cells.into_iter().enumerate() {
-            buckets.indices[next[cell]] = index;
-            next[cell] += 1;
-        }
-        buckets
-    }
-
-    /// Column and row; of a place outside those of the nearest cell.
-    fn cell(&self, p: Point) -> (usize, usize) {
-        let b = &self.bounds;
-        let column = (p.x - b.x0()) / b.width() * self.columns as f64;
-        let row = (p.y - b.y0()) / b.height() * self.rows as f64;
-        ((column as usize).min(self.columns - 1), (row as usize).min(self.rows - 1))
-    }
-
-    /// The nearest point, if it is sure to be among those of the 5 × 5 cells around a place: no other can be nearer. `None` near the
-    /// edges of a torus, beyond which it goes on.
-    fn nearest(&self, place: Point) -> Option<usize> {
-        let (column, row) = self.cell(place);
-        let b = &self.bounds;
-        let (width, height) = (b.width() / self.columns as f64, b.height() / self.rows as f64);
-        let mut best = (f64::INFINITY, 0);
-        for reach in 1..=2 {
-            let beyond =
-                [column < reach, column + reach >= self.columns, row < reach, row + reach >= self.rows];
-            if self.torus && beyond.contains(&true) {
-                return None;
-            }
-            let columns = column.saturating_sub(reach)..(column + reach + 1).min(self.columns);
-            let rows = row.saturating_sub(reach)..(row + reach + 1).min(self.rows);
-            for row in rows.clone() {
-                let line = row * self.columns;
-                for &index in
-                    &self.indices[self.starts[line + columns.start]..self.starts[line + columns.end]]
-                {
-                    let (dx, dy) = (self.points[index].x - place.x, self.points[index].y - place.y);
-                    let d2 = dx * dx + dy * dy;
-                    if d2 < best.0 {
-                        best = (d2, index);
-                    }
-                }
-            }
-            let sides = [
-                place.x - (b.x0() + columns.start as f64 * width),
-                b.x0() + columns.end as f64 * width - place.x,
-                place.y - (b.y0() + rows.start as f64 * height),
-                b.y0() + rows.end as f64 * height - place.y,
-            ];
-            // beyond the bounds there is no point
-            let open = sides.into_iter().zip(beyond).filter(|(_, beyond)| !beyond);
-            // rounding must not let a nearer one be missed
-            let sure = open.map(|(side, _)| side).fold(f64::INFINITY, f64::min) * (1. - 1e-9);
-            if sure > 0. && best.0.is_finite() && best.0 <= sure * sure {
-                return Some(best.1);
-            }
-        }
-        None
-    }
+    NeighbourTree::in_window(points, window).ok()
 }
 
 #[cfg(test)]

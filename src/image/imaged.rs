@@ -157,6 +157,9 @@ impl Region {
 }
 
 /// Connected regions as runs, row by row, each of which points to an earlier run of its region.
+///
+/// imageproc's `connected_components` would keep two words and a label for every pixel and panics from 2³² pixels on: too
+/// much for a montage, whose margins are few runs.
 #[derive(Default)]
 struct Regions {
     runs: Vec<Run>,

@@ -2,6 +2,7 @@ use super::RenderOptions;
 use super::field::normal;
 use super::spacing::CellSizes;
 use crate::geometry::Point;
+use crate::geometry::index::BucketGrid;
 use rand::{Rng, RngExt};
 use std::f64::consts::TAU;
 
@@ -41,7 +42,7 @@ pub(super) fn between(
     }
     let closest_per_spacing = closest(options);
     let widest = cells.spacing.iter().copied().fold(0., f64::max);
-    let mut taken = Buckets::new(options, widest * (0.5 * options.diameter + closest_per_spacing));
+    let mut taken = Discs::new(options, widest * (0.5 * options.diameter + closest_per_spacing));
     for (&p, &spacing) in points.iter().zip(&cells.spacing) {
         taken.insert(p, 0.5 * options.diameter * spacing);
     }
@@ -74,49 +75,34 @@ fn closest(options: &RenderOptions) -> f64 {
     ((b * b + 4. * a * room).sqrt() - b) / (2. * a)
 }
 
-/// Discs that must not overlap, sorted into squares at least as wide as any two of them reach.
-struct Buckets {
+/// Discs that must not overlap, by squares at least as wide as any two of them reach.
+struct Discs {
     side: f64,
-    columns: usize,
-    rows: usize,
-    discs: Vec<Vec<(Point, f64)>>,
+    /// Columns and rows of the image.
+    counts: [usize; 2],
+    discs: BucketGrid<(Point, f64)>,
 }
 
-impl Buckets {
+impl Discs {
     fn new(options: &RenderOptions, reach: f64) -> Self {
         // never more squares than pixels
         let side = reach.max(1.);
-        let count = |length: usize| (length as f64 / side) as usize + 3;
-        let (columns, rows) = (count(options.width), count(options.height));
-        Self { side, columns, rows, discs: vec![Vec::new(); columns * rows] }
-    }
-
-    /// The square of a place; those beyond the border share the outermost.
-    fn place(&self, p: Point) -> (usize, usize) {
-        let index = |v: f64, count: usize| ((v / self.side + 1.).max(0.) as usize).min(count - 1);
-        (index(p.x, self.columns), index(p.y, self.rows))
+        let counts = [options.width, options.height].map(|length| (length as f64 / side) as usize + 1);
+        // one square around the image
+        let discs = BucketGrid::new([-side; 2], side, counts.map(|count| count + 2));
+        Self { side, counts, discs }
     }
 
     fn insert(&mut self, p: Point, radius: f64) {
-        let (column, row) = self.place(p);
-        self.discs[row * self.columns + column].push((p, radius));
+        self.discs.insert(p, (p, radius));
     }
 
     /// Outside the image and one square around it nothing is free.
     fn insert_if_free(&mut self, p: Point, radius: f64) -> bool {
-        let (column, row) = self.place(p);
-        let inside = |v: f64, count: usize| v > -self.side && v < (count - 2) as f64 * self.side;
-        if !inside(p.x, self.columns) || !inside(p.y, self.rows) {
-            return false;
-        }
-        let rows = row.saturating_sub(1)..(row + 2).min(self.rows);
-        let free = rows.into_iter().all(|j| {
-            let columns = column.saturating_sub(1)..(column + 2).min(self.columns);
-            self.discs[j * self.columns + columns.start..j * self.columns + columns.end]
-                .iter()
-                .flatten()
-                .all(|(q, r)| p.distance(*q) >= radius + r)
-        });
+        let inside = |v: f64, count: usize| v > -self.side && v < (count as f64) * self.side;
+        let free = inside(p.x, self.counts[0])
+            && inside(p.y, self.counts[1])
+            && self.discs.near(p).all(|&(q, r)| p.distance(q) >= radius + r);
         if free {
             self.insert(p, radius);
         }

@@ -1,6 +1,6 @@
 use super::{RenderError, RenderOptions};
 use crate::geometry::Point;
-use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use crate::geometry::index::NeighbourTree;
 use std::num::NonZero;
 
 /// Hexagonal spacing over the mean distance of the three nearest neighbours, in a cone mosaic.
@@ -42,17 +42,11 @@ fn nearest_neighbours(points: &[Point]) -> Result<Vec<Vec<(usize, f64)>>, Render
     if points.is_empty() {
         return Ok(Vec::new());
     }
-    let coordinates: Vec<[f64; 2]> = points.iter().map(|p| p.coordinates()).collect();
-    let tree: ImmutableKdTree<f64, 2> = ImmutableKdTree::new_from_slice(&coordinates)
+    let tree = NeighbourTree::in_plane(points)
         .map_err(|e| RenderError::Neighbours { points: points.len(), reason: e.to_string() })?;
-    let neighbours = coordinates.iter().enumerate().map(|(own, place)| {
-        let mut found: Vec<(usize, f64)> = tree
-            .query(place)
-            .nearest_n::<SquaredEuclidean<f64>>(RING)
-            .execute()
-            .iter()
-            .map(|n| (n.item as usize, n.distance.sqrt()))
-            .collect();
+    let neighbours = points.iter().enumerate().map(|(own, &place)| {
+        let mut found: Vec<(usize, f64)> =
+            tree.nearest(place, RING).map(|(k, squared)| (k, squared.sqrt())).collect();
         // Among points at the same place the tree may name another first.
         found.sort_by(|a, b| a.1.total_cmp(&b.1).then((a.0 != own).cmp(&(b.0 != own))).then(a.0.cmp(&b.0)));
         found

@@ -1,7 +1,7 @@
 use super::assignment::assign;
 use crate::choice::UnknownChoice;
 use crate::geometry::Point;
-use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use crate::geometry::index::NeighbourTree;
 use serde::{Deserialize, Serialize};
 use std::num::NonZero;
 use strum::{Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
@@ -279,7 +279,7 @@ fn nearest(marks: &[Point], detections: &Index, limit: f64) -> Vec<Option<(usize
 /// Points that can be searched by distance.
 pub(super) struct Index<'a> {
     points: &'a [Point],
-    tree: ImmutableKdTree<f64, 2>,
+    tree: NeighbourTree,
 }
 
 /// Most detections that a mark is offered: more within reach means that the detections are not cones.
@@ -291,9 +291,7 @@ impl<'a> Index<'a> {
         if points.is_empty() {
             return Ok(None);
         }
-        let coordinates: Vec<[f64; 2]> = points.iter().map(|p| p.coordinates()).collect();
-        let tree =
-            ImmutableKdTree::new_from_slice(&coordinates).map_err(|_| MatchError::TooMany(points.len()))?;
+        let tree = NeighbourTree::in_plane(points).map_err(|_| MatchError::TooMany(points.len()))?;
         Ok(Some(Self { points, tree }))
     }
 
@@ -307,10 +305,7 @@ impl<'a> Index<'a> {
         let count = NonZero::new(count).unwrap_or(NonZero::<usize>::MIN);
         // A little further, lest the rounding of squares cuts off what lies at the limit.
         let radius = limit * limit * (1. + 1e-9) + f64::MIN_POSITIVE;
-        let place = p.coordinates();
-        let found =
-            self.tree.query(&place).nearest_n::<SquaredEuclidean<f64>>(count).within(radius).execute();
-        let mut found = self.sorted(p, found.into_iter().map(|item| item.item as usize));
+        let mut found = self.sorted(p, self.tree.nearest_within(p, count, radius));
         found.retain(|(_, distance)| *distance <= limit);
         found
     }

@@ -1,5 +1,6 @@
 use super::{SPACING_RANGE, SpacingMap};
 use crate::geometry::Point;
+use crate::geometry::index::BucketGrid;
 use crate::image::EmptyPixels;
 use crate::mosaic::hexagonal_spacing;
 
@@ -128,11 +129,9 @@ impl Square {
     }
 }
 
-/// Points dealt out to square cells, so that a square of the plane is counted without looking at all of them.
+/// Points of an image, of which those in a square are counted without looking at all of them.
 struct Cells {
-    side: f64,
-    columns: usize,
-    points: Vec<Vec<Point>>,
+    points: BucketGrid<Point>,
     width: f64,
     height: f64,
 }
@@ -140,18 +139,11 @@ struct Cells {
 impl Cells {
     fn new(centres: &[Point], width: usize, height: usize, side: f64) -> Self {
         let (width, height) = (width as f64, height as f64);
-        let columns = (width / side) as usize + 1;
-        let rows = (height / side) as usize + 1;
-        let mut cells = Self { side, columns, points: vec![Vec::new(); columns * rows], width, height };
-        for p in centres {
-            let (i, j) = (cells.index(p.x).min(columns - 1), cells.index(p.y).min(rows - 1));
-            cells.points[j * columns + i].push(*p);
-        }
-        cells
-    }
-
-    fn index(&self, place: f64) -> usize {
-        ((place + 0.5) / self.side).max(0.) as usize
+        let cells = |length: f64| (length / side) as usize + 1;
+        // the image begins at the corner of its first pixel
+        let mut points = BucketGrid::new([-0.5; 2], side, [cells(width), cells(height)]);
+        centres.iter().for_each(|&p| points.insert(p, p));
+        Self { points, width, height }
     }
 
     fn square(&self, middle: Point, half: f64) -> Square {
@@ -166,11 +158,8 @@ impl Cells {
     }
 
     fn count(&self, s: &Square) -> usize {
-        let rows = self.points.len() / self.columns;
-        let columns = self.index(s.left)..=self.index(s.right).min(self.columns - 1);
-        (self.index(s.top)..=self.index(s.bottom).min(rows - 1))
-            .flat_map(|j| columns.clone().map(move |i| j * self.columns + i))
-            .flat_map(|cell| &self.points[cell])
+        self.points
+            .touching(Point::new(s.left, s.top), Point::new(s.right, s.bottom))
             .filter(|p| p.x >= s.left && p.x < s.right && p.y >= s.top && p.y < s.bottom)
             .count()
     }

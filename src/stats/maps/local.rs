@@ -1,7 +1,7 @@
 use super::LocalWindow;
+use crate::geometry::index::NeighbourTree;
 use crate::geometry::{NearestNeighbours, Point, Rectangle, Window};
 use crate::stats::{Deviation, Voronoi, moments};
-use kiddo::{Chebyshev, ImmutableKdTree};
 use rayon::prelude::*;
 
 /// How much wider a window is looked for where the one before held too few cells.
@@ -151,9 +151,8 @@ fn values(
 /// Bound cells by place.
 struct Finder<'a> {
     members: &'a [Member],
-    tree: ImmutableKdTree<f64, 2>,
+    tree: NeighbourTree,
     window: &'a Window,
-    origin: [f64; 2],
     sides: [f64; 2],
 }
 
@@ -163,11 +162,9 @@ impl<'a> Finder<'a> {
             return None;
         }
         let bounds = window.bounds();
-        let (origin, sides) = ([bounds.x0(), bounds.y0()], [bounds.width(), bounds.height()]);
-        let places: Vec<[f64; 2]> =
-            members.iter().map(|m| [m.at.x - origin[0], m.at.y - origin[1]]).collect();
-        let tree = ImmutableKdTree::new_from_slice(&places).ok()?;
-        Some(Self { members, tree, window, origin, sides })
+        let places: Vec<Point> = members.iter().map(|m| m.at).collect();
+        let tree = NeighbourTree::in_window(&places, window).ok()?;
+        Some(Self { members, tree, window, sides: [bounds.width(), bounds.height()] })
     }
 
     /// Half the side of a window that a torus can hold.
@@ -178,20 +175,13 @@ impl<'a> Finder<'a> {
     /// For every cell whose point lies within `half` along both axes half the side of the square around `at` that just
     /// holds the cell, and the cell. Since the window is a square, a cell lies in it as soon as its extent does.
     fn near(&self, at: Point, half: f64) -> Vec<(f64, usize)> {
-        let place = [at.x - self.origin[0], at.y - self.origin[1]];
-        let query = self.tree.query(&place);
-        let found = if self.window.is_torus() {
-            query.periodic_boundary_condition(&self.sides).within::<Chebyshev<f64>>(half).unsorted().execute()
-        } else {
-            query.within::<Chebyshev<f64>>(half).unsorted().execute()
-        };
         let reach = |k: usize| {
             let member = &self.members[k];
             let [left, up, right, down] = member.extent;
             let [dx, dy] = self.offset(at, member.at);
             (left - dx).max(right + dx).max(up - dy).max(down + dy)
         };
-        found.into_iter().map(|f| (reach(f.item as usize), f.item as usize)).collect()
+        self.tree.in_square(at, half).map(|k| (reach(k), k)).collect()
     }
 
     fn offset(&self, from: Point, to: Point) -> [f64; 2] {

@@ -1,0 +1,79 @@
+use crate::geometry::{Point, Window};
+use kiddo::kd_tree::ConstructionError;
+use kiddo::{Chebyshev, ImmutableKdTree, SquaredEuclidean};
+use std::num::NonZero;
+
+/// Points in a k-d tree, to look for those nearest to a place; on a torus the short way round.
+pub(crate) struct NeighbourTree {
+    tree: ImmutableKdTree<f64, 2>,
+    origin: [f64; 2],
+    /// Sides of the torus.
+    period: Option<[f64; 2]>,
+}
+
+impl NeighbourTree {
+    /// Plants a tree of finite points in the open plane.
+    ///
+    /// # Errors
+    /// If there are more points than the tree can number.
+    pub(crate) fn in_plane(points: &[Point]) -> Result<Self, ConstructionError> {
+        Self::at([0.; 2], None, points)
+    }
+
+    /// Plants a tree of finite points in a window.
+    ///
+    /// # Errors
+    /// If there are more points than the tree can number.
+    pub(crate) fn in_window(points: &[Point], window: &Window) -> Result<Self, ConstructionError> {
+        let bounds = window.bounds();
+        let period = window.is_torus().then(|| [bounds.width(), bounds.height()]);
+        Self::at([bounds.x0(), bounds.y0()], period, points)
+    }
+
+    fn at(origin: [f64; 2], period: Option<[f64; 2]>, points: &[Point]) -> Result<Self, ConstructionError> {
+        let places: Vec<[f64; 2]> = points.iter().map(|p| [p.x - origin[0], p.y - origin[1]]).collect();
+        Ok(Self { tree: ImmutableKdTree::new_from_slice(&places)?, origin, period })
+    }
+
+    fn place(&self, p: Point) -> [f64; 2] {
+        [p.x - self.origin[0], p.y - self.origin[1]]
+    }
+
+    /// Returns indices and squared distances of the `n` nearest points, nearest first.
+    pub(crate) fn nearest(&self, place: Point, n: NonZero<usize>) -> impl Iterator<Item = (usize, f64)> {
+        let at = self.place(place);
+        let query = self.tree.query(&at);
+        let found = match &self.period {
+            Some(sides) => {
+                query.periodic_boundary_condition(sides).nearest_n::<SquaredEuclidean<f64>>(n).execute()
+            }
+            None => query.nearest_n::<SquaredEuclidean<f64>>(n).execute(),
+        };
+        found.into_iter().map(|f| (f.item as usize, f.distance))
+    }
+
+    /// Returns the indices of the `n` nearest points of the open plane whose squared distance is at most `limit`.
+    pub(crate) fn nearest_within(
+        &self,
+        place: Point,
+        n: NonZero<usize>,
+        limit: f64,
+    ) -> impl Iterator<Item = usize> {
+        let at = self.place(place);
+        let found = self.tree.query(&at).nearest_n::<SquaredEuclidean<f64>>(n).within(limit).execute();
+        found.into_iter().map(|f| f.item as usize)
+    }
+
+    /// Returns the indices of the points at most `half` from a place along either axis, in no order.
+    pub(crate) fn in_square(&self, place: Point, half: f64) -> impl Iterator<Item = usize> {
+        let at = self.place(place);
+        let query = self.tree.query(&at);
+        let found = match &self.period {
+            Some(sides) => {
+                query.periodic_boundary_condition(sides).within::<Chebyshev<f64>>(half).unsorted().execute()
+            }
+            None => query.within::<Chebyshev<f64>>(half).unsorted().execute(),
+        };
+        found.into_iter().map(|f| f.item as usize)
+    }
+}
