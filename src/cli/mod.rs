@@ -51,7 +51,7 @@ enum Command {
     Run(Box<run::Run>),
     Detect(detect::Detect),
     Measure(Box<measure::Measure>),
-    Compare(compare::Compare),
+    Compare(Box<compare::Compare>),
     Validate(validate::Validate),
     Agree(agree::Agree),
     Sample(sample::Sample),
