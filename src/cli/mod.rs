@@ -52,7 +52,7 @@ enum Command {
     Detect(detect::Detect),
     Measure(Box<measure::Measure>),
     Compare(Box<compare::Compare>),
-    Validate(validate::Validate),
+    Validate(Box<validate::Validate>),
     Agree(agree::Agree),
     Sample(sample::Sample),
     Render(Box<render::Render>),

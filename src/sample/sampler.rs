@@ -36,7 +36,7 @@ pub trait Sampler: fmt::Debug + Send + Sync {
         false
     }
 
-    /// Returns the sampler as one with parameters: `Some(self)` for those that are [`Settable`].
+    /// Returns the sampler as one with parameters: `Some(self)` for those that are [`Settable`](super::Settable).
     fn settable(&self) -> Option<&dyn Configure> {
         None
     }

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// Every statistic of a mosaic that is one number or a few, not a series: what a row of `summary.csv`
 /// and `metrics.json` hold. Lengths are in the unit of the mosaic.
 ///
-/// A new statistic is a field here and a line in [`Summary::of`]; records and files take it over.
+/// A new statistic is a field here and a line in `Summary::of`; records and files take it over.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Points per squared unit.

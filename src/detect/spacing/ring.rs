@@ -162,7 +162,7 @@ impl RingProfile {
     }
 
     /// The spacing: the most probable candidate, refined by a parabola. The probabilities are a small network's (see
-    /// [`ring_network`](super::ring_network)).
+    /// `ring_network`).
     pub fn spacing(&self) -> RingEstimate {
         let spacing = self.peak_among(|_| true);
         RingEstimate { spacing, confidence: self.probability_near(spacing), least: self.least().min(spacing) }

@@ -1,7 +1,7 @@
 //! Every table that is written as CSV beside `summary.csv`: its columns, and for each of them name, unit,
 //! edge rule, definition, source and value. Header, rows and the data dictionary come from one list.
 //!
-//! A new column is one [`column`] in the list of its table.
+//! A new column is one [`column()`] in the list of its table.
 
 mod agreement;
 mod column;
