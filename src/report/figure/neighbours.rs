@@ -109,7 +109,7 @@ mod tests {
     #[test]
     fn gaussian_has_the_area_of_the_histogram() {
         let g = Gaussian { mean: 8., sd: 1., scale: 281. * 0.25 };
-        let area: f64 = (0..4000).map(|i| g.at(i as f64 * 0.004) * 0.004).sum();
+        let area: f64 = (0..4000).map(|i| g.at(f64::from(i) * 0.004) * 0.004).sum();
         assert!((area - 281. * 0.25).abs() < 1e-6, "{area}");
     }
 }

@@ -154,6 +154,6 @@ mod tests {
             x * x + y * y < 2.5
         });
         // Half the area of the annulus 1..2 lies within √2.5; the tolerance is five standard deviations.
-        assert!((inner.count() as f64 / draws as f64 - 0.5).abs() < 0.0125);
+        assert!((inner.count() as f64 / f64::from(draws) - 0.5).abs() < 0.0125);
     }
 }

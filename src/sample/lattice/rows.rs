@@ -97,7 +97,7 @@ impl Lattice {
         let first = -(y / self.row_step).floor();
         (0..)
             .map(move |i| {
-                let row = first + i as f64;
+                let row = first + f64::from(i);
                 let moved = x + self.shift * self.step * row.rem_euclid(2.);
                 let start = moved - (moved / self.step).floor() * self.step;
                 let columns = ((width - start) / self.step).ceil().max(0.) as usize;

@@ -213,7 +213,7 @@ mod tests {
         let f = 0.5;
         let curve = TargetCurve::from_spectrum(&[[0., 0.], [f, 0.]]).unwrap();
         for i in 1..60 {
-            let r = i as f64 * 0.1;
+            let r = f64::from(i) * 0.1;
             let expected = TargetCurve::below(f).at(r);
             assert!((curve.at(r) - expected).abs() < 2e-3, "{r}: {} {expected}", curve.at(r));
         }

@@ -138,7 +138,7 @@ mod tests {
             points[0] = [0., 1f64.next_down()];
             let (exact, fast) = (direct(&points, columns, rows), gridded(&points, columns, rows));
             for (k, (a, b)) in exact.iter().zip(&fast).enumerate() {
-                let (a, b) = (a.norm_sqr() / n as f64, b.norm_sqr() / n as f64);
+                let (a, b) = (a.norm_sqr() / f64::from(n), b.norm_sqr() / f64::from(n));
                 // of the mean power, which is 1, where the power itself is next to nothing
                 assert!((a - b).abs() <= 1e-6 * a.max(0.01), "{n} points, wave {k}: {a} {b}");
             }
