@@ -7,7 +7,7 @@ use crate::report::{AgreementLine, AgreementPanel, FigureFormat, agreement_figur
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// How graders are held against each other.
+/// Options of a comparison of graders, sessions or programs.
 #[derive(Clone, Debug, Default)]
 pub struct AgreementOptions {
     /// Columns to compare; empty: all that hold numbers in every table.
@@ -18,14 +18,14 @@ pub struct AgreementOptions {
     pub figures: Vec<FigureFormat>,
 }
 
-/// How two graders agree in one column.
+/// Agreement of two graders in one column.
 #[derive(Clone, Debug)]
 pub struct ColumnAgreement {
     /// The column.
     pub column: String,
     /// Who is held against whom.
     pub graders: [String; 2],
-    /// Of every image that both have: its name and both values.
+    /// Name and both values of every image that both have.
     pub pairs: Vec<(String, [f64; 2])>,
     /// Bias and limits of agreement.
     pub agreement: ClusteredAgreement,
@@ -33,7 +33,7 @@ pub struct ColumnAgreement {
     pub intraclass: Option<Intraclass>,
 }
 
-/// What came of comparing graders.
+/// Results of a comparison of graders.
 #[derive(Clone, Debug)]
 pub struct AgreementOutcome {
     /// One per column and pair of graders.
@@ -42,7 +42,7 @@ pub struct AgreementOutcome {
     pub overall: Vec<(String, Intraclass)>,
     /// Images that not all graders have, and those who lack them.
     pub unpaired: Vec<(String, String)>,
-    /// Whether images were grouped, so that those of a group do not count as independent.
+    /// Tells that images were grouped, so that those of a group do not count as independent.
     pub grouped: bool,
 }
 
@@ -63,7 +63,7 @@ impl AgreementOutcome {
     }
 }
 
-/// What figures show, the first of each row that there is.
+/// Columns that figures show: the first of each row that there is.
 const SHOWN: [&[&str]; 2] =
     [&["density_per_mm2", "density_per_px2", "density", "n"], &["nn_mean_um", "nn_mean_px", "nn_mean", "ri"]];
 

@@ -11,14 +11,14 @@ use crate::report::tables::{self, RoiRow};
 use crate::report::{CoordinatesRecord, FindingRecord, LandmarkRecord, Subject, SummaryKind, counted};
 use std::path::{Path, PathBuf};
 
-/// How coordinate files are read, and what is made of them.
+/// Options of reading coordinate files and of what is made of them.
 #[derive(Clone)]
 pub struct CoordinatesOptions {
-    /// What is computed and written of every mosaic.
+    /// Everything that is computed and written of every mosaic.
     pub plan: Plan,
-    /// How the files are to be understood.
+    /// Options of reading the files.
     pub read: ReadOptions,
-    /// Where points could have been seen.
+    /// The window that points could have been seen in.
     pub region: Region,
     /// Folder of the images that windows are taken from; `None`: they lie beside the files.
     pub images: Option<PathBuf>,
@@ -28,7 +28,7 @@ pub struct CoordinatesOptions {
     pub torus: bool,
 }
 
-/// What came of measuring or comparing coordinate files.
+/// Results of measuring or comparing coordinate files.
 #[derive(Clone, Debug)]
 pub struct CoordinatesOutcome {
     /// One record per file, in the order of the inputs.
@@ -38,11 +38,11 @@ pub struct CoordinatesOutcome {
     /// Correlation of regularity with the distance to each sampler; empty where it was not asked
     /// for.
     pub findings: Vec<FindingRecord>,
-    /// How the batch ended.
+    /// The end of the batch: complete or stopped.
     pub ending: Ending,
 }
 
-/// What is kept of a file when its results are written.
+/// Parts of a file's results that are kept in memory when they are written.
 struct Done {
     record: CoordinatesRecord,
     landmarks: Option<LandmarkRecord>,

@@ -112,6 +112,20 @@ fn a_changed_file_of_a_result_is_made_anew() {
 }
 
 #[test]
+fn a_missing_file_of_any_kind_is_made_anew() {
+    let place = images(1);
+    let run = with(&["--spectrum", "--functions", "--figures", "svg,pdf"]);
+    place.ok(&run);
+    let before = place.results("out");
+    for file in ["spectrum.csv", "spectrum.png", "cells.csv", "figure.pdf"] {
+        fs::remove_file(place.path(&format!("out/images/1/{file}"))).unwrap();
+        assert!(!place.ok(&run).stdout.contains("kept"), "{file}");
+        assert_eq!(place.results("out"), before, "{file}");
+    }
+    assert!(place.ok(&run).stdout.contains("1 kept"));
+}
+
+#[test]
 fn corrected_cones_are_used_and_never_replaced_unasked() {
     let place = images(2);
     place.ok(&with(&["--um-per-px", "0.5"]));

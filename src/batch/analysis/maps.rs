@@ -8,22 +8,13 @@ use crate::stats::{LocalWindow, MapOptions, Maps};
 use serde::Serialize;
 use std::path::Path;
 
-/// What [`write`] writes, after the name of the mosaic.
-const FILES: [&str; 3] = ["maps.csv", "maps.svg", "profiles.csv"];
-/// What [`write_fourier`] writes.
-const FOURIER: &str = "fourier_map.csv";
-/// What the folder of an image holds of its maps.
-pub(super) const OF_IMAGE: [&str; 4] = [FILES[0], FILES[1], FILES[2], FOURIER];
-/// What was read off the maps, one row a file.
-const LANDMARKS: &str = tables::LANDMARKS.file;
-
 /// The window around each cone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MapWindow {
     /// Grown until it holds this many bound cells; see [`LocalWindow::Cells`].
     Cells(usize),
-    /// Of this side.
+    /// A square of this side.
     Side(Length),
 }
 
@@ -50,7 +41,7 @@ impl Default for MapRequest {
 }
 
 impl MapRequest {
-    /// Whether every field is in its range.
+    /// Checks that every field is in its range.
     ///
     /// # Errors
     /// The first field that is not, with its range.
@@ -89,8 +80,8 @@ pub(super) fn write(
     (mosaic, found): (&Mosaic, &Maps),
     figures: &[FigureFormat],
 ) -> Result<(), BatchError> {
-    let [table, profiles] = [FILES[0], FILES[2]].map(|name| format!("{prefix}{name}"));
-    let figure = format!("{prefix}maps");
+    let [table, figure, profiles] =
+        ["maps.csv", "maps", "profiles.csv"].map(|name| format!("{prefix}{name}"));
     folder.write(&table, &tables::maps_csv(mosaic, found)?)?;
     write_figure(folder, &figure, &maps_figure(title, mosaic, found)?, figures)?;
     folder.write(&profiles, &tables::profiles_csv(mosaic, found)?)
@@ -101,7 +92,7 @@ pub(in crate::batch) fn write_landmarks<'a>(
     out: &OutputFolder,
     records: impl IntoIterator<Item = &'a LandmarkRecord>,
 ) -> Result<(), BatchError> {
-    out.write(LANDMARKS, &tables::LANDMARKS.csv(records)?)
+    out.write(tables::LANDMARKS.file, &tables::LANDMARKS.csv(records)?)
 }
 
 /// Spacing by the spectra of overlapping tiles of the image; no rows where its spectrum has no ring.
@@ -113,5 +104,5 @@ pub(super) fn write_fourier(
 ) -> Result<(), BatchError> {
     let map = whole.and_then(|whole| fourier_map(image, whole, &FourierMapOptions::default()).ok());
     let um_per_px = scale.map(|s| s.micrometres_per_pixel());
-    folder.write(FOURIER, &tables::fourier_map_csv(map.as_ref(), um_per_px)?)
+    folder.write(tables::FOURIER_MAP.file, &tables::fourier_map_csv(map.as_ref(), um_per_px)?)
 }

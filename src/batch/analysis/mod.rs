@@ -17,7 +17,7 @@ pub(super) use maps::write_landmarks;
 pub(super) use measured::CONFIDENT;
 pub(super) use rois::write as write_rois;
 pub(super) use verdicts::write_table as write_verdicts;
-pub(super) use write::{Layout, required_files, write};
+pub(super) use write::{Layout, write};
 
 use super::{BatchError, Input};
 use crate::compare::{References, SamplerCurves, SamplerVerdict};
@@ -40,7 +40,7 @@ pub(super) struct Specimen<'a> {
     pub outside: usize,
     /// The image, where there is one.
     pub image: Option<&'a Plane>,
-    /// How the points were found, if this program found them.
+    /// Detections that the points are from, if this program found them.
     pub found: Option<&'a Detections>,
 }
 

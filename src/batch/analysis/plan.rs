@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 /// Everything that is computed of a mosaic and written about it, wherever its points come from.
 #[derive(Clone)]
 pub struct Plan {
-    /// How mosaics are measured.
+    /// Options of the measures.
     pub measure: MeasureOptions,
     /// Samplers they are compared with; may be empty.
     pub samplers: Vec<&'static dyn Sampler>,
@@ -26,7 +26,7 @@ pub struct Plan {
     pub maps: Option<MapRequest>,
     /// Regions measured as mosaics of their own.
     pub rois: Option<RoiRequest>,
-    /// Where scales come from.
+    /// Source of the scales.
     pub scales: ScaleSource,
     /// Facts about the files from a manifest, and which of them belong together.
     pub labels: Labels,

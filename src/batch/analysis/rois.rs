@@ -17,13 +17,13 @@ const FILE: &str = "rois.csv";
 /// Regions of interest of every mosaic of a batch.
 #[derive(Clone, Debug)]
 pub struct RoiRequest {
-    /// Where they are.
+    /// Source of their boxes.
     pub source: RoiSource,
     /// Each grows about its centre until it holds this many bound cells, 1 to 100 000; `None`: they stay as they are.
     pub cells: Option<usize>,
 }
 
-/// Where regions of interest come from.
+/// Source of the boxes of regions of interest.
 #[derive(Clone, Debug)]
 pub enum RoiSource {
     /// A table of boxes.
@@ -38,7 +38,7 @@ pub enum RoiSource {
 }
 
 impl RoiRequest {
-    /// Whether every field is in its range.
+    /// Checks that every field is in its range.
     ///
     /// # Errors
     /// If the number of cells is not.

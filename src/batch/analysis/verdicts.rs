@@ -7,10 +7,8 @@ use crate::report::{Curve, EnvelopePanel, FigureFormat, VerdictRecord, envelope_
 use crate::sample::Sampler;
 use crate::stats::Measures;
 
-/// What [`write`] writes.
+/// The curves and envelopes, after the name of the mosaic.
 const ENVELOPE: &str = "envelope.csv";
-const FIGURE: &str = "verdict.svg";
-pub(super) const FILES: [&str; 2] = [ENVELOPE, FIGURE];
 
 /// The verdict of each sampler on a mosaic, in their order, and a warning for each that has none. A
 /// mosaic without a pair correlation function has neither: another warning says so.

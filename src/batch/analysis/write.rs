@@ -14,28 +14,13 @@ const SPECTRUM: [&str; 2] = ["spectrum.csv", "spectrum.png"];
 /// holds the cones as they were found.
 const POINTS: [&str; 2] = ["points.csv", "cells.csv"];
 
-/// Where the files of a mosaic go.
+/// Place of the files of a mosaic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::batch) enum Layout {
     /// Into a folder of its own, with the figure.
     Folder,
     /// Beside those of others.
     Beside,
-}
-
-/// Names that [`write`] always writes into the folder of an image, given the plan.
-pub(in crate::batch) fn required_files(plan: &Plan, with_verdicts: bool) -> Vec<&'static str> {
-    let mut names = vec![PCF, "figure.svg"];
-    if plan.functions.is_some() {
-        names.extend(FUNCTIONS.into_iter().chain([POINTS[1]]));
-    }
-    if plan.maps.is_some() {
-        names.extend(maps::OF_IMAGE);
-    }
-    if with_verdicts {
-        names.extend(verdicts::FILES);
-    }
-    names
 }
 
 /// Writes the files of a mosaic into `folder`.

@@ -1,6 +1,6 @@
 use super::Leftovers;
 
-/// How the work on a batch ended.
+/// The end of the work on a batch.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Ending {
     /// Files that were not begun because the batch was stopped; 0 if it ran to its end.

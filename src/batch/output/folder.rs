@@ -32,10 +32,7 @@ impl OutputFolder {
         // a partial folder is the program's own, whatever stands under its later name
         let path = self.join(name);
         let in_place = path == self.ledger.root().join(&listed);
-        if in_place
-            && self.ledger.standing(&listed) == Standing::Changed
-            && fs::read(&path).is_ok_and(|there| there != bytes)
-        {
+        if in_place && self.ledger.would_lose(&listed, bytes) {
             self.ledger.put_away(&listed)?;
         }
         self.ledger.note(&listed, bytes)?;
@@ -144,7 +141,7 @@ impl OutputFolder {
     }
 }
 
-/// What file managers leave in every folder that they show.
+/// Files that file managers leave in every folder that they show.
 const OF_SYSTEMS: [&str; 3] = [".DS_Store", "Thumbs.db", "desktop.ini"];
 
 /// Returns the names in a folder, sorted; none if it cannot be read.

@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// What came of the work on the files of a batch.
+/// Results of the work on the files of a batch.
 pub(in crate::batch) struct Worked<T> {
     /// Results, in the order of the inputs.
     pub done: Vec<T>,

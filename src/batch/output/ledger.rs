@@ -20,7 +20,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// The program's own folder inside a result folder; hidden, so that it is never taken for input.
 pub(super) const OWN: &str = ".conemosaic";
 const LIST: &str = "files.sha256";
-/// Where results of earlier runs go that the present one does not replace.
+/// Folder for results of earlier runs that the present one does not replace.
 const EARLIER: &str = "earlier";
 /// Stands in a folder whose tables may not belong together yet.
 const MARKER: &str = "INCOMPLETE.txt";
@@ -38,13 +38,13 @@ To finish, run the same command again: what is done is kept.
 pub struct Leftovers {
     /// Results of earlier runs that were moved to [`Self::place`], by their path in the folder.
     pub moved: Vec<String>,
-    /// Where they are now.
+    /// Folder that they are in now.
     pub place: PathBuf,
     /// Files that a person made or changed, which stay where they are.
     pub foreign: Vec<String>,
 }
 
-/// How a file on the disk compares with what the program wrote under its name.
+/// Relation of a file on the disk to what the program wrote under its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::batch) enum Standing {
     /// There is no such file.
@@ -55,7 +55,7 @@ pub(in crate::batch) enum Standing {
     Changed,
 }
 
-/// See the file's head.
+/// Keeps the list of the program's own files in a result folder; see the file's head.
 pub(super) struct Ledger {
     root: PathBuf,
     /// SHA-256 by path, of earlier runs; several where a run was cut off.
@@ -133,14 +133,31 @@ impl Ledger {
         self.now().kept.insert(prefix.to_owned());
     }
 
+    /// Returns the SHA-256 of the file `name` as it is now; `None` if it cannot be read.
+    fn current(&self, name: &str) -> Option<String> {
+        fs::read(self.root.join(name)).ok().map(|bytes| hex(&Sha256::digest(bytes)))
+    }
+
     /// Tells how the file `name` compares with what the program wrote, now or earlier.
     pub fn standing(&self, name: &str) -> Standing {
-        let Ok(bytes) = fs::read(self.root.join(name)) else { return Standing::Missing };
-        let hash = hex(&Sha256::digest(bytes));
-        let own = name == VOLATILE
-            || self.earlier.get(name).is_some_and(|known| known.contains(&hash))
-            || self.now().written.get(name) == Some(&hash);
-        if own { Standing::Own } else { Standing::Changed }
+        match self.current(name) {
+            None => Standing::Missing,
+            Some(hash) if self.is_own(name, &hash) => Standing::Own,
+            Some(_) => Standing::Changed,
+        }
+    }
+
+    /// Tells whether the program has written a file of that name and hash, now or earlier.
+    fn is_own(&self, name: &str, hash: &str) -> bool {
+        name == VOLATILE
+            || self.earlier.get(name).is_some_and(|known| known.contains(hash))
+            || self.now().written.get(name).is_some_and(|written| written == hash)
+    }
+
+    /// Tells whether writing `bytes` under that name would replace something of a person's.
+    pub fn would_lose(&self, name: &str, bytes: &[u8]) -> bool {
+        let there = fs::read(self.root.join(name)).ok().filter(|there| there != bytes);
+        there.is_some_and(|there| !self.is_own(name, &hex(&Sha256::digest(there))))
     }
 
     /// Tells whether the program has ever written a file of that name.
@@ -154,6 +171,16 @@ impl Ledger {
         let mut earlier = self.earlier.range(from.clone()..);
         earlier.next().is_some_and(|(name, _)| name.starts_with(prefix))
             || self.now().written.range(from..).next().is_some_and(|(name, _)| name.starts_with(prefix))
+    }
+
+    /// Tells whether every file that the program has written below `prefix` is there as it was written,
+    /// but for those in `aside`. Not where none was.
+    pub fn is_whole(&self, prefix: &str, aside: &[&str]) -> bool {
+        let below = self.earlier.range(prefix.to_owned()..).map(|(name, _)| name);
+        let mut names = below.take_while(|name| name.starts_with(prefix)).peekable();
+        names.peek().is_some()
+            && names
+                .all(|name| aside.contains(&&name[prefix.len()..]) || self.standing(name) == Standing::Own)
     }
 
     /// Returns the result folder.
@@ -208,24 +235,22 @@ impl Ledger {
         let holds = |name: &str| below(name).is_some_and(|prefix| name.starts_with(prefix.as_str()));
         let mut list = written.clone();
         for (name, hashes) in self.earlier.iter().filter(|(name, _)| !written.contains_key(*name)) {
-            match self.standing(name) {
-                Standing::Missing => {}
-                Standing::Own if holds(name) => {
-                    let current = fs::read(self.root.join(name)).map(|b| hex(&Sha256::digest(b)));
-                    if let Some(hash) = current.ok().or_else(|| hashes.first().cloned()) {
-                        list.insert(name.clone(), hash);
+            // kept results were looked at when they were kept: only a kill leaves several hashes
+            let kept = holds(name);
+            match hashes.first().filter(|_| kept && hashes.len() == 1) {
+                Some(hash) if self.root.join(name).exists() => {
+                    list.insert(name.clone(), hash.clone());
+                }
+                _ => match (self.current(name), kept) {
+                    (None, _) => {}
+                    (Some(hash), true) => {
+                        let listed = if hashes.contains(&hash) { Some(&hash) } else { hashes.first() };
+                        list.extend(listed.map(|hash| (name.clone(), hash.clone())));
                     }
-                }
-                // all results are written: one that cannot be moved is named
-                Standing::Own => {
-                    if self.put_away(name).is_err() {
-                        left.foreign.push(name.clone());
-                    }
-                }
-                Standing::Changed if holds(name) => {
-                    list.extend(hashes.first().map(|hash| (name.clone(), hash.clone())));
-                }
-                Standing::Changed => left.foreign.push(name.clone()),
+                    // all results are written: one that cannot be moved is named
+                    (Some(hash), false) if hashes.contains(&hash) && self.put_away(name).is_ok() => {}
+                    (Some(_), false) => left.foreign.push(name.clone()),
+                },
             }
         }
         list.remove(VOLATILE);

@@ -56,6 +56,12 @@ impl ResultFolder {
         self.ledger.knows(name)
     }
 
+    /// Tells whether all files that the program has written below `prefix` are as it wrote them, but
+    /// for those in `aside`; not where there are none.
+    pub fn is_whole(&self, prefix: &str, aside: &[&str]) -> bool {
+        self.ledger.is_whole(prefix, aside)
+    }
+
     /// Puts a copy of a file away that is about to be replaced.
     ///
     /// # Errors

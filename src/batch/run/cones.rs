@@ -16,7 +16,7 @@ use sha2::{Digest, Sha256};
 use std::fs;
 use std::path::Path;
 
-/// Where the cones of a run come from.
+/// Source of the cones of a run.
 #[derive(Clone, Debug)]
 pub enum ConeSource {
     /// They are found in the image.
@@ -33,9 +33,9 @@ pub(super) struct Cones {
     pub outside: usize,
     /// Cones in all of the image.
     pub all: usize,
-    /// How they were found, if that was now.
+    /// Detections, if they were found now.
     pub found: Option<Detections>,
-    /// Where they are from.
+    /// Their origin, for the record.
     pub from: ConesFrom,
     /// The content of `points.csv`.
     pub csv: Vec<u8>,

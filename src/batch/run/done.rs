@@ -24,7 +24,7 @@ pub(super) struct Seconds {
     pub report: f64,
 }
 
-/// What is kept of an image when its results are written.
+/// Parts of an image's results that are kept in memory when they are written.
 pub(super) struct Done {
     pub record: ImageRecord,
     pub landmarks: Option<LandmarkRecord>,

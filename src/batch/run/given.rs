@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 /// Cones that were marked by hand, corrected or found by another program: a file per image.
 #[derive(Clone, Debug)]
 pub struct GivenCones {
-    /// How the files are to be understood.
+    /// Options of reading the files.
     pub read: ReadOptions,
-    /// Where they were looked for.
+    /// The folder or file that they were looked for in.
     place: PathBuf,
     /// Files by the name of the image that they belong to.
     files: BTreeMap<String, Vec<PathBuf>>,

@@ -31,9 +31,9 @@ const FAILED: &str = "FAILED.txt";
 /// Options of the main job.
 #[derive(Clone)]
 pub struct RunOptions {
-    /// What is computed and written of every mosaic.
+    /// Everything that is computed and written of every mosaic.
     pub plan: Plan,
-    /// Where the cones come from.
+    /// Source of the cones.
     pub cones: ConeSource,
     /// The area of each image that counts.
     pub window: ImageWindow,
@@ -48,7 +48,7 @@ pub struct RunOptions {
     pub command: Vec<String>,
 }
 
-/// What came of a run.
+/// The results of a run, and what stays to be said about it.
 #[derive(Clone, Debug)]
 pub struct RunOutcome {
     /// One record per image, in the order of the inputs.
@@ -57,13 +57,11 @@ pub struct RunOutcome {
     pub failures: Vec<Failure>,
     /// Images whose earlier results were kept.
     pub reused: usize,
-    /// Images whose earlier results stay in their folders though the images failed now.
-    pub outdated: Vec<String>,
-    /// How the run ended.
+    /// The end of the run: complete or stopped.
     pub ending: Ending,
 }
 
-/// What the work on all images shares.
+/// The state that the work on all images shares.
 struct Job<'a> {
     options: &'a RunOptions,
     windows: ImageWindows<'a>,
@@ -168,14 +166,12 @@ impl Job<'_> {
     }
 
     fn finish(self, inputs: &[Input], worked: Worked<Done>) -> Result<RunOutcome, BatchError> {
-        let names = |input: &&Input| self.images.join(&input.name).join(FAILED).is_file();
-        let outdated = inputs.iter().filter(names).map(|input| input.name.clone()).collect();
         let foreign = self.foreign_folders(inputs);
         let mut ending = self.out.close(worked.left)?;
         ending.leftovers.foreign.extend(foreign);
         let reused = worked.done.iter().filter(|d| d.seconds.is_none()).count();
         let records = worked.done.into_iter().map(|d| d.record).collect();
-        Ok(RunOutcome { records, failures: worked.failures, reused, outdated, ending })
+        Ok(RunOutcome { records, failures: worked.failures, reused, ending })
     }
 
     /// Returns folders among those of the images that belong to no image of the run and that the

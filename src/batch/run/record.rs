@@ -25,7 +25,7 @@ pub(super) struct Metrics<'a> {
     regions: &'a [RoiRow],
 }
 
-/// How a sampler's mean curve was made.
+/// Provenance of a sampler's mean curve.
 #[derive(Serialize)]
 struct SamplerNote<'a> {
     sampler: &'a str,

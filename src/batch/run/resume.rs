@@ -2,11 +2,11 @@
 //! file as it was written.
 
 use super::cones::Origin;
-use super::done::{Done, METRICS, OVERLAY, POINTS};
+use super::done::{Done, METRICS, POINTS};
 use super::{FAILED, IMAGES, Job};
-use crate::batch::analysis::{Plan, required_files};
+use crate::batch::analysis::Plan;
 use crate::batch::input::Label;
-use crate::batch::output::{Standing, hex};
+use crate::batch::output::hex;
 use crate::batch::{BatchError, Input};
 use crate::geometry::Window;
 use crate::mosaic::Scale;
@@ -16,7 +16,7 @@ use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use std::fs;
 
-/// What of `metrics.json` stands outside the record and is wanted again.
+/// Parts of `metrics.json` outside the record that are wanted again.
 #[derive(Deserialize)]
 struct Kept {
     #[serde(default)]
@@ -53,13 +53,10 @@ pub(super) fn earlier(job: &Job, input: &Input, sha256: &str, options_sha256: &s
     if record.sha256 != sha256 || record.options_sha256 != options_sha256 {
         return None;
     }
-    let names = required_files(plan, !record.mosaic.verdicts.is_empty());
-    let whole = names.into_iter().chain([POINTS, OVERLAY, METRICS]).all(|file| {
-        let listed = format!("{IMAGES}/{}/{file}", input.name);
-        let standing = job.out.standing(&listed);
-        // corrected cones are part of what the results were identified by
-        standing == Standing::Own || file == POINTS && record.cones_from == ConesFrom::Corrected
-    });
+    // corrected cones are part of what the results were identified by
+    let corrected = record.cones_from == ConesFrom::Corrected;
+    let aside: &[&str] = if corrected { &[FAILED, POINTS] } else { &[FAILED] };
+    let whole = job.out.is_whole(&format!("{IMAGES}/{}/", input.name), aside);
     if !whole || record.fourier.is_none() && plan.wants_fourier() {
         return None;
     }

@@ -52,7 +52,7 @@ pub struct PlanArgs {
     scale: ScaleArgs,
 }
 
-/// What a command does when nothing is said of it.
+/// The command's own answers where nothing is said.
 pub struct Defaults {
     /// Compare with the default samplers.
     pub compare: bool,
@@ -63,7 +63,7 @@ pub struct Defaults {
 }
 
 impl PlanArgs {
-    /// Whether maps are asked for.
+    /// Tells whether maps are asked for.
     pub const fn maps_asked(&self) -> bool {
         self.maps.asked()
     }
