@@ -3,8 +3,8 @@
 //!
 //! 1. Count the pairs of points by distance, in annuli of equal width.
 //! 2. Divide each count by the area of its annuli that lies in the window.
-//! 3. Sum what is missing up to the first annulus above the mean density; a disk that lacks as many
-//!    points has the effective radius.
+//! 3. Sum the points that are missing up to the first annulus above the mean density. The effective
+//!    radius is that of an empty disk in which as many points are missing.
 
 use super::StatsError;
 use super::edge_weight::{EdgeWeights, MAX_WEIGHT};
@@ -90,10 +90,9 @@ pub struct DensityRecovery {
     pub density: Vec<f64>,
     /// Mean density D = n/A, to which the profile recovers.
     pub mean_density: f64,
-    /// Radius √(V/(πD)) of the disk that, empty at the mean density, lacks as many points V as the
-    /// profile does.
+    /// Radius √(V/(πD)) of an empty disk in which as many points V are missing as in the profile.
     ///
-    /// The profile is summed up to its first annulus above D. `None` if no annulus is above D.
+    /// V is summed up to the first annulus above D. `None` if no annulus is above D.
     pub effective_radius: Option<f64>,
     /// Largest effective radius at this density: √(√(4/3)/D), the spacing of the triangular
     /// lattice.

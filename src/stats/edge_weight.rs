@@ -63,8 +63,8 @@ impl<'a> EdgeWeights<'a> {
         1. / seen.max(1. / MAX_WEIGHT)
     }
 
-    /// Returns the mean, over the circles of radius `d` around both points, of 1 / (share of the
-    /// circle in the window).
+    /// Returns the inverse share of the circle of radius `d` that lies in the window, averaged over
+    /// the circles around both points.
     pub(super) fn isotropic(&self, a: Point, b: Point, d: f64) -> f64 {
         let weight = |p: Point| 1. / self.share_of_circle(p, d).max(1. / MAX_WEIGHT);
         0.5 * (weight(a) + weight(b))

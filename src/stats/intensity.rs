@@ -218,7 +218,7 @@ mod tests {
         sampler("uniform").unwrap().sample(n, window, &mut ChaCha8Rng::seed_from_u64(4)).unwrap()
     }
 
-    /// Every pair, exact kernel, the share of the kernel within the window by counting.
+    /// Sums every pair with the exact kernel; the share of the kernel within the window is counted.
     fn direct(points: &[Point], window: &Window, bandwidth: f64) -> Vec<f64> {
         let bounds = window.bounds();
         let kernel = |a: Point, b: Point| {

@@ -16,8 +16,8 @@ use serde::{Deserialize, Serialize};
 pub const AXIS_BIN: f64 = 10.;
 /// Number of bins that cover 180°.
 const AXIS_BINS: usize = 18;
-/// Smallest number of groups of points with a p-value: with fewer the test statistic does not have
-/// its nominal distribution.
+/// Smallest number of groups of points with a p-value: with fewer, it would not be distributed like
+/// a p-value.
 const FEWEST_GROUPS: usize = 10;
 /// Relative size below which differences and sums of directions are only rounding.
 const ROUNDING: f64 = 1e-9;

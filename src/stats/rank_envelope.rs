@@ -1,12 +1,6 @@
 //! Global envelope test by extreme rank length: one p-value for a whole observed curve among
 //! simulated ones (Myllymäki et al. 2017, J. R. Stat. Soc. B 79, 381–404,
 //! <https://doi.org/10.1111/rssb.12172>).
-//!
-//! 1. Rank the curves in every bin, counted from the nearer end.
-//! 2. Sort each curve's ranks and compare curves by them in lexicographic order: the smaller, the
-//!    more extreme.
-//! 3. The p-value is the share of curves at least as extreme as the observed one; the envelope is
-//!    the hull of the curves that are not among the most extreme.
 
 /// Result of comparing an observed curve with simulated ones: the global p-value and envelope.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,7 +115,7 @@ mod tests {
     #[test]
     fn one_curve_in_twenty_of_the_same_process_is_rejected() {
         let rejected = (0..400).filter(|&seed| test(&curves(100, seed)).p_value <= 0.05).count();
-        // 20 expected, standard deviation 4.4
+        // 20 are expected, with a standard deviation of 4.4.
         assert!((8..=34).contains(&rejected), "{rejected}");
     }
 

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 /// contain it without further changes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
-    /// Points per squared unit.
+    /// Density in points per squared unit of the mosaic.
     pub density: f64,
     /// Hexagonal spacing at that density; `None` without points.
     pub spacing: Option<f64>,

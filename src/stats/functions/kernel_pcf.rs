@@ -65,7 +65,7 @@ impl Binned {
         let share = at - node as f64;
         let Some([before, after]) = self.nodes.get_mut(node..node.saturating_add(2)) else { return };
         // Points that coincide have no distance to divide by, so they count only in the estimate
-        // divided by r.
+        // divided by r, near r = 0.
         let by_d = if d > 0. { 1. / d } else { 0. };
         let weights = [translation, isotropic, translation * by_d, isotropic * by_d];
         for ((before, after), weight) in before.iter_mut().zip(after).zip(weights) {

@@ -28,7 +28,7 @@ use std::f64::consts::PI;
 
 /// Largest number of distances; requests for more are refused.
 const MAX_ROWS: f64 = 100_000.;
-/// Number of distances up to `r_max` where no step is given.
+/// Number of steps up to `r_max` where no step is given.
 const DEFAULT_ROWS: f64 = 128.;
 
 /// Distances at which functions are taken: 0, step, 2 step, … up to `r_max`, in the unit of the

@@ -26,7 +26,7 @@ pub enum LocalFlag {
     /// side of the cone.
     Edge,
     /// There are no values: the mosaic has too few bound cells or none, or the window is wider than
-    /// a torus.
+    /// the torus.
     Few,
 }
 

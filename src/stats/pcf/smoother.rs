@@ -4,7 +4,7 @@
 //!    interpolation.
 //! 2. Convolve the grid with the kernel, evaluated at the left edges of the bins only.
 //!
-//! The box and the triangle end so soon that each distance is added to its bins directly.
+//! The box and the triangle reach less far; for them each distance is added to its bins directly.
 
 use super::PcfOptions;
 use crate::choice::UnknownChoice;

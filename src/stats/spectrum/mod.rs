@@ -75,9 +75,9 @@ pub struct PowerSpectrum {
 ///
 /// It is the periodogram P(k) = |Σ_j exp(−2πi k·x_j)|²/n, averaged over annuli ⌊|k|√A⌉ (Ulichney
 /// 1987; Lagae & Dutré 2008, <https://doi.org/10.1111/j.1467-8659.2007.01100.x>). The wave vectors
-/// k are those of the window as a torus, (j/w, l/h) with whole j and l, without 0. A window with a
-/// border has the same waves, because at them the transform of the window itself is 0, so that its
-/// border does not show. The time is linear in n; the power is accurate to 10⁻⁶ of P.
+/// k are those of the window as a torus, (j/w, l/h) with whole j and l, without 0. The same waves
+/// are used in a window with a border: at them the transform of the window is 0, so the mean
+/// density contributes nothing. The time is linear in n; the power is accurate to 10⁻⁶ of P.
 ///
 /// # Errors
 /// Returns [`StatsError`] if there is no point, a point is outside, an option is out of its range,

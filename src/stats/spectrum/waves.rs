@@ -64,7 +64,7 @@ pub(super) fn gridded(points: &[[f64; 2]], columns: usize, rows: usize) -> Vec<C
 
     let plan = RealFftPlanner::<f64>::new().plan_fft_forward(width);
     let half = width / 2 + 1;
-    // Of each row only the requested waves are kept, to save memory.
+    // Only the requested waves of each row are kept.
     let mut kept = vec![Complex64::default(); height * (columns + 1)];
     kept.par_chunks_mut(columns + 1).zip(grid.par_chunks_mut(width)).for_each_init(
         || vec![Complex64::default(); half],

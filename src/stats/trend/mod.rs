@@ -207,7 +207,7 @@ mod tests {
             for sampler in stationary(n) {
                 let rate = reported(sampler, n, window, 1., runs(sampler, n));
                 println!("{} n {n}: {:.1} % false alarms", sampler.name(), 100. * rate);
-                // 1 % expected; 4 % is 3.7 standard deviations above it. Step noise has hardly any
+                // 1 % is expected; 4 % is 3.7 standard deviations above it. Step noise has hardly any
                 // long waves except those that the cut at the border makes, and these fall with
                 // frequency: up to 5.3 % were measured.
                 let most = if sampler.name() == "step" { 0.08 } else { 0.04 };
