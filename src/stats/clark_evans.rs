@@ -18,8 +18,8 @@ pub struct ClarkEvans {
     /// Index of all points without correction: too large, because neighbours beyond the border are
     /// not seen.
     pub naive: Option<f64>,
-    /// Index by Donnelly (1978): the expectation is corrected for the border, 1/(2√λ) + (.0514 +
-    /// .0412/√n) · perimeter/n.
+    /// Index by Donnelly (1978): the expectation is corrected for the border,
+    /// 1/(2√λ) + (.0514 + .0412/√n) · perimeter/n.
     ///
     /// Donnelly found the correction by simulation in rectangles. In polygons, where spatstat gives
     /// none, it is an approximation. `None` on a torus.

@@ -108,8 +108,9 @@ pub struct DensityRecovery {
 ///
 /// It is the number of other points in the annuli around each point, divided by the area of those
 /// annuli that lies in the window. That area is the whole area times the isotropised set covariance
-/// at the middle radius. In a w × h rectangle this is Rodieck's equation, 1 − 2r(w+h)/(πwh) +
-/// r²/(πwh). In a polygon it is the same function of the outline; on a torus it is 1.
+/// at the middle radius. In a w × h rectangle this is Rodieck's equation,
+/// 1 − 2r(w+h)/(πwh) + r²/(πwh). In a polygon it is the same function of the outline; on a torus
+/// it is 1.
 ///
 /// The profile ends at `r_max` or earlier: at the shorter side of a rectangle or torus, beyond
 /// which the equation does not hold, and in a polygon where hardly any pair fits (covariance .01).

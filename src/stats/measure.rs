@@ -57,8 +57,8 @@ fn value_or_reason<T: Serialize, S: Serializer>(
 /// Measures all statistics of a mosaic, each with its own edge correction.
 ///
 /// Takes 2.5 ms for 300 points and 1.2 s for 100 000 on two cores. Orientation accounts for .02 ms
-/// and 14 ms of this, density recovery for .1 ms and 57 ms, and the modal spacing for .6 ms and 145
-/// ms.
+/// and 14 ms of this, density recovery for .1 ms and 57 ms, and the modal spacing for .6 ms and
+/// 145 ms.
 pub fn measure(mosaic: &Mosaic, options: &MeasureOptions) -> Measures {
     let (points, window) = (mosaic.points(), mosaic.window());
     let neighbours = nearest_neighbours(points, window);

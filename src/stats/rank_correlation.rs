@@ -3,8 +3,8 @@
 use rand::Rng;
 use rand::seq::SliceRandom;
 
-/// Smallest number of pairs for which a correlation is tested: with 4, even a perfect one has p =
-/// 0.08.
+/// Smallest number of pairs for which a correlation is tested: with 4, even a perfect one has
+/// p = 0.08.
 pub const FEWEST_PAIRS: usize = 5;
 /// Largest number of pairs for which all orders are tried; with more, a random sample of orders.
 const MOST_EXACT: usize = 8;

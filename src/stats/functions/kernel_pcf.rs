@@ -1,5 +1,5 @@
-//! Pair correlation function by spatstat's convention, with an Epanechnikov kernel of half width h
-//! = .15/√λ.
+//! Pair correlation function by spatstat's convention, with an Epanechnikov kernel of half width
+//! .15/√λ.
 //!
 //! It is smoothed as `pcf.ppp` does through R's binned `density.default`, so that values agree with
 //! R's to the last digits. Exact kernel sums differ from these by up to .003.

@@ -48,8 +48,8 @@ impl FunctionOptions {
     /// Returns the distances, in the unit of the coordinates.
     ///
     /// # Errors
-    /// Returns [`StatsError::Option`] if a length is not positive or there would be more than 100
-    /// 000 rows.
+    /// Returns [`StatsError::Option`] if a length is not positive or there would be more than
+    /// 100 000 rows.
     pub fn distances(&self, points: usize, window: &Window) -> Result<Vec<f64>, StatsError> {
         let positive = |option, value: f64| {
             let ok = value.is_finite() && value > 0.;

@@ -9,8 +9,8 @@ use crate::geometry::{Point, Window, lattice_dual};
 use crate::stats::StatsError;
 use serde::{Deserialize, Serialize};
 
-/// Frequencies among which the ring is sought, in √λ; that of the triangular lattice is √(2/√3) =
-/// 1.075.
+/// Frequencies among which the ring is sought, in √λ; that of the triangular lattice is
+/// √(2/√3) = 1.075.
 const RANGE: (f64, f64) = (0.6, 1.6);
 /// Step between the frequencies that are tried, in √λ.
 const STEP: f64 = 0.01;

@@ -24,8 +24,8 @@ const OVERSAMPLING: f64 = 1.25;
 /// Shape β of the kernel exp(β(√(1 − z²) − 1)), for that width and oversampling.
 const BETA: f64 = 0.97 * PI * WIDTH as f64 * (1. - 0.5 / OVERSAMPLING);
 
-/// Computes the sums for 0 ≤ kx ≤ `columns` and |ky| ≤ `rows`, at index `kx · (2 rows + 1) + ky +
-/// rows`.
+/// Computes the sums for 0 ≤ kx ≤ `columns` and |ky| ≤ `rows`, at index
+/// `kx · (2 rows + 1) + ky + rows`.
 pub(super) fn sums(points: &[[f64; 2]], columns: usize, rows: usize) -> Vec<Complex64> {
     let waves = (columns + 1) * (2 * rows + 1);
     if points.len().saturating_mul(waves) <= FEW {

@@ -28,8 +28,8 @@ pub const TREND_LEVEL: f64 = 0.01;
 /// A gradient of X changes the spacing by X/2 from side to side, with a standard deviation of
 /// X/(2√12) of the spacing, which is 1.4 % at X = 10 %. By calculation, not by measurement, this
 /// lowers the first peak of g(r) by less than 1 % of its height; the peak is at least as wide as
-/// its kernel, 10 % of the spacing. A mosaic relaxed against a straight border varies by 2 % at n =
-/// 80.
+/// its kernel, 10 % of the spacing. A mosaic relaxed against a straight border varies by 2 % at
+/// n = 80.
 pub const TREND_TOLERANCE: f64 = 0.1;
 
 /// Smallest number of points for which a trend is tested.
@@ -44,11 +44,12 @@ const NOISE_ACROSS: usize = 12;
 const TREND_WAVES: [(usize, usize); 5] = [(1, 0), (0, 1), (2, 0), (1, 1), (0, 2)];
 
 /// Variation of a pattern's density across its window, and its significance.
+///
+/// For fewer than 20 points, or if a point is not finite, all values are `None` and `significant`
+/// is false.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Trend {
     /// Probability of a trend this strong in a pattern whose density varies by [`TREND_TOLERANCE`].
-    ///
-    /// `None` for fewer than 20 points.
     pub p_value: Option<f64>,
     /// Size of the slow variation of density as a share of its mean, with the contribution of
     /// chance removed.
@@ -207,8 +208,8 @@ mod tests {
             for sampler in stationary(n) {
                 let rate = reported(sampler, n, window, 1., runs(sampler, n));
                 println!("{} n {n}: {:.1} % false alarms", sampler.name(), 100. * rate);
-                // 1 % is expected; 4 % is 3.7 standard deviations above it. Step noise has hardly any
-                // long waves except those that the cut at the border makes, and these fall with
+                // 1 % is expected; 4 % is 3.7 standard deviations above it. Step noise has hardly
+                // any long waves except those that the cut at the border makes, and these fall with
                 // frequency: up to 5.3 % were measured.
                 let most = if sampler.name() == "step" { 0.08 } else { 0.04 };
                 assert!(rate <= most, "{} at {n}: {rate}", sampler.name());
@@ -293,8 +294,8 @@ mod tests {
         for (name, n, ratio, least) in
             [("dart-throwing", 300, 1.5, 0.85), ("dart-throwing", 150, 2., 0.9), ("jittered", 300, 2., 0.9)]
         {
-            // For the density 1 + c(u − ½), each point moves to where the same number of points
-            // lies to its left as before.
+            // Points of even density move so that their density becomes 1 + c(u − ½); the share of
+            // points to the left of each stays the same.
             let c: f64 = 2. * (ratio - 1.) / (ratio + 1.);
             let left = 1. - c / 2.;
             let found = (0..100).filter(|&seed| {
@@ -357,8 +358,8 @@ mod tests {
 
     #[test]
     fn deviate_agrees_with_tables() {
-        // Without a tolerated variation the test is that of F(5, 17): 4.3359 at 1 % and 2.8100 at 5
-        // %.
+        // Without a tolerated variation the test is that of F(5, 17): 4.3359 at 1 % and 2.8100
+        // at 5 %.
         for (f, level) in [(4.3359, 0.01), (2.81, 0.05)] {
             let p = Size::new(f, 1., 100).chance_of_more(0.);
             assert!((p / level - 1.).abs() < 0.03, "{p}");
