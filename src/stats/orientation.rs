@@ -188,7 +188,7 @@ fn nearest_axes(
 }
 
 /// Returns the probability that the sum of n independent unit vectors without preferred direction
-/// has a square of at least n·z (Wilkie 1983).
+/// has a squared length of at least n·z (Wilkie 1983).
 fn rayleigh(n: f64, z: f64) -> f64 {
     ((1. + 4. * n + 4. * n * (n - z).max(0.)).sqrt() - (1. + 2. * n)).exp().min(1.)
 }

@@ -1,6 +1,6 @@
 //! Region in which a map is at least as high as a level: its area, centroid and outlines.
 //!
-//! 1. Cut each triangle along the level, on which the map is linear.
+//! 1. Cut each triangle, in which the map is linear, along the level.
 //! 2. Integrate area and moments exactly over the part above the level.
 //! 3. Join the crossings of the level with the triangles' sides to outlines.
 

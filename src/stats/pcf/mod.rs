@@ -152,7 +152,7 @@ pub struct Pcf {
     pub options: PcfOptions,
 }
 
-/// Estimates the pair correlation function of a stationary pattern:
+/// Estimates the pair correlation function of a stationary pattern.
 ///
 /// g(r) = A Σ_{i≠j} k_σ(r − |x_i − x_j|) / (n (n−1) · 2πr · c(r)), with k_σ the kernel and c(r) the
 /// edge correction.

@@ -60,8 +60,10 @@ pub struct PowerSpectrum {
     /// (divisor number − 1) of its power.
     ///
     /// For one pattern without direction it is about 0 dB, for the mean spectrum of m patterns
-    /// −10 log₁₀ m. `None` where there is a single wave or no variance. Sources: Ulichney (1987); Lagae
-    /// & Dutré (2008), <https://doi.org/10.1111/j.1467-8659.2007.01100.x>.
+    /// −10 log₁₀ m. `None` where there is a single wave or no variance.
+    ///
+    /// Sources: Ulichney (1987); Lagae & Dutré (2008),
+    /// <https://doi.org/10.1111/j.1467-8659.2007.01100.x>.
     pub anisotropy_db: Vec<Option<f64>>,
     /// Highest wave numbers of the plane, along x and y.
     highest: [usize; 2],

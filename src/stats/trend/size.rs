@@ -39,8 +39,8 @@ impl Size {
     /// Returns the standard normal deviate of the observation if density varies by `variation`.
     ///
     /// - The sum of squares over the trend's waves is 5 + λ noises on average, with variance
-    ///   10 + 4λ, where λ measures the variation. It is treated as a gamma variable with the same two
-    ///   moments (Patnaik 1949, <https://doi.org/10.1093/biomet/36.1-2.202>).
+    ///   10 + 4λ, where λ measures the variation. It is treated as a gamma variable with the same
+    ///   two moments (Patnaik 1949, <https://doi.org/10.1093/biomet/36.1-2.202>).
     /// - It is compared with λ, which is known, plus 5 noises, which are estimated. This has
     ///   17(1 + λ/5)² degrees of freedom (Satterthwaite 1946,
     ///   <https://doi.org/10.2307/3002019>).
