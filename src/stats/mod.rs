@@ -1,7 +1,8 @@
-//! Statistics of point patterns. Knows nothing of samplers or files.
+//! Statistics of point patterns.
 //!
-//! Every statistic takes the points and the window they could have been seen in; points must be finite and inside
-//! it, as those of a [`Mosaic`](crate::mosaic::Mosaic) are.
+//! Every statistic takes the points and the window in which they were observed. Points must be
+//! finite and lie inside the window, as those of a [`Mosaic`](crate::mosaic::Mosaic) do. The module
+//! knows nothing of samplers or files.
 
 mod clark_evans;
 mod delaunay;
