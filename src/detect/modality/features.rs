@@ -15,8 +15,8 @@ use crate::image::{Plane, gaussian, values};
 const FINE: f64 = 0.1;
 /// Width of the Gaussian before coarse slopes are taken, in spacings.
 const COARSE: f64 = 0.2;
-/// Width of the Gaussian before grey values are compared, in spacings: noise would blur their
-/// distribution.
+/// Width of the Gaussian before grey values are compared, in spacings; otherwise noise would blur
+/// their distribution.
 const GREY: f64 = 0.08;
 /// Width of the neighbourhood in which grey values are compared, in spacings.
 const AROUND: f64 = 1.5;
