@@ -114,7 +114,7 @@ mod tests {
 
     #[test]
     fn maxima_are_those_of_a_plain_search() {
-        // few levels: plateaus
+        // so few levels that there are plateaus
         let plane =
             Plane::from_shape_fn((37, 53), |(y, x)| ((x * 7919 + y * 104_729 + x * y * 31) % 7) as f32);
         let at = |y: isize, x: isize| plane.get((y as usize, x as usize)).copied();

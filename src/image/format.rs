@@ -29,7 +29,7 @@ pub static FORMATS: [Format; 2] = [
     Format {
         name: "TIFF",
         extensions: &["tif", "tiff"],
-        // TIFF and BigTIFF of either byte order
+        // TIFF and BigTIFF, in both byte orders
         signatures: &[b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"],
         decode: tiff::decode,
         write: write_tiff,

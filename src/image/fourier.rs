@@ -62,7 +62,7 @@ impl Spectrum {
             for (k, out) in out.chunks_mut(half).enumerate() {
                 let (row, beyond) = input.split_at_mut(columns);
                 row.iter_mut().zip(plane.row(LINES * task + k)).for_each(|(i, v)| *i = *v);
-                beyond.fill(0.); // the plan works in it
+                beyond.fill(0.); // the plan uses its input as scratch
                 // the buffers were made by the plan, so it cannot refuse their lengths
                 let done = row_plan.process_with_scratch(&mut input, out, &mut scratch);
                 debug_assert!(done.is_ok());

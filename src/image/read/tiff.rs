@@ -22,7 +22,7 @@ const NOT_AN_IMAGE: u32 = 0b101;
 const UNASSOCIATED_ALPHA: u16 = 2;
 /// Value of the tag ExtraSamples for alpha that is already multiplied in.
 const ASSOCIATED_ALPHA: u16 = 1;
-/// Value of the tag PlanarConfiguration for one plane after the other.
+/// Value of the tag PlanarConfiguration for samples stored plane by plane.
 const PLANAR: u16 = 2;
 
 type Source<'a> = Decoder<Cursor<&'a [u8]>>;
