@@ -1,16 +1,16 @@
 //! Greedy non-maximum suppression: of detections close to each other only the highest stays.
 //!
-//! A grid of buckets holds those that stayed, so that the time is linear in the number of
-//! detections.
+//! A grid of buckets holds those that stayed, so that a detection is compared only with those near
+//! it.
 
 use super::Detection;
 use crate::geometry::Point;
 use crate::geometry::index::BucketGrid;
 
-/// Suppresses every detection that lies within `radius` (px) of a kept one with a higher score.
+/// Drops every detection that lies within `radius` (px) of a kept one of higher rank.
 ///
-/// Detections are visited from the highest score to the lowest, equal scores in reading order, and
-/// are returned in that order. Only kept detections suppress others. A radius of 0 keeps all.
+/// The rank runs from the highest score to the lowest, equal scores in reading order; the result is
+/// in that order. Only kept detections suppress others. A radius of 0 keeps all.
 pub fn suppress(mut detections: Vec<Detection>, radius: f64) -> Vec<Detection> {
     detections.sort_by(by_score);
     suppress_sorted(detections, |d| d.centre, radius, |_| radius)
