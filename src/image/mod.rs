@@ -1,4 +1,6 @@
-//! Reading PNG and TIFF as one grey plane, padding, Gaussian and Fourier filters. Knows nothing of cones.
+//! Images as grey planes: reading and writing PNG and TIFF, padding, Gaussian and Fourier filters.
+//!
+//! The module knows nothing of cones.
 
 mod empty;
 mod error;
@@ -28,5 +30,7 @@ pub use read::{MAX_PIXELS, decode, read, read_bytes};
 pub(crate) use rows::{PARALLEL_PIXELS, fill_rows, plane_of, values};
 pub use write::{BitDepth, write_grey, write_png, write_tiff};
 
-/// Grey values, one `f32` a pixel, indexed `[[y, x]]`; (0, 0) is the top-left pixel. Stored row by row.
+/// Grey values, one `f32` per pixel, indexed `[[y, x]]` and stored row by row.
+///
+/// Pixel (0, 0) is the top-left one.
 pub type Plane = ndarray::Array2<f32>;
