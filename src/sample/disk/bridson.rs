@@ -59,7 +59,7 @@ impl Sampler for Bridson {
         while !active.is_empty() {
             let picked = rng.random_range(0..active.len());
             let [x, y] = points[active[picked]];
-            // A candidate is at most 2r away and must be nearer than r to be rejected, so points
+            // A candidate is at most 2r away and only points nearer than r reject it, so points
             // beyond 3r do not matter.
             grid.gather(x, y, 3. * radius, &mut near);
             let found = (0..CANDIDATES).find_map(|_| {

@@ -37,11 +37,11 @@ const BEYOND: f64 = 6.;
 /// deviation, and the standard deviation of the jitter after packing; all three may vary with
 /// eccentricity, and were fitted to a macaque's fovea out to 1.6°.
 ///
-/// **Not available, so chosen here**: the fitted values and their change
-/// with eccentricity; that radii are normal; that the next disc goes where it touches two earlier
-/// ones and lies nearest to the centre, and that a place where it does not fit stays empty. The
-/// defaults, .1 mean radii and .07 mean diameters, give a regularity index of 10, within the range
-/// of real mosaics (8 to 12). The mean radius follows from n.
+/// **Not available, so chosen here**: the fitted values and their change with eccentricity; that
+/// radii are normal; that the next disc goes where it touches two earlier ones and lies nearest to
+/// the centre, and that a place where it does not fit stays empty. The defaults, .1 mean radii and
+/// .07 mean diameters, give a regularity index of 10, within the range of real mosaics (8 to 12).
+/// The mean radius follows from n.
 ///
 /// **Eccentricity**: if one is given, in mm, the middle of the window lies there, with the fovea to
 /// its left. The mean radius then follows the density of human cones from place to place (Curcio et
@@ -156,6 +156,7 @@ impl Ahumada {
         let touching = first + radius;
         let mut packing = Packing {
             discs: Vec::new(),
+            // Two discs that a third can touch are at most four radii apart.
             grid: HashGrid::new(4. * widest),
             pockets: BinaryHeap::new(),
             retina,

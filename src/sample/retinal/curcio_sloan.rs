@@ -21,8 +21,8 @@ use std::f64::consts::SQRT_2;
 /// the standard deviation of the jitter. With a ratio of 3^(−1/4) = .760 the compressed array is
 /// the triangular lattice.
 ///
-/// **Not available, so chosen here**: the fitted values. The defaults
-/// are .8 and .1, with the jitter in sides of the uncompressed cell.
+/// **Not available, so chosen here**: the fitted values. The defaults are .8 and .1, with the
+/// jitter in sides of the uncompressed cell.
 ///
 /// **Eccentricity**: there is no such parameter, as the abstract gives no numbers for the
 /// dependence on the place. Set `compression` and `jitter` for the place; they hold over the whole

@@ -48,12 +48,12 @@ const BEYOND: f64 = 4.;
 /// than their radii ask for and attract each other when somewhat farther; only those near the
 /// growing edge move.
 ///
-/// **Not available, so chosen here**: the equation. Two cells at u times the
-/// distance at which they touch repel each other by 1 − u for u < 1, and attract each other by 1.6
-/// (u − 1)(1.5 − u) for u from 1 to 1.5. A cell moves by .3 of the sum, in `rounds` rounds per
-/// ring; the last five rings move. The paper re-forms the cells' borders as polygons and repairs
-/// gaps; here centres interact by their distance alone. The deviation of radii gives a regularity
-/// index of 10, within the range of real mosaics (8 to 12).
+/// **Not available, so chosen here**: the equation. Two cells at u times the distance at which they
+/// touch repel each other by 1 − u for u < 1, and attract each other by 1.6 (u − 1)(1.5 − u) for u
+/// from 1 to 1.5. A cell moves by .3 of the sum, in `rounds` rounds per ring; the last five rings
+/// move. The paper re-forms the cells' borders as polygons and repairs gaps; here centres interact
+/// by their distance alone. The deviation of radii gives a regularity index of 10, within the range
+/// of real mosaics (8 to 12).
 ///
 /// **Eccentricity**: without it, the mean radius is the same all over the window. If it is given,
 /// in mm, the middle of the window lies there, with the fovea to its left. The mean radius then

@@ -80,6 +80,7 @@ impl Sampler for MinimalSpacing {
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         let spacing = frame.spacing(n);
+        // If d_min is 0 nothing is sought, but the grid needs cells of some size.
         let reach = spacing * (self.mean + DEVIATIONS * self.sd).max(0.1);
         let mut cells = TorusCells::new([frame.width, frame.height], reach, n);
         let mut points = Vec::with_capacity(n);

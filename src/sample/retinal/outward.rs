@@ -46,6 +46,7 @@ pub(super) fn exactly(
             let (inner, next, _) =
                 order.select_nth_unstable_by(n, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             let last = inner.iter().map(|o| o.0).fold(0., f64::max);
+            // The edge of the window lies halfway between the last point kept and the next one.
             let edge = (last + next.0) / 2.;
             let mut kept: Vec<usize> = inner.iter().map(|o| o.1).collect();
             kept.sort_unstable();
