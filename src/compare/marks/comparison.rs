@@ -66,12 +66,12 @@ pub fn compare_scores(
             let pairs: Vec<Option<(f64, f64)>> =
                 first.iter().zip(second).map(|(a, b)| value(a).zip(value(b))).collect();
             difference(measure, &pairs, clusters, resamples, &mut rng.clone())
-        /// Compares both sides of `pairs`, one per image, by one measure; `None` if no image has
-        /// both values.
         })
         .collect()
 }
 
+/// Compares both sides of `pairs`, one per image, by one measure; `None` if no image has both
+/// values.
 fn difference(
     measure: &'static str,
     pairs: &[Option<(f64, f64)>],

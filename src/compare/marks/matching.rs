@@ -43,7 +43,7 @@ pub enum Assignment {
     /// 2017).
     #[default]
     Nearest,
-    /// As many pairs as possible; among all such sets of pairs, that of least total distance
+    /// Largest possible number of pairs; among all such sets of pairs, that of least total distance
     /// (“Hungarian” assignment). Each mark is offered its 64 nearest detections.
     Optimal,
 }

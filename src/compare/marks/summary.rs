@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 /// Agreement of detections with hand marks over several images.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Summary {
-    /// Number of images.
+    /// Number of images averaged.
     pub images: usize,
     /// Mean of the images' sensitivities.
     pub sensitivity: f64,
