@@ -1,3 +1,14 @@
+//! Optimal one-to-one assignment on a sparse bipartite graph.
+//!
+//! 1. The graph is split into its connected components, which are many and small; each is solved
+//!    alone.
+//! 2. Within a component, rows are added one at a time by successive shortest augmenting paths with
+//!    potentials (Jonker & Volgenant 1987, <https://doi.org/10.1007/BF02278710>, on sparse graphs):
+//!    Dijkstra's search over reduced costs finds the cheapest way to place the new row, moving
+//!    others if needed.
+//! 3. Every row also has a private column that stands for “unassigned” and costs more than any
+//!    rearrangement of its component can save.
+
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -6,15 +17,6 @@ use std::collections::BinaryHeap;
 ///
 /// `candidates[row]` holds the columns that a row may take and the cost of each, between 0 and
 /// `limit`. Returns the column and cost of every row; `None` for a row that gets no column.
-///
-/// 1. The graph is split into its connected components, which are many and small; each is solved
-///    alone.
-/// 2. Within a component, rows are added one at a time by successive shortest augmenting paths with
-///    potentials (Jonker & Volgenant 1987, <https://doi.org/10.1007/BF02278710>, on sparse graphs):
-///    Dijkstra's search over reduced costs finds the cheapest way to place the new row, moving
-///    others if needed.
-/// 3. Every row also has a private column that stands for “unassigned” and costs more than any
-///    rearrangement of its component can save.
 pub(super) fn assign(
     candidates: &[Vec<(usize, f64)>],
     columns: usize,

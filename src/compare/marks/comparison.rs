@@ -1,3 +1,6 @@
+//! Paired comparison of two detectors or graders on the same images: mean differences with
+//! bootstrap intervals and permutation tests.
+
 use super::Score;
 use crate::compare::{Interval, bootstrap, least_p, sign_flip_test};
 use crate::numeric::mean;

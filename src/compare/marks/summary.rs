@@ -1,3 +1,6 @@
+//! Accuracy over several images: means over images, pooled rates, limits of agreement of counts and
+//! densities, and intervals of all of these.
+
 use super::{Rates, Score};
 use crate::compare::{Agreement, Interval, agreement, bootstrap};
 use rand_chacha::ChaCha8Rng;

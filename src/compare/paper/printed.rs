@@ -11,7 +11,7 @@ pub struct PrintedRegularity {
     /// Name of the mosaic or of the point set.
     #[serde(rename = "mosaic")]
     pub name: String,
-    /// Mean nearest-neighbour distance.
+    /// Mean of the nearest-neighbour distances.
     pub mean: f64,
     /// Population standard deviation of the nearest-neighbour distances.
     pub sd: f64,

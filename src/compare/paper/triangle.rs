@@ -9,7 +9,7 @@ use super::printed::PrintedDistances;
 pub struct Tightest {
     /// Name of the mosaic.
     pub mosaic: String,
-    /// Both samplers, as columns of Table 2.
+    /// Pair of samplers, as columns of Table 2.
     pub between: [usize; 2],
     /// Room that is left; negative, by the excess, where the inequality is broken.
     pub room: f64,
