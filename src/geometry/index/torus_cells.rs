@@ -1,4 +1,5 @@
-/// Points on the torus [0, width) × [0, height) by cells no smaller than a reach, to ask whether one is near a place.
+/// Points on the torus `[0, width) × [0, height)` in cells no smaller than a reach, to ask whether
+/// any point is near a place.
 pub(crate) struct TorusCells {
     sides: [f64; 2],
     columns: usize,
@@ -7,6 +8,7 @@ pub(crate) struct TorusCells {
 }
 
 impl TorusCells {
+    /// Creates empty cells for queries up to `reach`, at most `most` along each side.
     pub(crate) fn new(sides: [f64; 2], reach: f64, most: usize) -> Self {
         // more cells than points along a side would only cost memory
         let along = |side: f64| ((side / reach) as usize).clamp(1, most.max(1));
@@ -24,7 +26,8 @@ impl TorusCells {
         self.cells[row * self.columns + column].push(point);
     }
 
-    /// Whether a point is nearer than `distance` (at most the reach), the shortest way round.
+    /// Returns whether any point is nearer than `distance` (at most the reach), by the shortest way
+    /// round.
     pub(crate) fn any_nearer(&self, place: [f64; 2], distance: f64) -> bool {
         let (column, row) = self.cell(place);
         let around = |at: usize, number: usize| {
