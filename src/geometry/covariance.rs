@@ -1,5 +1,5 @@
-//! Set covariance of a polygon: the area that a window and its shifted copy have in common, |W ∩ (W
-//! + h)|.
+//! Set covariance of a polygon, |W ∩ (W + h)|: the area that a window and its copy shifted by h
+//! have in common.
 //!
 //! 1. Cut the polygon into rows and find its chords in each, exact along x.
 //! 2. Sum the overlap of chords over the rows, for a table of shifts h.
@@ -100,6 +100,8 @@ impl SetCovariance {
         self.means[k] + (at - k as f64) * (self.means[k + 1] - self.means[k])
     }
 
+    /// Averages the covariance over all directions of a shift by `r`. Half a turn is enough, as
+    /// opposite shifts have equal overlap.
     fn mean_of_directions(&self, r: f64) -> f64 {
         let directions = (0..DIRECTIONS).map(|k| (k as f64 + 0.5) / DIRECTIONS as f64 * PI);
         directions.map(|angle| self.share(r * angle.cos(), r * angle.sin())).sum::<f64>() / DIRECTIONS as f64

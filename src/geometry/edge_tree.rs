@@ -37,6 +37,7 @@ pub(super) struct Extent {
 }
 
 impl Extent {
+    /// Box that contains nothing and leaves any other box unchanged in a union.
     const EMPTY: Self =
         Self { x0: f64::INFINITY, y0: f64::INFINITY, x1: f64::NEG_INFINITY, y1: f64::NEG_INFINITY };
 
@@ -64,6 +65,7 @@ impl Extent {
         dx * dx + dy * dy
     }
 
+    /// Returns the squared distance from `p` to the farthest point of the box.
     fn farthest2(&self, p: Point) -> f64 {
         let dx = (p.x - self.x0).abs().max((p.x - self.x1).abs());
         let dy = (p.y - self.y0).abs().max((p.y - self.y1).abs());

@@ -44,6 +44,7 @@ pub struct Polygon {
     shape: Arc<Shape>,
 }
 
+/// Contents of a polygon, shared by its clones.
 #[derive(Debug)]
 struct Shape {
     rings: Vec<Ring>,

@@ -65,6 +65,7 @@ pub fn bootstrap(
         .collect()
 }
 
+/// Adds every value that is defined and finite to the list of its statistic.
 fn keep_finite(kept: &mut [Vec<f64>], values: Vec<Option<f64>>) {
     for (kept, value) in kept.iter_mut().zip(values) {
         kept.extend(value.filter(|v| v.is_finite()));

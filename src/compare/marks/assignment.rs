@@ -86,12 +86,19 @@ fn components(candidates: &[Vec<(usize, f64)>], columns: usize) -> Vec<Vec<usize
 
 /// Connected component of the graph; column `real + row` is the private column of a row.
 struct Component<'a> {
+    /// Candidates of each row: column and cost.
     edges: &'a [Vec<(usize, f64)>],
+    /// Number of columns that are not private.
     real: usize,
+    /// Cost of a private column.
     unassigned: f64,
+    /// Dual variable of each row.
     row_potential: Vec<f64>,
+    /// Dual variable of each column.
     column_potential: Vec<f64>,
+    /// Column assigned to each row.
     column_of: Vec<usize>,
+    /// Row to which each column is assigned.
     row_of: Vec<Option<usize>>,
 }
 
@@ -170,9 +177,13 @@ impl<'a> Component<'a> {
 
 /// Dijkstra's search over columns; kept between searches to save allocations.
 struct Search {
+    /// Least reduced cost at which each column is known to be reached.
     distance: Vec<f64>,
+    /// Row from which each column is reached at that cost.
     via: Vec<usize>,
+    /// Flag per column: `true` once its distance is final.
     done: Vec<bool>,
+    /// Columns that the next search must reset.
     touched: Vec<usize>,
     heap: BinaryHeap<Waiting>,
 }
@@ -198,6 +209,7 @@ impl Search {
         None
     }
 
+    /// Resets the columns that this search touched.
     fn clear(&mut self) {
         for column in self.touched.drain(..) {
             self.distance[column] = f64::INFINITY;

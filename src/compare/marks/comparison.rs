@@ -29,8 +29,10 @@ pub struct Difference {
     pub least_p: f64,
 }
 
+/// Name of a measure and its value for one image.
 type Measure = (&'static str, fn(&Score) -> Option<f64>);
 
+/// Measures that do not depend on the scale.
 const RATES: [Measure; 4] = [
     ("dice", |s| Some(s.rates.dice)),
     ("sensitivity", |s| Some(s.rates.sensitivity)),

@@ -167,6 +167,7 @@ pub fn froc(images: &[JudgedImage]) -> Option<Froc> {
     Some(Froc { points, best })
 }
 
+/// Running counts of hits and errors as the threshold falls.
 #[derive(Clone, Copy, Default)]
 struct Counts {
     hits: usize,

@@ -60,8 +60,8 @@ impl Assignment {
 pub struct MatchOptions {
     /// Width, in px, of the border in which nothing is counted; 0 or more. Default: 7.
     pub border: f64,
-    /// Reach of a mark as a fraction of the median nearest-neighbour distance of the marks; above
-    /// 0. Default: 0.75.
+    /// Reach of a mark as a positive fraction of the median nearest-neighbour distance of the
+    /// marks. Default: 0.75.
     pub fraction: f64,
     /// Rule by which marks and detections are paired. Default: nearest.
     pub assignment: Assignment,

@@ -69,6 +69,7 @@ pub fn reliability(scored: &[(f64, bool)]) -> Option<Reliability> {
     })
 }
 
+/// Summarises the detections of bin number `k`.
 fn bin(k: usize, members: &[(f64, bool)]) -> ReliabilityBin {
     let edge = |k: usize| k as f64 / BINS as f64;
     let n = members.len() as f64;

@@ -66,6 +66,7 @@ pub(super) fn percent_of_mean(first: f64, second: f64) -> Option<f64> {
     (first + second > 0.).then(|| 200. * (first - second) / (first + second))
 }
 
+/// Access to one value of a summary.
 type Value = fn(&Summary) -> Option<f64>;
 
 /// Values that get an interval, by their names in `validation.json`.

@@ -1,7 +1,9 @@
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
+/// Table 1 of the paper as text.
 const TABLE_1: &str = include_str!("../../../fixtures/paper/table1.csv");
+/// Table 2 of the paper as text.
 const TABLE_2: &str = include_str!("../../../fixtures/paper/table2.csv");
 
 /// Row of Table 1 of Lanaro et al.: nearest-neighbour distances of a mosaic (µm) or of a sampler

@@ -1,6 +1,7 @@
-//! Check of Table 2 by the triangle inequality: l-infinity is a metric, so the printed distances d₁
-//! and d₂ of a mosaic to two samplers limit the distance D between the samplers, |d₁ − d₂| ≤ D ≤ d₁
-//! + d₂.
+//! Check of Table 2 by the triangle inequality.
+//!
+//! l-infinity is a metric, so the printed distances d₁ and d₂ of a mosaic to two samplers limit the
+//! distance D between these samplers: |d₁ − d₂| ≤ D ≤ d₁ + d₂.
 
 use super::printed::PrintedDistances;
 

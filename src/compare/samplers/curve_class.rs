@@ -136,6 +136,7 @@ impl Shape {
         (roundness <= LONGEST).then(|| Self::rectangle(aspect, false))
     }
 
+    /// Returns the shape of a rectangle of this aspect, rounded to a class.
     fn rectangle(aspect: f64, torus: bool) -> Self {
         Self::Rectangle { aspect: nearest(aspect), torus }
     }

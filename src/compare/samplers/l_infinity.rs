@@ -12,9 +12,9 @@ pub enum CompareError {
     NotComparable {
         /// Name of the property that differs.
         what: &'static str,
-        /// Value of it in the first curve.
+        /// Value in the first curve.
         first: String,
-        /// Value of it in the second curve.
+        /// Value in the second curve.
         second: String,
     },
     /// Too few points to compare.

@@ -12,7 +12,9 @@ use sha2::{Digest, Sha256};
 /// Curve and regularity of one pattern of a sampler; without a curve if the sampler made fewer than
 /// two points.
 pub(super) struct Realisation {
+    /// Pair correlation function; `None` for fewer than two points.
     pcf: Option<Pcf>,
+    /// Regularity index, where it is defined.
     ri: Option<f64>,
 }
 

@@ -76,8 +76,8 @@ pub struct SamplerCurves {
 /// same perimeter² / area; longer polygons, and any polygon for lattices, have curves of their own.
 ///
 /// A curve is the mean of 16 000/n realisations, but at least 4 and at most 60 (2 from 20 000
-/// points on, 1 from 100 000). The remaining noise of a mean curve was measured as l-infinity at n
-/// = 100, 300, 1024 and 4096: uniform .02–.03, jittered .01–.03, Poisson disks .01–.017; lattices
+/// points on, 1 from 100 000). The remaining noise of a mean curve, as l-infinity measured for 100,
+/// 300, 1024 and 4096 points: uniform .02–.03, jittered .01–.03, Poisson disks .01–.017; lattices
 /// below .001.
 ///
 /// Every realisation has its own random generator, seeded by a hash of the seed, the sampler's
@@ -93,6 +93,7 @@ pub struct References {
 /// Index of a sampler in the list, with its curve or the reason why it has none.
 type Made = (usize, Result<ReferenceCurve, CompareError>);
 
+/// Everything that the curves depend on besides the class.
 struct Setup {
     samplers: Vec<&'static dyn Sampler>,
     options: PcfOptions,

@@ -29,8 +29,8 @@ const RESOLUTION: f64 = 1e-3;
 /// Options of a verdict: number of simulations and significance level.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VerdictOptions {
-    /// Number of simulations per sampler: 39 to 9999, default 199. The smallest p-value is 1 /
-    /// (simulations + 1).
+    /// Number of simulations per sampler: 39 to 9999, default 199. The smallest p-value
+    /// is one over this number plus 1.
     pub simulations: usize,
     /// Significance level, also that of the envelope: a mosaic differs from a sampler if its
     /// p-value is not above this. Between 0 and .5, default .05.

@@ -54,6 +54,7 @@ impl<T> BucketGrid<T> {
         self.block(self.cell(low), self.cell(high))
     }
 
+    /// Returns all items in a rectangle of cells, given by its first and last column and row.
     fn block(&self, first: (usize, usize), last: (usize, usize)) -> impl Iterator<Item = &T> {
         let cells = (first.1..=last.1)
             .flat_map(move |row| &self.last[row * self.columns + first.0..=row * self.columns + last.0]);

@@ -1,5 +1,6 @@
 use std::collections::HashMap;
 
+/// Column and row of a cell, which may be negative.
 type Cell = (i64, i64);
 
 /// Points of the open plane in square cells, to find those within the side of a cell.

@@ -4,6 +4,7 @@ pub(crate) struct TorusCells {
     sides: [f64; 2],
     columns: usize,
     rows: usize,
+    /// Points of each cell, row by row.
     cells: Vec<Vec<[f64; 2]>>,
 }
 

@@ -12,6 +12,7 @@ pub(crate) struct TorusGrid {
     cells: Vec<[f64; 2]>,
 }
 
+/// Content of a cell without a point.
 const EMPTY: [f64; 2] = [f64::INFINITY; 2];
 
 impl TorusGrid {
@@ -118,6 +119,7 @@ impl Nearby {
         self.length += usize::from(kept);
     }
 
+    /// Fills the last lanes with infinity.
     #[inline]
     fn pad(&mut self) {
         let padded = self.length..self.length.next_multiple_of(LANES);

@@ -10,6 +10,7 @@ pub(crate) struct WindowGrid<'a> {
     rows: usize,
     /// Start of each cell in `indices`, and the end of the last cell.
     starts: Vec<usize>,
+    /// Indices of the points, cell by cell.
     indices: Vec<usize>,
 }
 

@@ -19,9 +19,13 @@ pub(super) struct Corner {
 /// Convex polygon from which half-planes are cut off one at a time.
 #[derive(Default)]
 pub(super) struct Clip {
+    /// Corners of the polygon in order; empty if nothing is left.
     corners: Vec<Corner>,
+    /// Buffer for the corners after a cut, kept to save allocations.
     spare: Vec<Corner>,
+    /// Buffer for the position of each corner relative to a cut: positive if it is cut off.
     sides: Vec<f64>,
+    /// Squared distance from the site to the farthest corner.
     radius2: f64,
 }
 

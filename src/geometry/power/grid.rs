@@ -13,10 +13,14 @@ pub(super) struct Entry {
 pub(super) struct Grid {
     columns: usize,
     rows: usize,
+    /// Least coordinates of the domain.
     low: [f64; 2],
+    /// Sides of a cell of the grid.
     size: [f64; 2],
     torus: bool,
+    /// Start of each cell in `entries`, and the end of the last cell.
     starts: Vec<u32>,
+    /// Sites, cell by cell.
     entries: Vec<Entry>,
 }
 

@@ -131,6 +131,7 @@ impl Raster {
 /// Integrals over a polygon, summed along its outline; edges are given relative to the site.
 pub(super) struct Sums<'a> {
     raster: &'a Raster,
+    /// Site, relative to the lower corner of the domain.
     origin: [f64; 2],
     mass: f64,
     x: f64,
