@@ -27,7 +27,7 @@ impl Point {
         self.x.is_finite() && self.y.is_finite()
     }
 
-    /// Returns `[x, y]`, the form in which spatial indexes take points.
+    /// Returns `[x, y]`, the form in which spatial indices take points.
     pub const fn coordinates(self) -> [f64; 2] {
         [self.x, self.y]
     }

@@ -1,4 +1,4 @@
-//! Spatial indexes that find the points near a place: one for each kind of query that a
+//! Spatial indices that find the points near a place: one for each kind of query that a
 //! time-critical loop needs.
 
 mod bucket_grid;
