@@ -1,4 +1,4 @@
-//! The names that most uses of this library begin with: `use conemosaic::prelude::*;`.
+//! Names that most programs using this library need: `use conemosaic::prelude::*;`.
 
 pub use crate::compare::{MatchOptions, match_points};
 pub use crate::detect::{DetectError, DetectOptions, Detection, Detections, Detector, detect};

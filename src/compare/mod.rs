@@ -1,4 +1,5 @@
-//! A mosaic against samplers; detections against reference marks.
+//! Comparison of a mosaic with point-process models (samplers), of detections with reference marks,
+//! and of graders with each other.
 
 mod agreement;
 mod marks;

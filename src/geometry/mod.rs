@@ -1,4 +1,5 @@
-//! Points and the windows in which they could have been seen. Knows nothing of cones, images or files.
+//! Points, the windows in which they could have been observed, and searches for neighbours. This
+//! module knows nothing of cones, images or files.
 
 mod cell_area;
 mod covariance;
