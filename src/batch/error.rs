@@ -218,7 +218,7 @@ pub enum BatchError {
     /// Images that cannot be grouped as asked.
     #[error("{0}")]
     Group(String),
-    /// A scale that is out of range.
+    /// A scale that is not a positive number.
     #[error(transparent)]
     Scale(#[from] crate::mosaic::ScaleError),
     /// Points that form no mosaic.

@@ -59,8 +59,8 @@ pub(in crate::batch) fn for_each<T: Send>(
     }
     worked
 }
-/// Reports and returns the failure of a file. Its reason is one line that names the file.
 
+/// Reports and returns the failure of a file. Its reason is one line that names the file.
 fn failed(input: &Input, reason: &str, progress: &dyn Progress) -> Failure {
     let file = input.path.display().to_string();
     let reason = reason.split_whitespace().collect::<Vec<_>>().join(" ");
