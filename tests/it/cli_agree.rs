@@ -127,7 +127,7 @@ fn images_of_one_subject_do_not_count_as_independent() {
     let width = |row: &std::collections::BTreeMap<String, String>| {
         number(row, "difference_high") - number(row, "difference_low")
     };
-    // t(2) √(1/3) against t(8) √(1/9) times the standard deviation, which is the same but for its
+    // t(2) √(1/3) against t(8) √(1/9) times the standard deviation, which differs only by its
     // divisor
     assert!(width(&grouped) > 3. * width(&alone), "{} {}", width(&grouped), width(&alone));
     assert!(grouped["icc_agreement_low"].is_empty() && !alone["icc_agreement_low"].is_empty());

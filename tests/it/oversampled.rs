@@ -1,4 +1,4 @@
-//! Images of so many pixels that cones are farther apart than filters and networks are made for.
+//! Images with so many pixels that cones are farther apart than filters and networks are made for.
 
 use crate::common;
 use conemosaic::detect::{DetectOptions, Detections, Detector, detect};

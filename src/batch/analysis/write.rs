@@ -8,6 +8,7 @@ use crate::batch::BatchError;
 use crate::batch::output::{OutputFolder, write_figure};
 use crate::report::{spectrum_png, tables};
 
+// names of the files, less the mosaic's own name
 const PCF: &str = "pcf.csv";
 const FIGURE: &str = "figure";
 const FUNCTIONS: [&str; 2] = ["functions.csv", "density_recovery.csv"];

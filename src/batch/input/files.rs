@@ -107,10 +107,14 @@ fn is_table(path: &Path) -> bool {
     known.contains(&&*name) || endings.iter().any(|ending| name.ends_with(ending))
 }
 
+/// Returns the paths in one line, for an error message.
 fn listed(paths: &[PathBuf]) -> String {
     paths.iter().map(|p| p.display().to_string()).collect::<Vec<_>>().join(", ")
 }
 
+/// Returns the files given by name, and the `wanted` ones in the folders given, except hidden ones.
+///
+/// The folder `except` is not entered. A file that is found twice counts once.
 fn walk(
     paths: &[PathBuf],
     except: Option<&Path>,
@@ -183,7 +187,7 @@ fn named(files: Vec<PathBuf>) -> Vec<Input> {
     for i in clashes(&files, &names, |a, b| extension(a) != extension(b)) {
         names[i] = format!("{}_{}", names[i], extension(&files[i]));
     }
-    // names may still be equal but for case, or through underscores in names of folders: a number
+    // names may still differ in case only, or be equal by underscores in names of folders: a number
     // always tells them apart
     let mut taken: HashSet<String> = HashSet::new();
     for name in &mut names {
@@ -203,12 +207,14 @@ fn folded(name: &str) -> String {
     name.to_lowercase()
 }
 
+/// Returns the file name without its last extension, or `image` where nothing usable is left.
 fn stem(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     // "...png" has the stem "..", which as the name of a folder would lead out of the results
     if matches!(&*stem, "" | "." | "..") { "image".into() } else { stem.into_owned() }
 }
 
+/// Returns the stem of a file with the names of its `count` innermost folders before it.
 fn with_folders(path: &Path, count: usize) -> String {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let folders: Vec<String> = absolute
@@ -224,6 +230,7 @@ fn with_folders(path: &Path, count: usize) -> String {
     [&folders[first..], &[stem(path)]].concat().join("_")
 }
 
+/// Returns the extension of a file in lower case.
 fn extension(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }

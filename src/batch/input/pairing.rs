@@ -22,6 +22,7 @@ pub(in crate::batch) fn image_in(folder: &Path, name: &str) -> Option<PathBuf> {
     endings.map(|e| folder.join(format!("{name}.{e}"))).find(|p| p.is_file())
 }
 
+/// Returns the word with its first letter in upper case.
 fn capitalised(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())

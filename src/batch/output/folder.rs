@@ -111,8 +111,7 @@ impl OutputFolder {
             // only folders of results that the ledger knows are touched: others may belong to a
             // person
             let ours = |result: &&str| self.ledger.knows_below(&format!("{}{result}/", self.prefix));
-            // errors do no harm: what cannot be removed or put back is made anew, or is in nobody's
-            // way
+            // errors do no harm: a file or folder that stays is replaced later or is ignored
             if hidden.starts_with("conemosaic-") && hidden.ends_with(".tmp") {
                 let _ = fs::remove_file(&path);
             } else if hidden.strip_suffix(".partial").filter(ours).is_some() {

@@ -32,6 +32,7 @@ const MARKER: &str = "INCOMPLETE.txt";
 /// File that holds times, so that its bytes are never the same.
 const VOLATILE: &str = "run.json";
 
+/// Content of the marker, for a person who opens the folder too early.
 const MARKER_TEXT: &str = "\
 conemosaic is writing results into this folder, or was cut off while it did.
 Until this file is gone, tables here may belong to an earlier run.
@@ -99,6 +100,7 @@ impl Ledger {
         Ok(Self { root: root.to_owned(), earlier, now: Mutex::default() })
     }
 
+    /// Returns the state of the present run; a panic of another thread does not block it.
     fn now(&self) -> MutexGuard<'_, Now> {
         self.now.lock().unwrap_or_else(PoisonError::into_inner)
     }
