@@ -11,7 +11,7 @@ use std::str::FromStr;
 /// The area in which the points of a coordinate file could have been seen.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Region {
-    /// The unit square, [0, 1] × [0, 1].
+    /// The unit square, `[0, 1] × [0, 1]`.
     Unit,
     /// The area of an image of this width and height: `[−.5, W−.5] × [−.5, H−.5]` in px, or `[0, W]
     /// × [0, H]` in any other unit.
