@@ -13,8 +13,8 @@ use std::str::FromStr;
 pub enum Region {
     /// The unit square, `[0, 1] × [0, 1]`.
     Unit,
-    /// The area of an image of this width and height: `[−.5, W−.5] × [−.5, H−.5]` in px, or `[0, W]
-    /// × [0, H]` in any other unit.
+    /// The area of an image of this width and height: `[−.5, W−.5] × [−.5, H−.5]` in px, in any
+    /// other unit `[0, W] × [0, H]`.
     Size(f64, f64),
     /// Left, upper, right and lower edge, in the unit of the coordinates.
     Edges([f64; 4]),
