@@ -1,9 +1,12 @@
-//! Batches of files: finds them, names them, gives them their scale, works through them on all cores,
-//! keeps failures apart and results whole. Knows nothing of mathematics.
+//! Work on whole batches of files: finding them, naming their results, giving them scales,
+//! analysing them on all cores and writing the results.
 //!
-//! Every command that measures mosaics is the same pipeline: [`run_files`] gets cones from images,
-//! [`measure_files`] and [`compare_files`] from coordinate files; what is computed of them and
-//! written is one [`Plan`].
+//! A file that fails is reported and stops no other; result files appear whole or not at all. The
+//! module holds no mathematics: that lies in the modules it calls.
+//!
+//! Every command that measures mosaics runs the same pipeline: [`run_files`] takes its cones from
+//! images, [`measure_files`] and [`compare_files`] from coordinate files. A [`Plan`] states what is
+//! computed from them and written.
 
 mod agree;
 mod analysis;
