@@ -1,4 +1,12 @@
 //! Error for a word that names no variant of an enum.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::image::Modality;
+//!
+//! let error = "infrared".parse::<Modality>().unwrap_err();
+//! assert_eq!(error.choices(), ["confocal", "split", "histology"]);
+//! ```
 
 use strum::VariantNames;
 use thiserror::Error;

@@ -1,4 +1,16 @@
 //! Atomic writing of files: a file appears whole or not at all.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::files::write_atomically;
+//! use std::io::Write;
+//!
+//! let folder = tempfile::tempdir()?;
+//! let path = folder.path().join("points.csv");
+//! write_atomically(&path, |file| file.write_all(b"x_px,y_px\n"))?;
+//! assert_eq!(std::fs::read(&path)?, b"x_px,y_px\n");
+//! # Ok::<(), std::io::Error>(())
+//! ```
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};

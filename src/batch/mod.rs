@@ -7,6 +7,22 @@
 //! Every command that measures mosaics runs the same pipeline: [`run_files`] takes its cones from
 //! images, [`measure_files`] and [`compare_files`] from coordinate files. A [`Plan`] states what is
 //! computed from them and written.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::batch::{Plan, RunOptions, Silent, image_files, run_files};
+//! use conemosaic::sample::sampler;
+//!
+//! let images = image_files(&["fixtures/images/split_sparse.png".into()], None)?;
+//! let plan = Plan { samplers: vec![sampler("uniform")?], ..Plan::default() };
+//! let options = RunOptions { plan, ..RunOptions::default() };
+//! let out = tempfile::tempdir()?;
+//! let outcome = run_files(&images, &options, out.path(), &Silent)?;
+//!
+//! assert_eq!((outcome.records.len(), outcome.failures.len()), (1, 0));
+//! assert!(out.path().join("summary.csv").exists() && out.path().join("index.html").exists());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod agree;
 mod analysis;

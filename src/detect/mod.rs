@@ -3,6 +3,28 @@
 //!
 //! Every stage can be called alone; [`detect`] is their composition. The module knows nothing of
 //! files or statistics.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::detect::{local_maxima, response, suppress};
+//! use conemosaic::prelude::*;
+//!
+//! let image = read("fixtures/images/confocal_dense.png".as_ref())?;
+//!
+//! // everything decided by the program
+//! let found = detect(&image, &DetectOptions::default())?;
+//! assert_eq!(found.modality, Modality::Confocal);
+//! println!("{} cones, {:.1} px apart", found.cones.len(), found.spacing);
+//!
+//! // or stage by stage, with a spacing of one's own, in px
+//! let (modality, polarity) = (Modality::Confocal, Polarity::Positive);
+//! let clear = f64::INFINITY; // filters widen only in images of low clarity
+//! let (filtered, criterion) = response(&image, modality, polarity, 7.5, clear);
+//! let maxima = local_maxima(&filtered, criterion.threshold);
+//! let cones = criterion.select(suppress(maxima, criterion.suppression * 7.5));
+//! assert!(cones.len() > 300);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod calibration;
 mod filter;
@@ -162,6 +184,18 @@ pub enum DetectError {
 /// # Errors
 /// If the image is too small, constant, or has pixels that are not numbers, if an option is out of
 /// range, or if a model cannot be run.
+///
+/// # Examples
+/// ```
+/// use conemosaic::prelude::*;
+///
+/// let image = read("fixtures/images/split_sparse.png".as_ref())?;
+/// let options = DetectOptions { modality: Some(Modality::Split), ..DetectOptions::default() };
+/// let found = detect(&image, &options)?;
+/// let first = &found.cones[0];
+/// println!("x {:.1} px, y {:.1} px, score {:.2}", first.centre.x, first.centre.y, first.score);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn detect(image: &Plane, options: &DetectOptions) -> Result<Detections, DetectError> {
     options.validate()?;
     let (imaged, left, top) = without_margin(image)?;

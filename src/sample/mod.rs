@@ -6,6 +6,31 @@
 //!
 //! A new sampler is one new file here, plus its module, its name and its place in the registry
 //! `SAMPLERS` below.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::geometry::Rectangle;
+//! use conemosaic::prelude::*;
+//! use conemosaic::sample::{sampler, samplers};
+//! use rand::SeedableRng;
+//!
+//! let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(4);
+//! let torus = Window::Torus(Rectangle::new(0., 0., 1., 1.)?);
+//! let points = sampler("bnot")?.sample(64, &torus, &mut rng)?;
+//! assert_eq!(points.len(), 64);
+//!
+//! // the same method with another parameter, in a polygon
+//! let lattice = sampler("triangular")?.configure(&[("jitter", "0.1")])?;
+//! let corners = [(0., 0.), (100., 0.), (50., 80.)].map(|(x, y)| Point::new(x, y));
+//! let triangle = Window::polygon(vec![corners.to_vec()])?;
+//! let inside = lattice.sample(200, &triangle, &mut rng)?;
+//! assert!(inside.iter().all(|&p| triangle.contains(p)));
+//!
+//! for sampler in samplers() {
+//!     println!("{:<16} {}", sampler.name(), sampler.about());
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod bnot;
 mod density;

@@ -138,6 +138,20 @@ impl Voronoi {
 ///
 /// On a torus the pattern is repeated around the window, and every cell is bound. Points that are
 /// not finite have no cell. If all points lie on a line, every cell is infinite.
+///
+/// # Examples
+/// ```
+/// use conemosaic::prelude::*;
+/// use conemosaic::stats::voronoi;
+///
+/// let window = Window::rectangle(0., 0., 5., 5.)?;
+/// let place = |i: usize| Point::new((i % 5) as f64 + 0.5, (i / 5) as f64 + 0.5);
+/// let points: Vec<Point> = (0..25).map(place).collect();
+/// let summary = voronoi(&points, &window).summary();
+/// assert_eq!(summary.bound, 9); // the cells at the border are left out
+/// assert!((summary.area.mean.ok_or("no bound cells")? - 1.).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn voronoi(points: &[Point], window: &Window) -> Voronoi {
     let bounds = window.bounds();
     let Some(spacing) = hexagonal_spacing(points.len(), window.area()) else {

@@ -16,6 +16,7 @@ use super::output::{Ending, OutputFolder, ResultFolder, Worked, for_each, write_
 use super::window::ImageWindows;
 use super::{BatchError, Crop, Failure, ImageWindow, Input, Progress};
 use crate::compare::References;
+use crate::detect::DetectOptions;
 use crate::report::tables::RoiRow;
 use crate::report::{ImageRecord, LandmarkRecord, Subject, SummaryKind, page};
 use done::Done;
@@ -47,6 +48,22 @@ pub struct RunOptions {
     pub replace_corrections: bool,
     /// The command line, for `run.json`.
     pub command: Vec<String>,
+}
+
+impl Default for RunOptions {
+    /// Returns options by which the default detector finds the cones in all that was imaged, and
+    /// earlier results are kept.
+    fn default() -> Self {
+        Self {
+            plan: Plan::default(),
+            cones: ConeSource::Detector(DetectOptions::default()),
+            window: ImageWindow::default(),
+            crop: None,
+            fresh: false,
+            replace_corrections: false,
+            command: Vec::new(),
+        }
+    }
 }
 
 /// Results of a run, and everything about it that remains to be told.

@@ -34,6 +34,19 @@ pub struct Agreement {
 /// Returns the bias and the limits of agreement of `differences`.
 ///
 /// Returns `None` if there are no differences or one of them is not finite.
+///
+/// # Examples
+/// ```
+/// use conemosaic::compare::agreement;
+///
+/// let [first, second] = [[102., 97., 110., 95.], [100., 99., 107., 96.]]; // cones, two graders
+/// let differences: Vec<f64> = first.iter().zip(second).map(|(a, b)| a - b).collect();
+/// let found = agreement(&differences).ok_or("no differences")?;
+/// assert_eq!(found.bias, 0.5);
+/// let [low, high] = found.limits.ok_or("only one difference")?;
+/// assert!(low < -2. && high > 3.);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn agreement(differences: &[f64]) -> Option<Agreement> {
     let found = moments(differences, Deviation::Sample);
     let bias = found.mean?;

@@ -92,6 +92,21 @@ impl Score {
 ///
 /// # Errors
 /// Fails under the same conditions as [`match_points`].
+///
+/// # Examples
+/// ```
+/// use conemosaic::compare::validate;
+/// use conemosaic::prelude::*;
+///
+/// let place = |i: usize| Point::new((i % 10 * 10 + 5) as f64, (i / 10 * 10 + 5) as f64);
+/// let marks: Vec<Point> = (0..100).map(place).collect();
+/// let found: Vec<Point> = marks[45..].iter().map(|p| Point::new(p.x + 1., p.y)).collect();
+/// let (score, pairs) = validate(&marks, &found, 100, 100, &MatchOptions::default())?;
+/// assert_eq!(score.rates.precision, 1.);
+/// assert_eq!(score.localisation_px, Some(1.));
+/// assert_eq!(pairs.pairs.len(), 55);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn validate(
     marks: &[Point],
     detections: &[Point],

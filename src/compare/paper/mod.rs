@@ -1,5 +1,16 @@
 //! The tables of Lanaro et al. (2020), <https://doi.org/10.1088/2399-6528/ab8064>, about samplers:
 //! the printed values, and the same values made anew.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::compare::paper::printed_regularity;
+//!
+//! let table_1 = printed_regularity();
+//! let bnot = table_1.iter().find(|row| row.name == "BNOT_1050").ok_or("no such row")?;
+//! println!("regularity index of BNOT as printed: {:.1}", bnot.ri);
+//! assert!(bnot.ri > 10.);
+//! # Ok::<(), &str>(())
+//! ```
 
 mod printed;
 mod remake;

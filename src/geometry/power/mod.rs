@@ -8,6 +8,18 @@
 //!
 //! Cells thus need no triangulation and are made in parallel, and coincident, collinear or hidden
 //! sites are no special cases. The work per site is constant where sites are spread evenly.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::geometry::power::{Domain, PowerSites};
+//!
+//! let square = Domain::rectangle(4., 4.);
+//! let mut sites = PowerSites::new(&square, None, &[[1., 2.], [3., 2.]]);
+//! let even = sites.diagram(&[0., 0.], None);
+//! assert_eq!(even.cells()[0].mass, 8.); // half of the square: without weights a Voronoi diagram
+//! let heavier = sites.diagram(&[1., 0.], Some(&even));
+//! assert!(heavier.cells()[0].mass > 8.); // a site of more weight has a larger cell
+//! ```
 
 mod cell;
 mod diagram;

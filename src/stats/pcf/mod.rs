@@ -168,6 +168,22 @@ pub struct Pcf {
 /// # Errors
 /// Returns [`StatsError`] if an option is out of range, there are fewer than two points, a point is
 /// not inside the window, or the torus correction is requested in a bounded window.
+///
+/// # Examples
+/// ```
+/// use conemosaic::prelude::*;
+///
+/// let window = Window::rectangle(0., 0., 10., 10.)?;
+/// let lattice = |i: usize| Point::new((i % 10) as f64 + 0.5, (i / 10) as f64 + 0.5);
+/// let points: Vec<Point> = (0..100).map(lattice).collect();
+///
+/// let found = pcf(&points, &window, &PcfOptions::default())?;
+/// let (r, g) = (found.options.radii(), &found.g); // r in hexagonal spacings
+/// let highest = (0..g.len()).max_by(|&a, &b| g[a].total_cmp(&g[b])).ok_or("no bins")?;
+/// // a square lattice of side 1 has a hexagonal spacing of 1.075
+/// assert!((r[highest] - 1. / 1.075).abs() < 0.05);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn pcf(points: &[Point], window: &Window, options: &PcfOptions) -> Result<Pcf, StatsError> {
     estimate(points, window, options, true)
 }

@@ -85,6 +85,21 @@ pub struct PowerSpectrum {
 /// Returns [`StatsError`] if there is no point, a point is outside, an option is out of its range,
 /// there are more than 5·10⁷ waves, or the window is a polygon (whose own spectrum would hide that
 /// of the points).
+///
+/// # Examples
+/// ```
+/// use conemosaic::prelude::*;
+/// use conemosaic::stats::{SpectrumOptions, spectrum};
+///
+/// let window = Window::rectangle(0., 0., 16., 16.)?;
+/// let place = |i: usize| Point::new((i % 16) as f64, (i / 16) as f64);
+/// let points: Vec<Point> = (0..256).map(place).collect();
+/// let found = spectrum(&points, &window, &SpectrumOptions::default())?;
+/// // a lattice of step 1 has all its power at multiples of 16 waves across the window
+/// let [peak, beside] = [16, 15].map(|kx| found.at(kx, 0));
+/// assert!(peak > Some(255.) && beside < Some(1e-9));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn spectrum(
     points: &[Point],
     window: &Window,

@@ -99,6 +99,23 @@ pub struct Trend {
 ///
 /// The density itself is fitted by a series of Legendre polynomials up to degree 2; in a polygon,
 /// by least squares over its area.
+///
+/// # Examples
+/// ```
+/// use conemosaic::prelude::*;
+/// use conemosaic::sample::sampler;
+/// use conemosaic::stats::trend;
+/// use rand::SeedableRng;
+///
+/// let window = Window::rectangle(0., 0., 100., 100.)?;
+/// let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(2);
+/// let even = sampler("jittered")?.sample(900, &window, &mut rng)?;
+/// // stretched towards the right, so that the density falls from left to right
+/// let stretch = |x: f64| 100. * (0.7 * x / 100. + 0.3 * (x / 100.).powi(2));
+/// let uneven: Vec<Point> = even.iter().map(|p| Point::new(stretch(p.x), p.y)).collect();
+/// assert!(!trend(&even, &window).significant && trend(&uneven, &window).significant);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn trend(points: &[Point], window: &Window) -> Trend {
     if points.len() < FEWEST || points.iter().any(|p| !p.is_finite()) {
         return Trend::default();
