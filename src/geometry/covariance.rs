@@ -4,7 +4,7 @@
 //! 1. Cut the polygon into rows and find its chords in each, exact along x.
 //! 2. Sum the overlap of chords over the rows, for a table of shifts h.
 //! 3. Interpolate bilinearly between shifts, and average over directions for the isotropised set
-//!    covariance (Ohser & Stoyan 1981).
+//!    covariance (Ohser & Stoyan 1981, <https://doi.org/10.1002/bimj.4710230602>).
 
 use super::Polygon;
 use std::f64::consts::PI;

@@ -162,7 +162,8 @@ impl Mosaic {
 }
 
 /// Distance of neighbours in the perfect triangular lattice of n points in `area`:
-/// s = √(2 A / (√3 n)), twice the r_max of Gamito & Maddock (2009, eq. 5). `None` for n = 0.
+/// s = √(2 A / (√3 n)), twice the r_max of Gamito & Maddock (2009, eq. 5,
+/// <https://doi.org/10.1145/1640443.1640451>). `None` for n = 0.
 pub fn hexagonal_spacing(n: usize, area: f64) -> Option<f64> {
     (n > 0).then(|| (2. * area / (3f64.sqrt() * n as f64)).sqrt())
 }

@@ -4,8 +4,9 @@ use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 use strum::{Display, IntoStaticStr, VariantArray};
 
-// Eccentricity in mm of retina, cones per mm²: Curcio, Sloan, Kalina & Hendrickson (1990), read off their published curves, means of
-// their eyes. The nasal one has no value at 4 mm, where the optic disc is.
+// Eccentricity in mm of retina, cones per mm²: Curcio, Sloan, Kalina & Hendrickson (1990,
+// <https://doi.org/10.1002/cne.902920402>), read off their published curves, means of their eyes.
+// The nasal one has no value at 4 mm, where the optic disc is.
 const NASAL: &[(f64, f64)] = &[
     (0., 196_000.),
     (0.05, 154_000.),

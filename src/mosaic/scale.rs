@@ -1,7 +1,8 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// Retinal micrometres per degree of visual angle in the average eye (Drasdo & Fowler 1974, as Lanaro et al. use it).
+/// Retinal micrometres per degree of visual angle in the average eye (Drasdo & Fowler 1974,
+/// <https://doi.org/10.1136/bjo.58.8.709>, as Lanaro et al. use it).
 pub const MICROMETRES_PER_DEGREE: f64 = 288.;
 
 /// Axial length, in mm, of the eye in which a degree spans 291 µm (the rule of the Metricks package).

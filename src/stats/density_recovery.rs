@@ -1,5 +1,5 @@
 //! Density recovery profile: the density of other points around the average point, by distance
-//! (Rodieck 1991).
+//! (Rodieck 1991, <https://doi.org/10.1017/S095252380001049X>).
 //!
 //! 1. Count the pairs of points by distance, in annuli of equal width.
 //! 2. Divide each count by the area of its annuli that lies in the window.

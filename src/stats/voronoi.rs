@@ -50,6 +50,8 @@ pub struct Cell {
     pub furthest: Option<f64>,
     /// Bond-orientational order ψ6: mean of exp(6iθ) over the directions θ to the neighbours, as
     /// real and imaginary part.
+    ///
+    /// Source: Nelson & Halperin (1979), <https://doi.org/10.1103/PhysRevB.19.2457>.
     pub psi6: Option<[f64; 2]>,
     /// Second moments of the vectors to the neighbours: means of dx², dx·dy and dy², in squared
     /// units of the coordinates.

@@ -7,7 +7,8 @@
 //! 3. Test the mosaic's curve against the global envelope of the simulations, by extreme rank
 //!    length (Myllymäki et al. 2017, <https://doi.org/10.1111/rssb.12172>).
 //!
-//! Both p-values are exact, as all curves are treated alike (Barnard 1963).
+//! Both p-values are exact, as all curves are treated alike (Barnard 1963, in the discussion of
+//! Bartlett, <https://doi.org/10.1111/j.2517-6161.1963.tb00508.x>).
 
 use super::{CompareError, curve, draw, l_infinity};
 use crate::geometry::Window;

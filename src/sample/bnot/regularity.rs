@@ -17,8 +17,8 @@ const SHAKE: f64 = 0.5;
 /// Shakes the points of regular cells and their neighbours, and returns whether there were any.
 ///
 /// Points that would leave the region stay. The measure of regularity is that of de Goes et al.
-/// (2012), the mean absolute difference of a cell's second moment to those of its neighbours;
-/// threshold and shaking are chosen here.
+/// (2012, <https://doi.org/10.1145/2366145.2366190>), the mean absolute difference of a cell's
+/// second moment to those of its neighbours; threshold and shaking are chosen here.
 pub(super) fn shake(
     points: &mut [[f64; 2]],
     diagram: &PowerDiagram,

@@ -63,7 +63,8 @@ const BEYOND: f64 = 4.;
 ///
 /// Exactly n points are made. Opposite edges of a torus do not fit, as the model has a centre.
 ///
-/// Source of the densities: Curcio et al. (1990), <https://doi.org/10.1002/cne.902920402>.
+/// Sources: Deering (2005), <https://doi.org/10.1145/1073204.1073243>; for the densities, Curcio et
+/// al. (1990), <https://doi.org/10.1002/cne.902920402>.
 #[derive(Clone, Copy, Debug)]
 pub struct Deering {
     /// Standard deviation of the cells' radii, in mean radii.

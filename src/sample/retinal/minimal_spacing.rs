@@ -37,8 +37,9 @@ const TRIALS: usize = 100_000;
 /// Exactly n points are made. No two are nearer than μ − 4σ.
 ///
 /// Sources: Wässle and Riemann (1978), <https://doi.org/10.1098/rspb.1978.0026>; Galli-Resta et al.
-/// (1999); Curcio and Sloan (1992), <https://doi.org/10.1017/S0952523800009639>; Curcio et al.
-/// (1990), <https://doi.org/10.1002/cne.902920402>.
+/// (1999), <https://doi.org/10.1046/j.1460-9568.1999.00555.x>; Curcio and Sloan (1992),
+/// <https://doi.org/10.1017/S0952523800009639>; Curcio et al. (1990),
+/// <https://doi.org/10.1002/cne.902920402>.
 #[derive(Clone, Copy, Debug)]
 pub struct MinimalSpacing {
     /// Mean of the minimal distance d_min, in hexagonal spacings.

@@ -19,9 +19,9 @@ const BEYOND: f64 = 3.;
 /// Model of Wang et al. (2001): a polar array around the fovea, Gaussian jitter, and a minimal
 /// spacing.
 ///
-/// **Published** (the abstract): the constraints are the sampling properties of several human
-/// foveal mosaics, above all local clusters rotated against each other and spectra like desert
-/// islands.
+/// **Published** (the abstract, <https://www.osapublishing.org/abstract.cfm?uri=VSIA-2001-FB1>):
+/// the constraints are the sampling properties of several human foveal mosaics, above all local
+/// clusters rotated against each other and spectra like desert islands.
 ///
 /// **As understood here**: the model is an array of those three parts.
 ///

@@ -44,8 +44,8 @@ impl Size {
     /// - It is compared with λ, which is known, plus 5 noises, which are estimated. This has
     ///   17(1 + λ/5)² degrees of freedom (Satterthwaite 1946,
     ///   <https://doi.org/10.2307/3002019>).
-    /// - The F of their ratio is made normal by the formula of Paulson (1942); at 1 %, F(5, 17)
-    ///   comes out at 1.01 %.
+    /// - The F of their ratio is made normal by the formula of Paulson (1942,
+    ///   <https://doi.org/10.1214/aoms/1177731608>); at 1 %, F(5, 17) comes out at 1.01 %.
     pub(super) fn deviate(&self, variation: f64) -> f64 {
         let square = variation.powi(2) / 12.;
         // A lattice that fits its window leaves no noise except rounding, hence the lower bounds.
