@@ -90,7 +90,8 @@ def lloyd(spacing, rng):
     start = rng.choice(density.size, round(density.sum()), replace=False, p=(density / density.sum()).ravel())
     y, x = np.divmod(start, density.shape[1])
     rows, columns = (axis.astype(float) for axis in np.indices(density.shape))
-    weight = density ** 2  # in the plane, Lloyd's points get a density that is the square root of the weight
+    # in the plane, Lloyd's points get a density that is the square root of the weight
+    weight = density ** 2
     for _ in range(LLOYD_STEPS):
         elsewhere = np.ones(density.shape, np.uint8)
         elsewhere[np.rint(y).astype(int), np.rint(x).astype(int)] = 0

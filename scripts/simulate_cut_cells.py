@@ -94,7 +94,7 @@ def depths(cells, radii, gap, shape):
     """Returns for each point of the grid its cell, and its depth inside the edge, in grid steps."""
     nearest, second = np.full(shape, np.inf, np.float32), np.full(shape, np.inf, np.float32)
     owner = np.zeros(shape, int)
-    # distances from discs of a common size: small cells are not overgrown by large ones
+    # measured from discs of a common size, so that small cells do not lose area to large ones
     common = radii.min()
     for k, ((x, y), radius) in enumerate(zip(cells, radii)):
         reach = 4 * radius
