@@ -171,7 +171,7 @@ def simulate(conditions, rng):
 def write(job):
     """Simulates and writes one image and its cones."""
     out, simulate, conditions, name, number = job
-    cv2.setNumThreads(1)  # images are made side by side instead
+    cv2.setNumThreads(1)  # one thread each: images are made side by side
     image, cones = simulate(conditions, np.random.default_rng([number, *name.encode()]))
     stem = f'{out}/{name}_{number:02}'
     cv2.imwrite(f'{stem}.png', image)
