@@ -1,22 +1,22 @@
 use super::{Row, Table, column};
 use crate::compare::{ClusteredAgreement, Interval, Intraclass};
 
-/// Agreement of two graders, or of all, in one column.
+/// The agreement of two graders, or of all of them, in one column.
 #[derive(Clone, Copy, Debug)]
 pub struct AgreementRow<'a> {
-    /// The column.
+    /// Name of the column.
     pub column: &'a str,
-    /// The two graders; “all” twice for the row over all of them.
+    /// Names of the two graders; “all” twice in the row over all of them.
     pub graders: [&'a str; 2],
-    /// Images.
+    /// Number of images that these graders share.
     pub n: usize,
-    /// Mean of each grader; `None` for the row over all.
+    /// Mean of each grader; `None` in the row over all.
     pub means: Option<[f64; 2]>,
-    /// Bias and limits of agreement; `None` for the row over all.
+    /// Bias and limits of agreement; `None` in the row over all.
     pub agreement: Option<ClusteredAgreement>,
-    /// Intraclass correlation.
+    /// Intraclass correlations, if defined.
     pub intraclass: Option<Intraclass>,
-    /// Images of a group do not count as independent.
+    /// Dependence of images: true if images of one group do not count as independent.
     pub grouped: bool,
 }
 
@@ -25,20 +25,20 @@ impl Row for AgreementRow<'static> {
 }
 
 impl AgreementRow<'_> {
-    /// Returns one end of an interval of the agreement.
+    /// Returns one end of an interval of the agreement: 0 is the lower, 1 the upper one.
     fn end(&self, end: usize, interval: fn(&ClusteredAgreement) -> Option<Interval>) -> Option<f64> {
         interval(self.agreement.as_ref()?)?.get(end).copied()
     }
 
-    /// Returns one end of an interval of the correlation.
+    /// Returns one end of an interval of the correlation: 0 is the lower, 1 the upper one.
     fn icc_end(&self, end: usize, interval: fn(&Intraclass) -> Option<Interval>) -> Option<f64> {
-        // these intervals would take the images of a group as independent
+        // These intervals assume independent images, which the images of a group are not.
         let icc = self.intraclass.as_ref().filter(|_| !self.grouped)?;
         interval(icc)?.get(end).copied()
     }
 }
 
-/// Limits of agreement and intraclass correlations.
+/// The table of limits of agreement and intraclass correlations.
 pub static AGREEMENT: Table<AgreementRow> = Table {
     file: "agreement.csv",
     commands: "agree",
@@ -128,13 +128,13 @@ pub static AGREEMENT: Table<AgreementRow> = Table {
 /// The values of two graders for one image.
 #[derive(Clone, Copy, Debug)]
 pub struct DifferenceRow<'a> {
-    /// The image.
+    /// Name of the image.
     pub image: &'a str,
-    /// The column.
+    /// Name of the column.
     pub column: &'a str,
-    /// The two graders.
+    /// Names of the two graders.
     pub graders: [&'a str; 2],
-    /// Their values.
+    /// Values of the two graders.
     pub values: [f64; 2],
 }
 
@@ -142,7 +142,7 @@ impl Row for DifferenceRow<'static> {
     type Of<'a> = DifferenceRow<'a>;
 }
 
-/// Differences image by image.
+/// The table of differences, image by image.
 pub static DIFFERENCES: Table<DifferenceRow> = Table {
     file: "differences.csv",
     commands: "agree",
@@ -163,9 +163,9 @@ pub static DIFFERENCES: Table<DifferenceRow> = Table {
 /// An image that not all graders have.
 #[derive(Clone, Copy, Debug)]
 pub struct UnpairedRow<'a> {
-    /// The image.
+    /// Name of the image.
     pub image: &'a str,
-    /// Graders who lack it, separated by commas.
+    /// Names of the graders who lack it, separated by commas.
     pub missing_from: &'a str,
 }
 
@@ -173,7 +173,7 @@ impl Row for UnpairedRow<'static> {
     type Of<'a> = UnpairedRow<'a>;
 }
 
-/// Images that not all graders have.
+/// The table of images that not all graders have.
 pub static UNPAIRED: Table<UnpairedRow> = Table {
     file: "unpaired.csv",
     commands: "agree",

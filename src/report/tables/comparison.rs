@@ -3,12 +3,12 @@ use super::{Row, Table, column};
 use crate::report::{CoordinatesRecord, FindingRecord, VerdictRecord};
 use crate::stats::{Deviation, Moments};
 
-/// The verdict on the mosaic of a file by simulations of a sampler.
+/// The verdict on the mosaic of a file by simulations of one sampler.
 #[derive(Clone, Copy, Debug)]
 pub struct VerdictRow<'a> {
-    /// The file, as given.
+    /// Path of the file, as given.
     pub file: &'a str,
-    /// The verdict.
+    /// Verdict on the mosaic.
     pub verdict: &'a VerdictRecord,
 }
 
@@ -16,7 +16,7 @@ impl Row for VerdictRow<'static> {
     type Of<'a> = VerdictRow<'a>;
 }
 
-/// Simulated tests.
+/// The table of tests by simulation.
 pub static VERDICTS: Table<VerdictRow> = Table {
     file: "verdicts.csv",
     commands: "compare, run --verdict",
@@ -79,18 +79,19 @@ impl Row for CoordinatesRecord {
     type Of<'a> = &'a Self;
 }
 
-/// Returns the nearest-neighbour distances of a mosaic by the divisor wanted.
+/// Returns the nearest-neighbour distances of a mosaic, with the standard deviation by `divisor`.
 fn nearest(record: &CoordinatesRecord, divisor: Deviation) -> Moments {
     let stats = &record.mosaic.stats;
     stats.nearest.with_divisor(stats.deviation, divisor)
 }
 
-/// Returns a length of a mosaic in µm.
+/// Returns a length of a mosaic in µm; `None` without a scale.
 fn in_um(record: &CoordinatesRecord, length: Option<f64>) -> Option<f64> {
     length.zip(record.mosaic.um_per_unit).map(|(length, um)| length * um)
 }
 
-/// Nearest-neighbour distances by both divisors, as in Table 1 of Lanaro et al. 2020.
+/// The table of nearest-neighbour distances by both divisors, as in Table 1 of Lanaro et al. (2020,
+/// <https://doi.org/10.1088/2399-6528/ab8064>).
 pub static REGULARITY: Table<CoordinatesRecord> = Table {
     file: "regularity.csv",
     commands: "compare",
@@ -140,7 +141,7 @@ pub static REGULARITY: Table<CoordinatesRecord> = Table {
     ],
 };
 
-/// Distances to samplers.
+/// The table of l-infinity distances to samplers.
 pub static L_INFINITY: Table<CoordinatesRecord> = Table {
     file: "l_infinity.csv",
     commands: "compare",
@@ -173,7 +174,7 @@ impl Row for FindingRecord {
     type Of<'a> = &'a Self;
 }
 
-/// Correlation of regularity with the distance to samplers.
+/// The table of correlations of regularity with the distance to samplers.
 pub static FINDING: Table<FindingRecord> = Table {
     file: "finding.csv",
     commands: "compare",

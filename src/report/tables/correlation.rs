@@ -4,7 +4,7 @@ use crate::compare::{ReferenceCurve, SamplerVerdict};
 use crate::report::ReportError;
 use crate::stats::{Inhomogeneous, Measures, Pcf};
 
-/// A distance at which pair correlation functions are given.
+/// One distance at which pair correlation functions are given.
 #[derive(Clone, Copy, Debug)]
 pub struct PcfRow<'a> {
     index: usize,
@@ -28,7 +28,7 @@ impl<'a> PcfRow<'a> {
     }
 }
 
-/// Pair correlation functions.
+/// The table of pair correlation functions.
 pub static PCF: Table<PcfRow> = Table {
     file: "NAME.pcf.csv",
     commands: "measure, compare, run (images/NAME/pcf.csv)",
@@ -91,11 +91,13 @@ pub static PCF: Table<PcfRow> = Table {
     ],
 };
 
-/// Returns `NAME.pcf.csv` of a mosaic beside the mean curves of samplers; without rows where the function
-/// is not defined.
+/// Returns `NAME.pcf.csv`: the pair correlation function of a mosaic beside the mean ones of
+/// samplers.
+///
+/// There are no rows if the function is not defined.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn pcf_csv(measures: &Measures, curves: &[ReferenceCurve]) -> Result<Vec<u8>, ReportError> {
     let samplers: Vec<String> = curves.iter().map(|c| c.sampler.clone()).collect();
     let varying = measures.inhomogeneous.as_ref();
@@ -107,7 +109,7 @@ pub fn pcf_csv(measures: &Measures, curves: &[ReferenceCurve]) -> Result<Vec<u8>
     PCF.csv_as(&Layout { samplers: &samplers, parts: parts.as_slice() }, rows)
 }
 
-/// A distance at which a mosaic's pair correlation function and envelopes are given.
+/// One distance at which a mosaic's pair correlation function and its envelopes are given.
 #[derive(Clone, Copy, Debug)]
 pub struct EnvelopeRow<'a> {
     index: usize,
@@ -126,7 +128,7 @@ impl EnvelopeRow<'_> {
     }
 }
 
-/// Global envelopes of the pair correlation function.
+/// The table of global envelopes of the pair correlation function.
 pub static ENVELOPE: Table<EnvelopeRow> = Table {
     file: "NAME.envelope.csv",
     commands: "compare, run --verdict (images/NAME/envelope.csv)",
@@ -154,10 +156,10 @@ pub static ENVELOPE: Table<EnvelopeRow> = Table {
     ],
 };
 
-/// Returns `NAME.envelope.csv` of a mosaic; without rows where its function is not defined.
+/// Returns `NAME.envelope.csv` of a mosaic; there are no rows if its function is not defined.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn envelope_csv(measures: &Measures, verdicts: &[SamplerVerdict]) -> Result<Vec<u8>, ReportError> {
     let samplers: Vec<String> = verdicts.iter().map(|v| v.sampler.clone()).collect();
     let rows = measures

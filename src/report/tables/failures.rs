@@ -1,12 +1,12 @@
 use super::{Row, Table, column};
 use serde::Serialize;
 
-/// A file that could not be worked on.
+/// A file that could not be processed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Failure {
-    /// Path as given.
+    /// Path of the file, as given.
     pub file: String,
-    /// The reason, in one line.
+    /// Reason of the failure, in one line.
     pub reason: String,
 }
 
@@ -14,7 +14,7 @@ impl Row for Failure {
     type Of<'a> = &'a Self;
 }
 
-/// Files without results.
+/// The table of files without results.
 pub static FAILURES: Table<Failure> = Table {
     file: "failures.csv",
     commands: "all that take several files",

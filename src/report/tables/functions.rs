@@ -3,7 +3,7 @@ use super::{Row, Table, column};
 use crate::report::ReportError;
 use crate::stats::{DensityRecovery, Functions, PowerSpectrum};
 
-/// A distance at which functions are given, each by its name.
+/// One distance at which functions are given, each under its name.
 #[derive(Clone, Copy, Debug)]
 pub struct FunctionsRow<'a> {
     index: usize,
@@ -21,7 +21,7 @@ impl FunctionsRow<'_> {
     }
 }
 
-/// Functions of distance by spatstat's names.
+/// The table of functions of distance, under spatstat's names.
 pub static FUNCTIONS: Table<FunctionsRow> = Table {
     file: "NAME.functions.csv",
     commands: "measure --functions",
@@ -121,16 +121,16 @@ pub static FUNCTIONS: Table<FunctionsRow> = Table {
     ],
 };
 
-/// Returns `NAME.functions.csv`.
+/// Returns `NAME.functions.csv` of a mosaic.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn functions_csv(functions: &Functions) -> Result<Vec<u8>, ReportError> {
     let series = functions.columns();
     FUNCTIONS.csv((0..functions.r.len()).map(|index| FunctionsRow { index, series: &series }))
 }
 
-/// An annulus about the average point.
+/// An annulus around the average point.
 #[derive(Clone, Copy, Debug)]
 pub struct AnnulusRow {
     r: f64,
@@ -142,7 +142,7 @@ impl Row for AnnulusRow {
     type Of<'a> = Self;
 }
 
-/// Density around the average point.
+/// The table of the density around the average point.
 pub static DENSITY_RECOVERY: Table<AnnulusRow> = Table {
     file: "NAME.density_recovery.csv",
     commands: "measure --functions",
@@ -157,10 +157,10 @@ pub static DENSITY_RECOVERY: Table<AnnulusRow> = Table {
     ],
 };
 
-/// Returns `NAME.density_recovery.csv`; without rows where there is no profile.
+/// Returns `NAME.density_recovery.csv`; there are no rows without a profile.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn density_recovery_csv(profile: Option<&DensityRecovery>) -> Result<Vec<u8>, ReportError> {
     let rows = profile.into_iter().flat_map(|p| {
         let annulus = |(&r, &density)| AnnulusRow { r, density, mean_density: p.mean_density };
@@ -169,7 +169,7 @@ pub fn density_recovery_csv(profile: Option<&DensityRecovery>) -> Result<Vec<u8>
     DENSITY_RECOVERY.csv(rows)
 }
 
-/// A ring of frequencies.
+/// A ring of frequencies in a power spectrum.
 #[derive(Clone, Copy, Debug)]
 pub struct FrequencyRow<'a> {
     index: usize,
@@ -180,7 +180,7 @@ impl Row for FrequencyRow<'static> {
     type Of<'a> = FrequencyRow<'a>;
 }
 
-/// Power spectrum of points.
+/// The table of the radial power spectrum of the points.
 pub static SPECTRUM: Table<FrequencyRow> = Table {
     file: "NAME.spectrum.csv",
     commands: "measure --spectrum",
@@ -195,10 +195,10 @@ pub static SPECTRUM: Table<FrequencyRow> = Table {
     ],
 };
 
-/// Returns `NAME.spectrum.csv`.
+/// Returns `NAME.spectrum.csv` of a mosaic.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn spectrum_csv(spectrum: &PowerSpectrum) -> Result<Vec<u8>, ReportError> {
     SPECTRUM.csv((0..spectrum.power.len()).map(|index| FrequencyRow { index, spectrum }))
 }

@@ -4,16 +4,16 @@ use crate::report::{ReportError, Subject, Summary};
 use crate::stats::{Deviation, Moments, moments};
 use std::collections::BTreeMap;
 
-/// An image or file in a group.
+/// An image or file of coordinates that belongs to a group.
 #[derive(Clone, Copy)]
 pub struct GroupMember<'a> {
-    /// The record of its mosaic.
+    /// Record of the member's mosaic.
     pub record: Subject<'a>,
-    /// The person it is of, if known.
+    /// Person of whom the image is, if known.
     pub person: Option<&'a str>,
 }
 
-/// A column of the summary over the images of a group.
+/// One column of the summary over the images of one group.
 #[derive(Clone, Debug)]
 pub struct GroupRow<'a> {
     group: &'a str,
@@ -28,7 +28,7 @@ impl Row for GroupRow<'static> {
     type Of<'a> = GroupRow<'a>;
 }
 
-/// Means by group.
+/// The table of means by group.
 pub static GROUPS: Table<GroupRow> = Table {
     file: "groups.csv",
     commands: "measure --group-by, run --group-by",
@@ -68,10 +68,10 @@ pub static GROUPS: Table<GroupRow> = Table {
     ],
 };
 
-/// Returns `groups.csv`: every column of numbers of a summary over the members of each group.
+/// Returns `groups.csv`: every numeric column of a summary over the members of each group.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn groups_csv(
     summary: &Summary,
     groups: &BTreeMap<String, Vec<GroupMember>>,

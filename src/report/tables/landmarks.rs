@@ -6,7 +6,7 @@ impl Row for LandmarkRecord {
     type Of<'a> = &'a Self;
 }
 
-/// Landmarks of density maps.
+/// The table of landmarks of density maps.
 pub static LANDMARKS: Table<LandmarkRecord> = Table {
     file: "landmarks.csv",
     commands: "measure --maps, run --maps",

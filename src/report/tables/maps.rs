@@ -6,7 +6,7 @@ use crate::mosaic::Mosaic;
 use crate::report::ReportError;
 use crate::stats::{LocalValues, Maps, ProfileRow};
 
-/// A cone and the mosaic around it.
+/// A cone and the local values of the mosaic around it.
 #[derive(Clone, Copy, Debug)]
 pub struct MapRow {
     at: Point,
@@ -18,17 +18,17 @@ impl Row for MapRow {
     type Of<'a> = Self;
 }
 
-/// Returns a length in µm.
+/// Returns a length in µm; `None` without a scale.
 fn length(value: Option<f64>, um_per_unit: Option<f64>) -> Option<f64> {
     value.zip(um_per_unit).map(|(length, um)| length * um)
 }
 
-/// Returns a density per squared unit in cones/mm².
+/// Returns a density per squared unit in cones/mm²; `None` without a scale.
 fn per_mm2(density: Option<f64>, um_per_unit: Option<f64>) -> Option<f64> {
     density.zip(um_per_unit).map(|(d, um)| d * 1e6 / (um * um))
 }
 
-/// Local values of a mosaic.
+/// The table of local values of a mosaic.
 pub static MAPS: Table<MapRow> = Table {
     file: "NAME.maps.csv",
     commands: "measure --maps, run --maps (images/NAME/maps.csv)",
@@ -74,17 +74,17 @@ pub static MAPS: Table<MapRow> = Table {
     ],
 };
 
-/// Returns `NAME.maps.csv`.
+/// Returns `NAME.maps.csv` of a mosaic.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn maps_csv(mosaic: &Mosaic, maps: &Maps) -> Result<Vec<u8>, ReportError> {
     let um_per_unit = mosaic.micrometres_per_unit();
     let row = |(&at, &local)| MapRow { at, local, um_per_unit };
     MAPS.csv(mosaic.points().iter().zip(&maps.local).map(row))
 }
 
-/// A distance from the cone density centroid, in one direction or all around.
+/// One distance from the cone density centroid, in one direction or all around.
 #[derive(Clone, Copy, Debug)]
 pub struct DistanceRow {
     profile: ProfileRow,
@@ -95,7 +95,7 @@ impl Row for DistanceRow {
     type Of<'a> = Self;
 }
 
-/// Profiles of density and spacing by distance from the centroid of density.
+/// The table of density and spacing by distance from the cone density centroid.
 pub static PROFILES: Table<DistanceRow> = Table {
     file: "NAME.profiles.csv",
     commands: "measure --maps, run --maps (images/NAME/profiles.csv)",
@@ -130,16 +130,16 @@ pub static PROFILES: Table<DistanceRow> = Table {
     ],
 };
 
-/// Returns `NAME.profiles.csv`.
+/// Returns `NAME.profiles.csv` of a mosaic.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn profiles_csv(mosaic: &Mosaic, maps: &Maps) -> Result<Vec<u8>, ReportError> {
     let um_per_unit = mosaic.micrometres_per_unit();
     PROFILES.csv(maps.profile.iter().map(|&profile| DistanceRow { profile, um_per_unit }))
 }
 
-/// The spacing at a place of the image, by the spectrum of tiles.
+/// The spacing at one place of the image, from the spectra of tiles.
 #[derive(Clone, Copy, Debug)]
 pub struct FourierRow {
     at: Point,
@@ -152,7 +152,7 @@ impl Row for FourierRow {
     type Of<'a> = Self;
 }
 
-/// Spacing by the spectra of tiles.
+/// The table of spacings from the spectra of tiles.
 pub static FOURIER_MAP: Table<FourierRow> = Table {
     file: "fourier_map.csv",
     commands: "run --maps (images/NAME/fourier_map.csv)",
@@ -169,10 +169,10 @@ pub static FOURIER_MAP: Table<FourierRow> = Table {
     ],
 };
 
-/// Returns `fourier_map.csv`; without rows where the image has no ring.
+/// Returns `fourier_map.csv` of an image; there are no rows if its spectrum has no ring.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn fourier_map_csv(map: Option<&FourierMap>, um_per_px: Option<f64>) -> Result<Vec<u8>, ReportError> {
     let rows = map.into_iter().flat_map(|map| {
         let places = map.y.iter().flat_map(|&y| map.x.iter().map(move |&x| Point::new(x, y)));

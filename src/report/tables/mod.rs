@@ -1,7 +1,8 @@
-//! Every table that is written as CSV beside `summary.csv`: its columns, and for each of them name, unit,
-//! edge rule, definition, source and value. Header, rows and the data dictionary come from one list.
+//! Tables that are written as CSV beside `summary.csv`.
 //!
-//! A new column is one [`column()`] in the list of its table.
+//! A table is a list of columns; each has a name, a unit, an edge rule, a definition, a source and
+//! a value. Header, rows and the data dictionary are all made from that list, so that a new column
+//! is one [`column()`] in the list of its table.
 
 mod agreement;
 mod column;
@@ -47,7 +48,7 @@ pub use validation::{
     validation_csv,
 };
 
-/// The tables, in the order in which a user meets them.
+/// All tables, in the order in which a user meets them.
 pub static TABLES: [&dyn Described; 32] = [
     &DETECTIONS,
     &PCF,

@@ -12,7 +12,8 @@ impl Row for MadeRow {
     type Of<'a> = &'a Self;
 }
 
-/// Sampler rows of Table 1, printed and re-made.
+/// The table of the sampler rows of Table 1 of Lanaro et al. (2020,
+/// <https://doi.org/10.1088/2399-6528/ab8064>), printed and re-made.
 pub static PAPER_TABLE_1: Table<MadeRow> = Table {
     file: "table1.csv",
     commands: "paper",
@@ -44,7 +45,7 @@ pub static PAPER_TABLE_1: Table<MadeRow> = Table {
     ],
 };
 
-/// A distance between two samplers of Table 2.
+/// The distance between two samplers of Table 2.
 #[derive(Clone, Copy, Debug)]
 pub struct PaperDistance {
     between: [&'static str; 2],
@@ -56,7 +57,7 @@ impl Row for PaperDistance {
     type Of<'a> = Self;
 }
 
-/// Distances between the samplers of Table 2.
+/// The table of distances between the samplers of Table 2.
 pub static PAPER_TABLE_2: Table<PaperDistance> = Table {
     file: "table2_samplers.csv",
     commands: "paper",
@@ -74,7 +75,7 @@ pub static PAPER_TABLE_2: Table<PaperDistance> = Table {
     ],
 };
 
-/// A row of Table 2 and the triangle inequality with least room.
+/// A row of Table 2 and its triangle inequality with the least slack.
 #[derive(Clone, Copy, Debug)]
 pub struct TriangleRow<'a> {
     printed: &'a PrintedDistances,
@@ -85,7 +86,7 @@ impl Row for TriangleRow<'static> {
     type Of<'a> = TriangleRow<'a>;
 }
 
-/// Rows of Table 2 against the triangle inequality.
+/// The table that checks the rows of Table 2 by the triangle inequality.
 pub static PAPER_TRIANGLE: Table<TriangleRow> = Table {
     file: "triangle.csv",
     commands: "paper",
@@ -106,14 +107,14 @@ pub static PAPER_TRIANGLE: Table<TriangleRow> = Table {
     ],
 };
 
-/// Distances between the samplers of Table 2 at one bandwidth.
+/// The distances between the samplers of Table 2 at one bandwidth.
 #[derive(Clone, Copy, Debug)]
 pub struct BandwidthRow {
     /// Bandwidth of the kernel, in spacings.
     pub bandwidth: f64,
     /// Distances of the pairs of columns (0, 1), (0, 2), (1, 2).
     pub distances: [f64; 3],
-    /// Rows of Table 2 that hold with them.
+    /// Number of rows of Table 2 that satisfy the triangle inequality with these distances.
     pub holds: usize,
 }
 
@@ -121,7 +122,7 @@ impl Row for BandwidthRow {
     type Of<'a> = Self;
 }
 
-/// Distances between the samplers of Table 2 at other bandwidths.
+/// The table of distances between the samplers of Table 2 at other bandwidths.
 pub static PAPER_BANDWIDTHS: Table<BandwidthRow> = Table {
     file: "bandwidths.csv",
     commands: "paper",
@@ -140,18 +141,18 @@ pub static PAPER_BANDWIDTHS: Table<BandwidthRow> = Table {
     ],
 };
 
-/// A curve of a sampler.
+/// The curve of one sampler.
 #[derive(Clone, Debug)]
 pub struct SamplerCurve<'a> {
-    /// Name of the sampler as a column: with underscores.
+    /// Name of the sampler as a column name: with underscores.
     pub sampler: String,
-    /// Abscissae.
+    /// Abscissae of the curve.
     pub x: &'a [f64],
-    /// Values.
+    /// Values of the curve.
     pub y: &'a [f64],
 }
 
-/// An abscissa of several curves.
+/// One abscissa that several curves share.
 #[derive(Clone, Copy, Debug)]
 pub struct CurveRow<'a> {
     index: usize,
@@ -169,7 +170,7 @@ impl CurveRow<'_> {
     }
 }
 
-/// Mean pair correlation functions of Figure 1.
+/// The table of mean pair correlation functions of Figure 1.
 pub static PAPER_PCF: Table<CurveRow> = Table {
     file: "pcf.csv",
     commands: "paper",
@@ -181,7 +182,7 @@ pub static PAPER_PCF: Table<CurveRow> = Table {
     ],
 };
 
-/// Mean radial spectra of Figure 1.
+/// The table of mean radial spectra of Figure 1.
 pub static PAPER_SPECTRA: Table<CurveRow> = Table {
     file: "spectra.csv",
     commands: "paper",
@@ -192,10 +193,11 @@ pub static PAPER_SPECTRA: Table<CurveRow> = Table {
     ],
 };
 
-/// Returns curves on the longest of their abscissae; one that ends earlier leaves empty cells.
+/// Returns curves as CSV on the longest of their abscissae; a curve that ends earlier leaves empty
+/// cells.
 ///
 /// # Errors
-/// If they cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn curves_csv(table: &Table<CurveRow>, curves: &[SamplerCurve]) -> Result<Vec<u8>, ReportError> {
     let samplers: Vec<String> = curves.iter().map(|c| c.sampler.clone()).collect();
     let longest = curves.iter().map(|c| c.x).max_by_key(|x| x.len()).unwrap_or_default();
@@ -204,10 +206,11 @@ pub fn curves_csv(table: &Table<CurveRow>, curves: &[SamplerCurve]) -> Result<Ve
 }
 
 impl PaperResults {
-    /// Returns `table1.csv`, `table2_samplers.csv`, `triangle.csv` and `bandwidths.csv`, each with its name.
+    /// Returns `table1.csv`, `table2_samplers.csv`, `triangle.csv` and `bandwidths.csv`, each with
+    /// its name.
     ///
     /// # Errors
-    /// If one cannot be written as CSV.
+    /// Returns [`ReportError::Csv`] if one of them cannot be written as CSV.
     pub fn tables(&self) -> Result<[(&'static str, Vec<u8>); 4], ReportError> {
         let distances = PAIRS.iter().zip(&self.distances).map(|(&columns, &found)| PaperDistance {
             between: columns.map(|c| TABLE_2_SAMPLERS[c]),

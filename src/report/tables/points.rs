@@ -20,8 +20,10 @@ impl Row for DetectedCone {
     type Of<'a> = Self;
 }
 
-/// Columns of detected cones. The files are written as coordinates, by
-/// [`write_points`](crate::mosaic::io::write_points), to which a test holds this.
+/// The table of detected cones.
+///
+/// These files are written as coordinates, by [`write_points`](crate::mosaic::io::write_points); a
+/// test holds that function to these columns.
 pub static DETECTIONS: Table<DetectedCone> = Table {
     file: "points.csv",
     commands: "run (images/NAME/points.csv), detect (NAME.csv; NAME.rejected.csv: candidates that \
@@ -41,7 +43,7 @@ pub static DETECTIONS: Table<DetectedCone> = Table {
     ],
 };
 
-/// A point of a mosaic, by its index.
+/// One point of a mosaic, by its index.
 #[derive(Clone, Copy, Debug)]
 pub struct PointRow<'a> {
     index: usize,
@@ -61,7 +63,7 @@ impl PointRow<'_> {
     }
 }
 
-/// Neighbours and Voronoi cell of every point of a mosaic.
+/// The table of the neighbours and the Voronoi cell of every point of a mosaic.
 pub static POINTS: Table<PointRow> = Table {
     file: "NAME.points.csv",
     commands: "measure --functions",
@@ -123,7 +125,7 @@ pub static POINTS: Table<PointRow> = Table {
 /// Returns `NAME.points.csv` of a mosaic.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn points_csv(mosaic: &Mosaic, measures: &Measures) -> Result<Vec<u8>, ReportError> {
     let cells = mosaic.points().iter().zip(&measures.cells.cells).enumerate();
     POINTS.csv(cells.map(|(index, (&point, &cell))| PointRow { index, point, cell, measures }))

@@ -6,15 +6,15 @@ use serde::{Deserialize, Serialize};
 /// A region of interest of a mosaic.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct RoiRow {
-    /// The file of the mosaic, as given.
+    /// Path of the mosaic's file, as given.
     pub file: String,
     /// Name of the region.
     pub roi: String,
-    /// The box, after it has grown.
+    /// Box of the region, after growing to hold enough bound cells.
     pub frame: Rectangle,
-    /// Remarks: `edge`, `few`, `outside`, or several.
+    /// Remarks on the region: `edge`, `few`, `outside`, or several.
     pub flag: String,
-    /// The points in it as a mosaic of their own; `None` outside the window.
+    /// Record of the points in the region as a mosaic of their own; `None` outside the window.
     pub record: Option<CoordinatesRecord>,
 }
 
@@ -22,7 +22,7 @@ impl Row for RoiRow {
     type Of<'a> = &'a Self;
 }
 
-/// Regions of interest; the columns of a summary follow behind.
+/// The table of regions of interest; the columns of a summary follow its own.
 pub static ROIS: Table<RoiRow> = Table {
     file: "rois.csv",
     commands: "measure --rois, measure --roi-side",
@@ -46,10 +46,10 @@ pub static ROIS: Table<RoiRow> = Table {
     ],
 };
 
-/// Returns `rois.csv`: where the regions are, then the columns of a summary but for the file.
+/// Returns `rois.csv`: the columns of the regions, then those of a summary except `file`.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn rois_csv(summary: &Summary, rows: &[RoiRow]) -> Result<Vec<u8>, ReportError> {
     let layout = Layout::default();
     let names = summary.header();

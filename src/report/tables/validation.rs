@@ -2,37 +2,38 @@ use super::{Layout, Part, Row, Table, column};
 use crate::compare::{Difference, Froc, FrocPoint, GroupSummary, JudgedImage, ReliabilityBin, Score};
 use crate::report::{Cell, ReportError};
 
-/// Points of a curve that are written.
+/// Number of points of a curve that are written at most.
 const CURVE_POINTS: usize = 1000;
 
 /// The score of one image.
 #[derive(Clone, Debug)]
 pub struct ValidationRow {
-    /// The file of marks, as given.
+    /// Path of the file of marks, as given.
     pub file: String,
-    /// The image's name.
+    /// Name of the image.
     pub name: String,
-    /// The group it belongs to.
+    /// Group to which the image belongs.
     pub group: Option<String>,
     /// Agreement of detections and marks.
     pub score: Score,
-    /// Every detection judged, where they have scores, and what the program's own detector rejected.
+    /// Judgement of every detection, and of what the program's own detector rejected; `None` if the
+    /// detections have no scores.
     pub judged: Option<JudgedImage>,
-    /// False alarms that the scores lead to expect outside the border, Σ (1 − score), if all are between 0
-    /// and 1.
+    /// Number of false alarms outside the border that the scores predict, Σ (1 − score), if all
+    /// scores are between 0 and 1.
     pub expected_false_alarms: Option<f64>,
-    /// The other detections, if two are compared.
+    /// Score of the other detections, if two are compared.
     pub versus: Option<VersusRow>,
 }
 
 /// The score of other detections on the same image.
 #[derive(Clone, Debug)]
 pub struct VersusRow {
-    /// They against the marks.
+    /// Agreement of the other detections and the marks.
     pub score: Score,
-    /// Every one of them judged, where they have scores.
+    /// Judgement of every one of them, if they have scores.
     pub judged: Option<JudgedImage>,
-    /// The detections against them, taken as marks.
+    /// Agreement of the first detections and these, which are taken as marks.
     pub between: Score,
 }
 
@@ -44,7 +45,7 @@ fn versus(row: &ValidationRow, value: fn(&Score) -> f64) -> Cell {
     row.versus.as_ref().map(|v| value(&v.score)).into()
 }
 
-/// Detections against marks.
+/// The table of detections against marks.
 pub static VALIDATION: Table<ValidationRow> = Table {
     file: "validation.csv",
     commands: "validate",
@@ -108,10 +109,10 @@ pub static VALIDATION: Table<ValidationRow> = Table {
     ],
 };
 
-/// Returns `validation.csv`; `two`: two detectors or graders are compared.
+/// Returns `validation.csv`; `two` means that two detectors or graders are compared.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn validation_csv(rows: &[ValidationRow], two: bool) -> Result<Vec<u8>, ReportError> {
     let parts: &[Part] = if two { &[Part::Versus] } else { &[] };
     VALIDATION.csv_as(&Layout { samplers: &[], parts }, rows)
@@ -121,7 +122,7 @@ impl Row for GroupSummary {
     type Of<'a> = &'a Self;
 }
 
-/// Scores by group.
+/// The table of scores by group.
 pub static SUBJECT_GROUPS: Table<GroupSummary> = Table {
     file: "groups.csv",
     commands: "validate --group-by",
@@ -160,7 +161,7 @@ impl Row for FrocPoint {
     type Of<'a> = Self;
 }
 
-/// Rates at every threshold of the score.
+/// The table of rates at every threshold of the score.
 pub static FROC: Table<FrocPoint> = Table {
     file: "froc.csv",
     commands: "validate",
@@ -183,7 +184,7 @@ pub static FROC: Table<FrocPoint> = Table {
 /// Returns `froc.csv`, thinned to 1000 thresholds.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn froc_csv(froc: &Froc) -> Result<Vec<u8>, ReportError> {
     FROC.csv(froc.thinned(CURVE_POINTS))
 }
@@ -192,7 +193,7 @@ impl Row for ReliabilityBin {
     type Of<'a> = &'a Self;
 }
 
-/// Reliability of scores as probabilities.
+/// The table of the reliability of scores as probabilities.
 pub static RELIABILITY: Table<ReliabilityBin> = Table {
     file: "reliability.csv",
     commands: "validate",
@@ -216,7 +217,7 @@ impl Row for Difference {
     type Of<'a> = &'a Self;
 }
 
-/// Paired differences of two detectors or graders.
+/// The table of paired differences of two detectors or graders.
 pub static COMPARISON: Table<Difference> = Table {
     file: "comparison.csv",
     commands: "validate --versus",
