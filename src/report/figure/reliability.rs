@@ -10,22 +10,24 @@ const DESCRIPTION: &str = "Left: in every bin of the score the part of the detec
 const BARS: &str = "#d9d9d9";
 const DOTS: &str = "#0072B2";
 const DOT_OPACITY: f64 = 0.45;
-/// Height of the largest bar, as a part of the plot.
+/// Height of the largest bar, as a share of the plot.
 const BAR_HEIGHT: f64 = 0.3;
 
-/// What the figure of reliability shows.
+/// The content of the figure of reliability.
 #[derive(Clone, Copy, Debug)]
 pub struct ReliabilityFigure<'a> {
-    /// Above the panels.
+    /// Title above the panels.
     pub title: &'a str,
-    /// Bins of the score.
+    /// Reliability of the scores, bin by bin.
     pub reliability: &'a Reliability,
-    /// False alarms of every image: expected, and observed.
+    /// False alarms of every image, expected and observed.
     pub alarms: &'a [(f64, f64)],
 }
 
-/// Draws the reliability diagram (DeGroot & Fienberg 1983) and expected against observed false
-/// alarms, 180 mm wide, as a self-contained SVG.
+/// Draws the reliability diagram and the expected against the observed false alarms.
+///
+/// The figure is a self-contained SVG, 180 mm wide. Source of the diagram: DeGroot and Fienberg
+/// (1983), <https://doi.org/10.2307/2987588>.
 pub fn reliability_figure(figure: &ReliabilityFigure) -> String {
     let mut canvas = two_panels(figure.title);
     let [left, right] = two_areas();
@@ -60,8 +62,8 @@ fn diagram(canvas: &mut Canvas, area: Area, reliability: &Reliability) {
         format!("Brier score {}", significant(reliability.brier, 2)),
         format!("largest bar: {most} of {}", reliability.n),
     ];
-    // Dots of scores that are too low stand above the diagonal; then the notes go below it, over
-    // the bars.
+    // Where scores are too low, dots stand above the diagonal; then the notes go below it, over the
+    // bars.
     let gap = |b: &ReliabilityBin| Some(b.n as f64 * (b.hits? - b.mean_score?));
     let above = reliability.bins.iter().filter_map(gap).sum::<f64>() > 0.05 * reliability.n as f64;
     let (x, y, anchor) = if above {
