@@ -65,7 +65,7 @@ impl FromStr for FigureFormat {
         Self::ALL
             .into_iter()
             .find(|format| format.name() == asked)
-            .ok_or_else(|| format!("“{text}” is no format of figures: expected svg, pdf or png"))
+            .ok_or_else(|| format!("“{text}” is not a format of figures: expected svg, pdf or png"))
     }
 }
 
@@ -125,12 +125,14 @@ fn pdf(tree: &Tree) -> Result<Vec<u8>, ReportError> {
     let failed = |reason: &str| failed(FigureFormat::Pdf, reason);
     let side = |units: f32| units / SVG_UNITS_PER_INCH * POINTS_PER_INCH;
     let size = Size::from_wh(side(tree.size().width()), side(tree.size().height()))
-        .ok_or_else(|| failed("it has no size"))?;
+        .ok_or_else(|| failed("the figure has no size"))?;
     let mut document = Document::new();
     document.set_metadata(Metadata::new().producer(concat!("conemosaic ", env!("CARGO_PKG_VERSION")).into()));
     let mut page = document.start_page_with(PageSettings::new(size));
     let mut surface = page.surface();
-    surface.draw_svg(tree, size, SvgSettings::default()).ok_or_else(|| failed("it cannot be drawn"))?;
+    surface
+        .draw_svg(tree, size, SvgSettings::default())
+        .ok_or_else(|| failed("the figure cannot be drawn"))?;
     surface.finish();
     page.finish();
     document.finish().map_err(|e| failed(&format!("{e:?}")))
@@ -140,8 +142,9 @@ fn png(tree: &Tree) -> Result<Vec<u8>, ReportError> {
     let scale = DPI / SVG_UNITS_PER_INCH;
     let side = |units: f32| (units * scale).round().max(1.) as u32;
     let (width, height) = (side(tree.size().width()), side(tree.size().height()));
-    let mut pixels = Pixmap::new(width, height)
-        .ok_or_else(|| failed(FigureFormat::Png, format!("{width} × {height} px are too many")))?;
+    let mut pixels = Pixmap::new(width, height).ok_or_else(|| {
+        failed(FigureFormat::Png, format!("the figure is too large, {width} × {height} px"))
+    })?;
     // The page covers the last row and column only in part; without a white ground they would turn
     // dark.
     pixels.fill(Color::WHITE);

@@ -5,7 +5,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum ReportError {
     /// A histogram whose edges and counts do not belong together.
-    #[error("a histogram of {counts} counts needs {} rising, finite edges, found {edges}: pass both from one histogram", .counts + 1)]
+    #[error("a histogram of {counts} counts needs {} finite edges in rising order, found {edges} edges: pass edges and counts of the same histogram", .counts + 1)]
     Histogram {
         /// Number of edges given.
         edges: usize,
@@ -13,9 +13,7 @@ pub enum ReportError {
         counts: usize,
     },
     /// A curve with unequal numbers of abscissae and values.
-    #[error(
-        "the curve of {name} has {r} distances and {g} values: it needs as many of the one as of the other"
-    )]
+    #[error("the curve of {name} has {r} distances and {g} values: it needs one value per distance")]
     Curve {
         /// Name of the curve: that of a sampler, or “the mosaic”.
         name: String,

@@ -31,9 +31,9 @@ impl FindingRecord {
     pub fn reason(&self) -> String {
         if self.mosaics < FEWEST_PAIRS {
             let found = counted(self.mosaics, "mosaic");
-            format!("not tested, {found} with a regularity index: it needs {FEWEST_PAIRS}")
+            format!("not tested ({found} with a regularity index, at least {FEWEST_PAIRS} are needed)")
         } else {
-            "not tested: the mosaics do not differ".to_owned()
+            "not tested (the mosaics do not differ in regularity or in distance)".to_owned()
         }
     }
 
@@ -47,7 +47,7 @@ impl FindingRecord {
         if c.p_value <= 0.05 {
             format!("more regular mosaics are {direction} {sampler}: {numbers}")
         } else {
-            format!("no correlation of regularity with the distance to {sampler} is shown: {numbers}")
+            format!("no significant correlation between regularity and the distance to {sampler}: {numbers}")
         }
     }
 }

@@ -45,20 +45,20 @@ impl LandmarkRecord {
         let found = &maps.landmarks;
         let (window, few) = match maps.options.window {
             LocalWindow::Cells(n) => (format!("{n} cells"), "ask for fewer cells per window"),
-            LocalWindow::Side(side) => (side.to_string(), "give the windows another side"),
+            LocalWindow::Side(side) => (side.to_string(), "choose another side of the windows"),
         };
         let note = match (found.peak, found.cut) {
             (None, _) => {
-                format!("no map: no window of {window} lies in the mosaic and holds bound cells: {few}")
+                format!("no map: no window of {window} with bound cells lies wholly in the mosaic; {few}")
             }
             (Some(_), true) => format!(
-                "the region of at least {} % of the peak reaches the edge of the map: its area is too small, and its \
-                 centroid lies too far inwards",
+                "the region above {} % of the peak is cut off by the edge of the map, so that its area is too small and \
+                 its centroid lies too far inwards",
                 100. * maps.options.isodensity
             ),
             (Some(_), false) if found.centroid.is_none() => {
                 format!(
-                    "no region: no three neighbouring cones have windows of {window} in the mosaic: {few}"
+                    "no region: no three neighbouring cones have windows of {window} that lie wholly in the mosaic; {few}"
                 )
             }
             (Some(_), false) => String::new(),
@@ -105,7 +105,7 @@ impl LandmarkRecord {
             .map(|(d, at)| format!("Peak density {} at {}.", density(d), place(at)));
         let centroid = self.centroid.zip(self.centroid_density).map(|(at, d)| {
             format!(
-                "Centroid of the region above {} % of it: {} at {}.",
+                "Density at the centroid of the region above {} % of the peak: {} at {}.",
                 100. * self.isodensity,
                 density(d),
                 place(at)

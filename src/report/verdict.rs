@@ -68,10 +68,10 @@ impl VerdictRecord {
     pub fn words(&self) -> String {
         let p = significant(self.p_envelope, 2);
         if self.alike {
-            return format!("as {}: p = {p}", self.sampler);
+            return format!("consistent with {}: p = {p}", self.sampler);
         }
         let place = self.place();
-        let place = if place.is_empty() { String::new() } else { format!(", at r = {place} s") };
+        let place = if place.is_empty() { String::new() } else { format!(", at r = {place} spacings") };
         format!("differs from {}: p = {p}{place}", self.sampler)
     }
 
@@ -132,10 +132,13 @@ mod tests {
 
     #[test]
     fn words_say_how_likely_and_where() {
-        assert_eq!(record(0.312, vec![]).words(), "as bnot: p = 0.31");
+        assert_eq!(record(0.312, vec![]).words(), "consistent with bnot: p = 0.31");
         let near = vec![(0.9, 1.0), (1.02, 1.1), (1.7, 1.7)];
-        assert_eq!(record(0.005, near).words(), "differs from bnot: p = 0.0050, at r = 0.90–1.10, 1.70 s");
+        assert_eq!(
+            record(0.005, near).words(),
+            "differs from bnot: p = 0.0050, at r = 0.90–1.10, 1.70 spacings"
+        );
         let many = (0..6).map(|k| (f64::from(k) * 0.3, f64::from(k) * 0.31)).collect();
-        assert!(record(0.01, many).words().ends_with("0.90–0.93, 1.20–1.24, 1.50–1.55, … s"));
+        assert!(record(0.01, many).words().ends_with("0.90–0.93, 1.20–1.24, 1.50–1.55, … spacings"));
     }
 }

@@ -3,8 +3,9 @@ use super::panels::{two_areas, two_panels};
 use crate::compare::Interval;
 use crate::report::significant;
 
-const DESCRIPTION: &str = "Bland–Altman plots: for every image the difference of two measurements against their mean, with \
-    the mean difference (bias, solid) and its 95 % limits of agreement (dashed), bands their 95 % confidence intervals.";
+const DESCRIPTION: &str = "Bland–Altman plots: the difference of two measurements of each image against their mean. The solid \
+    line is the mean difference (bias), the dashed lines are the 95 % limits of agreement, and the bands are the 95 % \
+    confidence intervals of these lines.";
 
 const DOTS: &str = "#0072B2";
 const LIMITS: &str = "#D55E00";

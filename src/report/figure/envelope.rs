@@ -4,8 +4,9 @@ use super::page::{LEFT_EDGE, TITLE_BASELINE};
 use super::{Curve, ReportError};
 
 /// Description of the figure for screen readers.
-const DESCRIPTION: &str = "The pair correlation function of a mosaic (black) in the global 95 % envelope of simulations of \
-    each sampler (band) around their mean (thin blue line): one panel per sampler. Where the curve leaves the band it is drawn red.";
+const DESCRIPTION: &str = "The pair correlation function of a mosaic (black), one panel per sampler. The band is the global \
+    95 % envelope of simulations of the sampler, the thin blue line their mean. Where the mosaic's curve leaves the band it is \
+    drawn in red.";
 
 const COLUMNS: usize = 3;
 const PANEL: (f64, f64) = (184., 118.);

@@ -4,7 +4,8 @@ use crate::compare::{Froc, FrocPoint, Summary};
 use crate::report::significant;
 
 const DESCRIPTION: &str = "Left: FROC curve, sensitivity against false alarms per image, as the threshold of the score falls. \
-    Right: precision against sensitivity. The dot is the threshold of the highest mean Dice (F1), the cross the detections as given.";
+    Right: precision against sensitivity. The dot marks the threshold with the highest mean Dice (F1), the cross the detections \
+    as given.";
 
 /// Colours of the curves (Okabe & Ito 2008).
 const COLOURS: [&str; 2] = ["#0072B2", "#D55E00"];
@@ -135,7 +136,7 @@ fn legend(canvas: &mut Canvas, area: Area, lines: &[FrocLine]) {
     }
     let y = area.bottom() - 7.;
     cross(canvas, (start + SWATCH / 2., y - 3.));
-    canvas.text(start + SWATCH + 4., y, "as given", Style::Note, Anchor::Start);
+    canvas.text(start + SWATCH + 4., y, "detections as given", Style::Note, Anchor::Start);
 }
 
 #[cfg(test)]

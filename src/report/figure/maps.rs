@@ -39,8 +39,9 @@ const FOOT: f64 = 34.;
 const MARK: f64 = 4.5;
 const HALO: &str = "#ffffff";
 
-const DESCRIPTION: &str = "Maps of one cone mosaic: what a square window around each cone holds, linear between cones. PCD: the \
-    peak of the density map; CDC: the density-weighted centroid of the region above a share of it, which is outlined.";
+const DESCRIPTION: &str = "Maps of one cone mosaic. Each value is taken over a square window around a cone; between cones it is \
+    interpolated linearly. PCD: peak of the density map. CDC: density-weighted centroid of the outlined region, in which the \
+    density is above a share of the peak.";
 
 /// One map of the figure.
 struct Panel {
@@ -131,7 +132,7 @@ pub fn maps_figure(title: &str, mosaic: &Mosaic, maps: &Maps) -> Result<String, 
         canvas.text(area.x + 14., area.y - LETTER_RISE, &name, Style::Axis, Anchor::Start);
         let grid = maps.grid(mosaic, panel.value, SAMPLES);
         let Some(range) = range(&grid) else {
-            canvas.sentence(area, "Nowhere defined: see the column flag of the table of maps.");
+            canvas.sentence(area, "Not defined in any window: see the column “flag” in the table of maps.");
             continue;
         };
         let projection = Projection::new(area, bounds);
@@ -280,7 +281,7 @@ fn legend(canvas: &mut Canvas, y: f64, maps: &Maps, mosaic: &Mosaic) {
     let line =
         |canvas: &mut Canvas, (x, y): (f64, f64)| with_halo(canvas, &[(x - MARK, y), (x + MARK, y)], 0.7);
     note(canvas, Some(line), &format!("{} % of the peak", significant(share, 2)));
-    note(canvas, None, &format!("{window}; pale: reaching beyond the mosaic"));
+    note(canvas, None, &format!("{window}; pale: windows that reach beyond the mosaic"));
 }
 
 #[cfg(test)]

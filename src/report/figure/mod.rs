@@ -35,8 +35,9 @@ pub use spectrum::{spectrum_figure, spectrum_png};
 
 /// Description of the figure for screen readers, and for whoever wonders what ℓ∞ is.
 const DESCRIPTION: &str = "One cone mosaic: its picture, its points, its nearest-neighbour distances with the Gaussian \
-    of the same mean and standard deviation (RI: mean over standard deviation), and its pair correlation function over \
-    the mean ones of the three nearest point samplers and of independent points (ℓ∞, l-infinity: the largest difference between a sampler's and the mosaic's).";
+    of the same mean and standard deviation (RI, regularity index: mean over standard deviation), and its pair correlation \
+    function with those of the three nearest point samplers and of independent points (ℓ∞, l-infinity: the largest difference \
+    between the functions of sampler and mosaic).";
 
 /// A sampled function of distance, with one value per distance.
 #[derive(Clone, Copy, Debug)]

@@ -5,8 +5,8 @@ use super::page::{AXIS_ROOM, LEFT_EDGE};
 use crate::geometry::Point;
 use crate::report::ReportError;
 
-const DESCRIPTION: &str = "Point samplers: one pattern of each in the unit square; below it the plane of its power spectrum \
-    (frequency 0 in the middle); below that the mean pair correlation functions, and the radial power spectra.";
+const DESCRIPTION: &str = "Point samplers. Top row: one pattern of each in the unit square. Middle row: the plane of its power \
+    spectrum, with frequency 0 in the middle. Bottom row: the mean pair correlation functions and the radial power spectra.";
 
 const GAP: f64 = 8.;
 const HEAD: f64 = 18.;
@@ -86,7 +86,7 @@ fn curves<'a>(
     };
     let (x_max, y_max) = (values(|c| c.r), values(|c| c.g).max(1.) * 1.06);
     if x_max <= 0. {
-        canvas.sentence(area, "There are no curves.");
+        canvas.sentence(area, "There are no curves to show.");
         return;
     }
     let x_max = (x_max * 4.).ceil() / 4.;

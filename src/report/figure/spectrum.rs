@@ -5,10 +5,10 @@ use crate::report::{FigureFormat, ReportError, convert};
 use crate::stats::PowerSpectrum;
 use image::ExtendedColorType;
 
-const TITLE: &str = "Power spectrum of the points; independent points have the power 1 at every frequency";
+const TITLE: &str = "Power spectrum of the points (independent points have power 1 at every frequency)";
 /// Description of the figure for screen readers.
-const DESCRIPTION: &str = "The plane of the power spectrum of a point pattern, frequency 0 in the middle; the lighter a wave \
-    vector, the higher its power. x points to the right, y upwards.";
+const DESCRIPTION: &str = "The plane of the power spectrum of a point pattern, with frequency 0 in the middle; the lighter a \
+    wave vector, the higher its power. x points to the right, y upwards.";
 
 /// Upper left corner of the plane, in canvas units.
 const CORNER: (f64, f64) = (64., 38.);

@@ -17,10 +17,11 @@ impl Row for Failure {
 /// The table of files without results.
 pub static FAILURES: Table<Failure> = Table {
     file: "failures.csv",
-    commands: "all that take several files",
-    about: "One row per file that failed; there is no such table if none did.",
+    commands: "all commands that take several files",
+    about: "One row per file that failed; the table is not written if none did.",
     columns: &[
-        column("file", "text", "The file, as given.").of(|f| f.file.as_str().into()),
-        column("reason", "text", "Why, and what helps.").of(|f| f.reason.as_str().into()),
+        column("file", "text", "Path of the file, as given.").of(|f| f.file.as_str().into()),
+        column("reason", "text", "Reason of the failure, and what to do about it.")
+            .of(|f| f.reason.as_str().into()),
     ],
 };

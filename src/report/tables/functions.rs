@@ -25,12 +25,14 @@ impl FunctionsRow<'_> {
 pub static FUNCTIONS: Table<FunctionsRow> = Table {
     file: "NAME.functions.csv",
     commands: "measure --functions",
-    about: "One row per distance. Edge rules in the names, as in spatstat (Baddeley, Rubak & \
-            Turner 2015): none: nothing is done; rs or border: reduced sample (points at least r \
-            from the border); km: Kaplan–Meier; han: Hanisch; trans: translation; iso: isotropic; \
-            theo: independent points. A cell is empty where the function is not defined.",
+    about: "One row per distance. The names of the columns tell the edge rule, as in spatstat \
+            (Baddeley, Rubak & Turner 2015): none: no correction; rs or border: reduced sample \
+            (only points at least r from the border); km: Kaplan–Meier; han: Hanisch; trans: \
+            translation; iso: isotropic; theo: value for independent points. A cell is empty where \
+            the function is not defined.",
     columns: &[
-        column("r", "unit", "Distance.").by_name(|f, name| f.get(name).into()),
+        column("r", "unit", "Distance at which the functions are given.")
+            .by_name(|f, name| f.get(name).into()),
         column("G_none", "0–1", "Share of points whose nearest neighbour is at most r away.")
             .edge(All)
             .by_name(|f, name| f.get(name).into()),
@@ -42,9 +44,14 @@ pub static FUNCTIONS: Table<FunctionsRow> = Table {
             .by_name(|f, name| f.get(name).into()),
         column("G_han", "0–1", "G_none by the Hanisch rule.").edge(Own).by_name(|f, name| f.get(name).into()),
         column("G_theo", "0–1", "1 − exp(−π r² density).").by_name(|f, name| f.get(name).into()),
-        column("F_none", "0–1", "Share of the window (128 × 128 places) that is at most r from a point.")
-            .edge(All)
-            .by_name(|f, name| f.get(name).into()),
+        column(
+            "F_none",
+            "0–1",
+            "Share of the window (of 128 × 128 places) that is at most r away \
+                                 from a point.",
+        )
+        .edge(All)
+        .by_name(|f, name| f.get(name).into()),
         column("F_rs", "0–1", "F_none by the reduced sample rule.")
             .edge(Own)
             .by_name(|f, name| f.get(name).into()),
@@ -73,7 +80,7 @@ pub static FUNCTIONS: Table<FunctionsRow> = Table {
         column(
             "K_none",
             "unit²",
-            "Mean number of further points within r of a point, over density (Ripley 1976).",
+            "Mean number of further points within r of a point, divided by the density (Ripley 1976).",
         )
         .edge(All)
         .by_name(|f, name| f.get(name).into()),
@@ -100,8 +107,8 @@ pub static FUNCTIONS: Table<FunctionsRow> = Table {
         column(
             "pcf_trans_divr",
             "ratio",
-            "Pair correlation by an Epanechnikov kernel of half-width .15/√density, divided by 2πr \
-                (pcf.ppp of spatstat).",
+            "Pair correlation function by an Epanechnikov kernel of half-width 0.15/√density, \
+             divided by 2πr (pcf.ppp of spatstat), with the translation rule.",
         )
         .edge(Own)
         .by_name(|f, name| f.get(name).into()),
@@ -111,7 +118,7 @@ pub static FUNCTIONS: Table<FunctionsRow> = Table {
         column(
             "pcf_trans_divd",
             "ratio",
-            "pcf_trans_divr with each pair divided by its own distance (Guan 2007).",
+            "pcf_trans_divr, but with each pair divided by its own distance (Guan 2007).",
         )
         .edge(Own)
         .by_name(|f, name| f.get(name).into()),
@@ -146,12 +153,15 @@ impl Row for AnnulusRow {
 pub static DENSITY_RECOVERY: Table<AnnulusRow> = Table {
     file: "NAME.density_recovery.csv",
     commands: "measure --functions",
-    about: "One row per annulus about the average point (Rodieck 1991); no rows for fewer than two \
-            points. What the annuli cover beyond the window is made up for.",
+    about: "One row per annulus around the average point (Rodieck 1991); there are no rows for \
+            fewer than two points. The density is corrected for the part of the annuli that lies \
+            outside the window.",
     columns: &[
-        column("r", "unit", "Middle of the annulus.").of(|a| a.r.into()),
-        column("density", "1/unit²", "Points per area in the annulus.").edge(Own).of(|a| a.density.into()),
-        column("relative_density", "ratio", "That over the mean density.")
+        column("r", "unit", "Radius of the middle of the annulus.").of(|a| a.r.into()),
+        column("density", "1/unit²", "Number of points per area in the annulus.")
+            .edge(Own)
+            .of(|a| a.density.into()),
+        column("relative_density", "ratio", "density over the mean density.")
             .edge(Own)
             .of(|a| (a.density / a.mean_density).into()),
     ],
@@ -186,12 +196,17 @@ pub static SPECTRUM: Table<FrequencyRow> = Table {
     commands: "measure --spectrum",
     about: "One row per ring of frequencies (Ulichney 1987; Lanaro et al. 2020).",
     columns: &[
-        column("frequency", "√density", "Middle of the ring, in cycles per 1/√density.")
+        column("frequency", "√density", "Frequency of the middle of the ring, in cycles per 1/√density.")
             .of(|f| f.spectrum.frequency.get(f.index).copied().into()),
-        column("power", "ratio", "Mean power: 1 for independent points.")
+        column("power", "ratio", "Mean power in the ring: 1 for independent points.")
             .of(|f| f.spectrum.power.get(f.index).copied().into()),
-        column("anisotropy_db", "dB", "Variance of the power over its squared mean: 0 without direction.")
-            .of(|f| f.spectrum.anisotropy_db.get(f.index).copied().into()),
+        column(
+            "anisotropy_db",
+            "dB",
+            "Variance of the power in the ring over its squared mean, in \
+                                       decibels: about 0 for a pattern without preferred direction.",
+        )
+        .of(|f| f.spectrum.anisotropy_db.get(f.index).copied().into()),
     ],
 };
 

@@ -139,10 +139,10 @@ pub fn threshold_table(
     let mut rows = Vec::new();
     let mut add = |label: &str, value: String| rows.push(vec![label.to_owned(), value]);
     if let Some(best) = froc.points.get(froc.best) {
-        add("threshold of the highest mean Dice (F1)", three(best.threshold));
-        add("  mean Dice there", rate(best.mean_dice));
-        add("  sensitivity there, pooled", rate(best.sensitivity));
-        add("  precision there, pooled", rate(best.precision));
+        add("threshold with the highest mean Dice (F1)", three(best.threshold));
+        add("  mean Dice at that threshold", rate(best.mean_dice));
+        add("  sensitivity, all images pooled", rate(best.sensitivity));
+        add("  precision, all images pooled", rate(best.precision));
         add("  false alarms per image", three(best.false_alarms_per_image));
         match (best.false_alarms_per_mm2, best.false_alarms_per_100_marks) {
             (Some(alarms), _) => add("  false alarms per mm²", three(alarms)),
@@ -155,8 +155,8 @@ pub fn threshold_table(
         add("Brier score", three(found.brier));
     }
     if let Some((expected, observed)) = alarms {
-        add("false alarms per image expected, Σ (1 − score)", three(expected));
-        add("false alarms per image observed", three(observed));
+        add("expected false alarms per image, Σ (1 − score)", three(expected));
+        add("observed false alarms per image", three(observed));
     }
     TextTable::new(&["score of the detections", ""], rows)
 }
@@ -181,6 +181,7 @@ pub fn comparison_table(first: &str, second: &str, differences: &[Difference]) -
         [vec![label.to_owned()], values.to_vec(), vec![between(d.interval, number), p, least]].concat()
     };
     let rows = differences.iter().map(row).collect();
-    let header = ["mean over images", first, second, "difference", "95 % interval", "p", "least p possible"];
+    let header =
+        ["mean over images", first, second, "difference", "95 % interval", "p", "smallest possible p"];
     TextTable::new(&header, rows)
 }
