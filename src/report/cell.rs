@@ -1,21 +1,23 @@
 use super::significant;
 use serde::{Serialize, Serializer};
 
-/// One value of a table. Serialised in full precision, as files hold it; empty if missing.
+/// The value of one cell of a table.
+///
+/// Serialised in full precision, as files hold it; a missing value is an empty cell.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
-    /// Words.
+    /// A piece of text.
     Text(String),
-    /// A count.
+    /// A whole number, usually a count.
     Count(usize),
-    /// A measured number, in the unit that its column is named after.
+    /// A measured number, in the unit of its column.
     Number(f64),
-    /// Not known, or not defined for these points.
+    /// A value that is not known, or not defined for these points.
     Missing,
 }
 
 impl Cell {
-    /// With the digits that mean something to a reader; a dash if missing.
+    /// Returns the value for a reader: numbers with four significant digits, a dash if missing.
     pub fn readable(&self) -> String {
         match self {
             Self::Text(text) => text.clone(),

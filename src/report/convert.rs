@@ -12,34 +12,36 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::{Arc, LazyLock};
 
-/// Arimo has the widths of Helvetica and Arial, which figures ask for first, so that texts take the
-/// same room.
+/// The fonts in which figures are set, regular and bold.
+///
+/// Arimo has the character widths of Helvetica and Arial, which figures ask for first, so that
+/// texts take the same room.
 const FONTS: [&[u8]; 2] = [include_bytes!("fonts/Arimo-Regular.ttf"), include_bytes!("fonts/Arimo-Bold.ttf")];
 const FAMILY: &str = "Arimo";
 
-/// Pixels per inch of a figure as PNG: what journals ask for.
+/// Resolution of figures written as PNG, in pixels per inch: what journals ask for.
 const DPI: f32 = 300.;
 const MM_PER_INCH: f32 = 25.4;
-/// Lengths of an SVG are resolved to so many units per inch, points of a PDF to 72.
+/// Units per inch to which the lengths of an SVG are resolved; a PDF counts in points, 72 per inch.
 const SVG_UNITS_PER_INCH: f32 = 96.;
 const POINTS_PER_INCH: f32 = 72.;
 
 /// A kind of file that a figure can be written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FigureFormat {
-    /// As it is drawn; text is text, in the reader's fonts.
+    /// Vector graphics as they are drawn; text stays text, in the fonts of the reader.
     Svg,
-    /// For manuscripts; text is text, its font is in the file.
+    /// Vector graphics for manuscripts; text stays text, in a font that the file contains.
     Pdf,
-    /// For slides, at 300 dpi.
+    /// Pixels for slides, at 300 dpi.
     Png,
 }
 
 impl FigureFormat {
-    /// All formats.
+    /// The list of all formats.
     pub const ALL: [Self; 3] = [Self::Svg, Self::Pdf, Self::Png];
 
-    /// Returns its name in options, which is also the extension of its files.
+    /// Returns the name of the format in options, which is also the extension of its files.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Svg => "svg",
@@ -63,16 +65,19 @@ impl FromStr for FigureFormat {
         Self::ALL
             .into_iter()
             .find(|format| format.name() == asked)
-            .ok_or_else(|| format!("“{text}” is no format of figures: expected svg, pdf or png"))
+            .ok_or_else(|| format!("“{text}” is not a format of figures: expected svg, pdf or png"))
     }
 }
 
-/// Returns a figure of this crate as bytes of the given format. Equal figures make equal bytes on
-/// every machine: texts are set in a font that is part of the crate. Only characters that it lacks
-/// (it has Latin, Greek and basic Cyrillic) are looked for in the fonts of the machine.
+/// Converts a figure of this crate to bytes of the given format.
+///
+/// Equal figures make equal bytes on every machine, because texts are set in a font that is part of
+/// the crate. Only characters that it lacks (it has Latin, Greek and basic Cyrillic) are looked for
+/// in the fonts of the machine.
 ///
 /// # Errors
-/// If `svg` is no SVG, or has no size that the format can hold.
+/// Returns [`ReportError::Convert`] if `svg` is not valid SVG, or has no size that the format can
+/// hold.
 pub fn convert(svg: &str, format: FigureFormat) -> Result<Vec<u8>, ReportError> {
     match format {
         FigureFormat::Svg => Ok(svg.as_bytes().to_vec()),
@@ -108,7 +113,7 @@ fn own_fonts() -> Database {
     fonts
 }
 
-/// Whether the crate's own font has the character, by the blocks that it was reduced to.
+/// Returns whether the crate's own font has the character, by the blocks to which it was reduced.
 const fn is_covered(c: char) -> bool {
     matches!(
         c,
@@ -120,12 +125,14 @@ fn pdf(tree: &Tree) -> Result<Vec<u8>, ReportError> {
     let failed = |reason: &str| failed(FigureFormat::Pdf, reason);
     let side = |units: f32| units / SVG_UNITS_PER_INCH * POINTS_PER_INCH;
     let size = Size::from_wh(side(tree.size().width()), side(tree.size().height()))
-        .ok_or_else(|| failed("it has no size"))?;
+        .ok_or_else(|| failed("the figure has no size"))?;
     let mut document = Document::new();
     document.set_metadata(Metadata::new().producer(concat!("conemosaic ", env!("CARGO_PKG_VERSION")).into()));
     let mut page = document.start_page_with(PageSettings::new(size));
     let mut surface = page.surface();
-    surface.draw_svg(tree, size, SvgSettings::default()).ok_or_else(|| failed("it cannot be drawn"))?;
+    surface
+        .draw_svg(tree, size, SvgSettings::default())
+        .ok_or_else(|| failed("the figure cannot be drawn"))?;
     surface.finish();
     page.finish();
     document.finish().map_err(|e| failed(&format!("{e:?}")))
@@ -135,9 +142,11 @@ fn png(tree: &Tree) -> Result<Vec<u8>, ReportError> {
     let scale = DPI / SVG_UNITS_PER_INCH;
     let side = |units: f32| (units * scale).round().max(1.) as u32;
     let (width, height) = (side(tree.size().width()), side(tree.size().height()));
-    let mut pixels = Pixmap::new(width, height)
-        .ok_or_else(|| failed(FigureFormat::Png, format!("{width} × {height} px are too many")))?;
-    // the last row and column are covered in part
+    let mut pixels = Pixmap::new(width, height).ok_or_else(|| {
+        failed(FigureFormat::Png, format!("the figure is too large, {width} × {height} px"))
+    })?;
+    // The page covers the last row and column only in part; without a white ground they would turn
+    // dark.
     pixels.fill(Color::WHITE);
     resvg::render(tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
     let rgb: Vec<u8> = pixels.data().chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
@@ -158,7 +167,7 @@ fn png(tree: &Tree) -> Result<Vec<u8>, ReportError> {
 mod tests {
     use super::*;
 
-    /// A page of 180 × 45 mm with a text, as figures write it, and a picture of one black pixel.
+    /// Returns a page of 180 × 45 mm with a text, as figures write it.
     fn figure(text: &str) -> String {
         format!(
             r##"<svg xmlns="http://www.w3.org/2000/svg" width="180mm" height="45mm" viewBox="0 0 720 180" font-family="Helvetica, Arial, 'Liberation Sans', sans-serif" fill="#000000"><rect width="720" height="180" fill="#ffffff"/><text x="20" y="90" font-size="40">{text}</text></svg>"##

@@ -2,12 +2,15 @@ use super::ReportError;
 use serde::Serialize;
 use std::io::Write;
 
-/// Rows as CSV under `header`: numbers in the fewest digits that read back to the same value, an empty cell for
-/// `None`, the header even without rows. `header` names the cells of a row in the order of its fields; a field
-/// that is a `Vec` makes one cell an element.
+/// Writes rows as CSV under `header`.
+///
+/// Numbers have the fewest digits that read back to the same value. `None` is an empty cell. The
+/// header is written even without rows. `header` names the cells of a row in the order of its
+/// fields; a field that is a `Vec` makes one cell per element.
 ///
 /// # Errors
-/// If a row has not as many cells as the header, is nothing that fits in a row (a map), or cannot be written.
+/// Returns [`ReportError::Csv`] if a row has more or fewer cells than the header, does not fit in a
+/// row (a map), or cannot be written.
 pub fn write_csv<T: Serialize>(writer: impl Write, header: &[&str], rows: &[T]) -> Result<(), ReportError> {
     let mut writer = ::csv::WriterBuilder::new().has_headers(false).from_writer(writer);
     writer.write_record(header)?;

@@ -5,7 +5,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum ReportError {
     /// A histogram whose edges and counts do not belong together.
-    #[error("a histogram of {counts} counts needs {} rising, finite edges, found {edges}: pass both from one histogram", .counts + 1)]
+    #[error("a histogram of {counts} counts needs {} finite edges in rising order, found {edges} edges: pass edges and counts of the same histogram", .counts + 1)]
     Histogram {
         /// Number of edges given.
         edges: usize,
@@ -13,25 +13,23 @@ pub enum ReportError {
         counts: usize,
     },
     /// A curve with unequal numbers of abscissae and values.
-    #[error(
-        "the curve of {name} has {r} distances and {g} values: it needs as many of the one as of the other"
-    )]
+    #[error("the curve of {name} has {r} distances and {g} values: it needs one value per distance")]
     Curve {
-        /// Whose curve.
+        /// Name of the curve: that of a sampler, or “the mosaic”.
         name: String,
-        /// Number of distances.
+        /// Number of distances given.
         r: usize,
-        /// Number of values.
+        /// Number of values given.
         g: usize,
     },
     /// A PNG that could not be encoded.
     #[error("could not encode a picture of {width} × {height} px as PNG: {source}")]
     Png {
-        /// Columns.
+        /// Width of the picture, px.
         width: u32,
-        /// Rows.
+        /// Height of the picture, px.
         height: u32,
-        /// What the encoder says.
+        /// Error reported by the encoder.
         source: ::image::ImageError,
     },
     /// A figure that could not be turned into another format.
@@ -39,7 +37,7 @@ pub enum ReportError {
     Convert {
         /// The format asked for.
         format: FigureFormat,
-        /// What stood in the way.
+        /// The reason why it failed.
         reason: String,
     },
     /// Rows that could not be written as CSV.

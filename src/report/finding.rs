@@ -3,36 +3,41 @@ use crate::stats::{FEWEST_PAIRS, RankCorrelation, rank_correlation};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-/// How the regularity of mosaics hangs together with their distance to a sampler: the main finding of Lanaro et al. is
-/// that the more regular ones are nearer to BNOT and farther from dart throwing.
+/// The correlation of the regularity of mosaics with their distance to one sampler.
+///
+/// The main finding of Lanaro et al. (2020, <https://doi.org/10.1088/2399-6528/ab8064>) is that the
+/// more regular mosaics are nearer to BNOT and farther from dart throwing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FindingRecord {
     /// Name of the sampler.
     pub sampler: String,
-    /// Mosaics that have both numbers.
+    /// Number of mosaics that have both numbers.
     pub mosaics: usize,
-    /// Spearman's ρ between regularity index and l-infinity, and its permutation p-value; `None` if not defined.
+    /// Spearman's ρ between regularity index and l-infinity, with its permutation p-value; `None`
+    /// if it is not defined.
     pub correlation: Option<RankCorrelation>,
 }
 
 impl FindingRecord {
-    /// From each mosaic's regularity index and distance to the sampler; `seed` is that of the permutations.
+    /// Computes the correlation from each mosaic's regularity index and distance to the sampler.
+    ///
+    /// `seed` is the seed of the permutations.
     pub fn of(sampler: &str, pairs: &[(f64, f64)], seed: u64) -> Self {
         let correlation = rank_correlation(pairs, &mut ChaCha8Rng::seed_from_u64(seed));
         Self { sampler: sampler.to_owned(), mosaics: pairs.len(), correlation }
     }
 
-    /// Why there is no correlation, if there is none.
+    /// Returns the reason why there is no correlation; meaningless if there is one.
     pub fn reason(&self) -> String {
         if self.mosaics < FEWEST_PAIRS {
             let found = counted(self.mosaics, "mosaic");
-            format!("not tested, {found} with a regularity index: it needs {FEWEST_PAIRS}")
+            format!("not tested ({found} with a regularity index, at least {FEWEST_PAIRS} are needed)")
         } else {
-            "not tested: the mosaics do not differ".to_owned()
+            "not tested (the mosaics do not differ in regularity or in distance)".to_owned()
         }
     }
 
-    /// One sentence, or why there is none.
+    /// Returns the finding in one sentence, or the reason why there is none.
     pub fn words(&self) -> String {
         let sampler = &self.sampler;
         let Some(c) = self.correlation else { return format!("{sampler}: {}", self.reason()) };
@@ -42,7 +47,7 @@ impl FindingRecord {
         if c.p_value <= 0.05 {
             format!("more regular mosaics are {direction} {sampler}: {numbers}")
         } else {
-            format!("no correlation of regularity with the distance to {sampler} is shown: {numbers}")
+            format!("no significant correlation between regularity and the distance to {sampler}: {numbers}")
         }
     }
 }

@@ -4,59 +4,61 @@ use crate::mosaic::{LengthUnit, Mosaic};
 use crate::stats::{Ellipse, LocalWindow, Maps};
 use serde::{Deserialize, Serialize};
 
-/// What was read off the density map of a mosaic: a row of `landmarks.csv`. Lengths are in the unit of the mosaic.
+/// The landmarks of the density map of one mosaic: a row of `landmarks.csv`.
+///
+/// Lengths are in the unit of the mosaic.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LandmarkRecord {
-    /// Path as given.
+    /// Path of the file, as given.
     pub file: String,
     /// The unit of all lengths here that do not say otherwise.
     pub unit: LengthUnit,
     /// Micrometres per unit, if known.
     pub um_per_unit: Option<f64>,
-    /// The window around each cone: “100 cells”, or its side.
+    /// The window around each cone: “100 cells”, or the length of its side.
     pub window: String,
-    /// Cones.
+    /// Number of cones in the mosaic.
     pub n: usize,
-    /// Cones whose window lies in the mosaic's: the map is made of these.
+    /// Number of cones whose window lies in that of the mosaic; the map is made of these.
     pub whole: usize,
     /// Peak cone density, per squared unit.
     pub peak: Option<f64>,
-    /// Where it is.
+    /// Place of the peak density.
     pub peak_at: Option<Point>,
-    /// Cone density centroid.
+    /// Cone density centroid: the density-weighted centroid of the region.
     pub centroid: Option<Point>,
-    /// The density map there, per squared unit.
+    /// Value of the density map at the centroid, per squared unit.
     pub centroid_density: Option<f64>,
-    /// Share of the peak that bounds the region.
+    /// Share of the peak density that bounds the region, 0–1.
     pub isodensity: f64,
     /// Area of the region, in squared units.
     pub isodensity_area: Option<f64>,
-    /// Ellipse fitted to its contour.
+    /// Ellipse fitted to the contour of the region.
     pub ellipse: Option<Ellipse>,
-    /// What a reader of these numbers should know.
+    /// Remark that a reader of these numbers needs; empty if there is none.
     pub note: String,
 }
 
 impl LandmarkRecord {
-    /// What the maps of a mosaic say.
+    /// Records the landmarks that the maps of a mosaic show.
     pub fn new(file: &str, mosaic: &Mosaic, maps: &Maps) -> Self {
         let found = &maps.landmarks;
         let (window, few) = match maps.options.window {
             LocalWindow::Cells(n) => (format!("{n} cells"), "ask for fewer cells per window"),
-            LocalWindow::Side(side) => (side.to_string(), "give the windows another side"),
+            LocalWindow::Side(side) => (side.to_string(), "choose another side of the windows"),
         };
         let note = match (found.peak, found.cut) {
             (None, _) => {
-                format!("no map: no window of {window} lies in the mosaic and holds bound cells: {few}")
+                format!("no map: no window of {window} with bound cells lies wholly in the mosaic; {few}")
             }
             (Some(_), true) => format!(
-                "the region of at least {} % of the peak reaches the edge of the map: its area is too small, and its \
-                 centroid lies too far inwards",
+                "the region above {} % of the peak is cut off by the edge of the map, so that its area is too small and \
+                 its centroid lies too far inwards",
                 100. * maps.options.isodensity
             ),
             (Some(_), false) if found.centroid.is_none() => {
                 format!(
-                    "no region: no three neighbouring cones have windows of {window} in the mosaic: {few}"
+                    "no region: no three neighbouring cones have windows of {window} that lie wholly in the mosaic; {few}"
                 )
             }
             (Some(_), false) => String::new(),
@@ -89,7 +91,7 @@ impl LandmarkRecord {
         self.isodensity_area.zip(self.um_per_unit).map(|(area, um)| area * um * um / 1e6)
     }
 
-    /// Peak, centroid and area in words; why there are none.
+    /// Returns peak, centroid and note as sentences.
     pub fn words(&self) -> String {
         let number = |v: f64| significant(v, 4);
         let density = |d: f64| match self.per_mm2(Some(d)) {
@@ -103,7 +105,7 @@ impl LandmarkRecord {
             .map(|(d, at)| format!("Peak density {} at {}.", density(d), place(at)));
         let centroid = self.centroid.zip(self.centroid_density).map(|(at, d)| {
             format!(
-                "Centroid of the region above {} % of it: {} at {}.",
+                "Density at the centroid of the region above {} % of the peak: {} at {}.",
                 100. * self.isodensity,
                 density(d),
                 place(at)

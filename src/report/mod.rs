@@ -1,4 +1,4 @@
-//! Tables and figures. Does not know how the numbers were made.
+//! Tables, figures and pages of results. This module does not know how the numbers were made.
 //!
 //! # Examples
 //! ```

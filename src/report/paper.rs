@@ -1,31 +1,33 @@
-//! The results of re-making the paper.
+//! Results of re-making the tables and figures of Lanaro et al. (2020,
+//! <https://doi.org/10.1088/2399-6528/ab8064>).
 
 use super::FindingRecord;
 use super::tables::BandwidthRow;
 use crate::compare::paper::{DistanceBetween, MadeRow, PrintedDistances, TABLE_2_SAMPLERS, Tightest};
 use crate::stats::Pcf;
 
-/// Everything that was re-made.
+/// All parts of the paper that were re-made.
 #[derive(Clone, Debug)]
 pub struct PaperResults {
-    /// Table 1's sampler rows.
+    /// Rows of Table 1 that are samplers.
     pub rows: Vec<MadeRow>,
-    /// Distances between the samplers of Table 2: columns (0, 1), (0, 2), (1, 2).
+    /// Distances between the samplers of Table 2, for the pairs of columns (0, 1), (0, 2), (1, 2).
     pub distances: [DistanceBetween; 3],
-    /// Table 2, as printed.
+    /// Rows of Table 2, as printed.
     pub printed: Vec<PrintedDistances>,
-    /// Of each of its rows the triangle inequality with least room.
+    /// Triangle inequality with the least slack, for each row of Table 2.
     pub tightest: Vec<Tightest>,
-    /// The main finding on the printed tables: regularity against the distance to each sampler of
-    /// Table 2.
+    /// The main finding on the printed tables: correlation of regularity with the distance to each
+    /// sampler of Table 2.
     pub findings: Vec<FindingRecord>,
-    /// The same distances at other bandwidths of the kernel, in spacings, and how many rows of Table 2 hold with them.
+    /// Distances between the samplers at other bandwidths of the kernel, in spacings, each with the
+    /// number of rows of Table 2 that satisfy the triangle inequality.
     pub bandwidths: Vec<BandwidthRow>,
     /// Mean pair correlation functions of the samplers of Figure 1.
     pub curves: Vec<(String, Pcf)>,
-    /// Patterns of each.
+    /// Number of patterns per sampler.
     pub patterns: usize,
-    /// Seed.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 

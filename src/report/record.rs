@@ -1,4 +1,4 @@
-//! What is known of one mosaic, in the form in which it is written to files.
+//! Records of mosaics and images, in the form in which they are written to files.
 
 use super::VerdictRecord;
 use crate::detect::{Detections, Detector, FourierEstimate};
@@ -8,7 +8,7 @@ use crate::mosaic::{LengthUnit, Mosaic, RetinalPlace, hexagonal_spacing};
 use crate::stats;
 use serde::{Deserialize, Serialize};
 
-/// Points measured in their window, and compared with samplers.
+/// The measurements of a mosaic in its window, and its comparison with samplers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MosaicRecord {
     /// Number of points in the window.
@@ -17,43 +17,47 @@ pub struct MosaicRecord {
     pub unit: LengthUnit,
     /// Micrometres per unit, if known.
     pub um_per_unit: Option<f64>,
-    /// Micrometres per pixel of the image, where coordinates are in µm and the scale is known.
+    /// Micrometres per pixel of the image, if coordinates are in µm and the scale is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub um_per_image_px: Option<f64>,
     /// Micrometres per degree of visual angle, if a scale is known.
     pub um_per_degree: Option<f64>,
-    /// Where on the retina it lies, if that is known.
+    /// Location on the retina, if known.
     pub place: Option<RetinalPlace>,
-    /// What a manifest says of it, in the order of the manifest's columns; empty without.
+    /// Values that the manifest gives for the mosaic, in the order of the manifest's columns; empty
+    /// without a manifest.
     pub labels: Vec<String>,
     /// Left, upper, right and lower edge of the window.
     pub window: [f64; 4],
     /// Area of the window, in squared units.
     pub window_area: f64,
-    /// Its outline, where it is not the rectangle of these edges.
+    /// Outline of the window, if it is a polygon and not the rectangle of these edges.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outline: Option<Polygon>,
     /// All statistics that are single numbers.
     #[serde(flatten)]
     pub stats: stats::Summary,
-    /// Distance of pair correlation functions to each sampler, in the order of the samplers.
+    /// l-infinity distance of the pair correlation function to that of each sampler, in the order
+    /// of the samplers.
     pub l_infinity: Vec<SamplerDistance>,
-    /// What simulations of each sampler say of it, if that was asked for.
+    /// Verdicts by simulations of each sampler; empty if none were asked for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub verdicts: Vec<VerdictRecord>,
 }
 
-/// l-infinity distance of a mosaic's pair correlation function to the mean one of a sampler.
+/// The l-infinity distance of a mosaic's pair correlation function to the mean one of a sampler.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SamplerDistance {
     /// Name of the sampler.
     pub sampler: String,
-    /// max |g₁ − g₂|.
+    /// Greatest difference of the two functions, max |g₁ − g₂|.
     pub l_infinity: f64,
 }
 
 impl MosaicRecord {
-    /// Records a mosaic, its scalars and its distances to samplers; place, labels and verdicts are left open.
+    /// Records a mosaic, its scalar statistics and its distances to samplers.
+    ///
+    /// Place, labels and verdicts are left empty.
     pub fn new(mosaic: &Mosaic, measures: &stats::Measures, l_infinity: Vec<SamplerDistance>) -> Self {
         let bounds = mosaic.window().bounds();
         let in_micrometres = mosaic.unit() == LengthUnit::Micrometre;
@@ -77,7 +81,7 @@ impl MosaicRecord {
         }
     }
 
-    /// Micrometres per pixel, if known.
+    /// Returns the micrometres per pixel of the image, if known.
     pub fn um_per_px(&self) -> Option<f64> {
         match self.unit {
             LengthUnit::Pixel => self.um_per_unit,
@@ -86,7 +90,8 @@ impl MosaicRecord {
         }
     }
 
-    /// Pixels per unit of the coordinates; `None` in the unit square, and for µm without a scale.
+    /// Returns the pixels per unit of the coordinates; `None` in the unit square, and for µm
+    /// without a scale.
     pub fn px_per_unit(&self) -> Option<f64> {
         match self.unit {
             LengthUnit::Pixel => Some(1.),
@@ -95,73 +100,77 @@ impl MosaicRecord {
         }
     }
 
-    /// Points per mm², if the scale is known.
+    /// Returns the number of points per mm², if the scale is known.
     pub fn density_per_mm2(&self) -> Option<f64> {
         self.um_per_unit.map(|um| self.stats.density * 1e6 / (um * um))
     }
 
-    /// Area of the window in mm², if the scale is known.
+    /// Returns the area of the window in mm², if the scale is known.
     pub fn window_area_mm2(&self) -> Option<f64> {
         self.um_per_unit.map(|um| self.window_area * um * um / 1e6)
     }
 
-    /// l-infinity distance to the sampler of this name, if it was compared with.
+    /// Returns the l-infinity distance to the sampler of this name, if the mosaic was compared with
+    /// it.
     pub fn distance_to(&self, sampler: &str) -> Option<f64> {
         self.l_infinity.iter().find(|d| d.sampler == sampler).map(|d| d.l_infinity)
     }
 
-    /// The sampler of least l-infinity distance.
+    /// Returns the name of the sampler with the least l-infinity distance; `None` without
+    /// distances.
     pub fn closest_sampler(&self) -> Option<&str> {
         let closest = self.l_infinity.iter().min_by(|a, b| a.l_infinity.total_cmp(&b.l_infinity))?;
         Some(&closest.sampler)
     }
 
-    /// Cones per mm² that are expected at its place on the retina, if that is known; see
-    /// [`RetinalPlace::expected_cones_per_mm2`].
+    /// Returns the cones per mm² that are expected at the mosaic's place on the retina, if that is
+    /// known.
+    ///
+    /// See [`RetinalPlace::expected_cones_per_mm2`].
     pub fn expected_cones_per_mm2(&self) -> Option<f64> {
         self.place.and_then(|place| place.expected_cones_per_mm2())
     }
 
-    /// Hexagonal spacing of that density, in µm.
+    /// Returns the hexagonal spacing at the expected density, in µm.
     pub fn expected_spacing_um(&self) -> Option<f64> {
         self.expected_cones_per_mm2().and_then(|density| hexagonal_spacing(1, 1e6 / density))
     }
 }
 
-/// What was found in one image.
+/// The outcome of detecting the cones of one image.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DetectionRecord {
-    /// Filters that found the cones: classical or learned.
+    /// Kind of filters that found the cones: classical or learned.
     pub detector: Detector,
-    /// How the image was taken to be made.
+    /// Modality that was assumed for the image.
     pub modality: Modality,
-    /// Probability that this is right; 1 if it was given.
+    /// Probability that the modality is right; 1 if it was given.
     pub modality_confidence: f64,
-    /// Which way round its contrast was taken to run.
+    /// Polarity that was assumed for the contrast of the cones.
     pub polarity: Polarity,
-    /// Cones found in the whole image.
+    /// Number of cones found in the whole image.
     pub n: usize,
-    /// Cone spacing by Yellott's ring, px.
+    /// Cone spacing from Yellott's ring in the spectrum of the image, px.
     pub ring_spacing_px: f64,
-    /// Probability, by the ring alone, that its spacing is within 15 % of the true one.
+    /// Probability, judged from the ring alone, that its spacing is within 15 % of the true one.
     pub ring_confidence: f64,
-    /// By how much the ring stands out of detail finer than any cone, as a natural logarithm: above 6 on a clear image, 2 where noise is
-    /// as strong as the cones.
+    /// Prominence of the ring over detail finer than any cone, as a natural logarithm: above 6 on a
+    /// clear image, 2 where noise is as strong as the cones.
     pub clarity: f64,
     /// Cone spacing after refinement by density, px.
     pub density_spacing_px: f64,
-    /// Probability that the spacing is within 15 % of the true one.
+    /// Probability that the refined spacing is within 15 % of the true one.
     pub spacing_confidence: f64,
-    /// Closest and widest local spacing, px.
+    /// Smallest and largest local spacing, px.
     pub spacing_range_px: [f64; 2],
-    /// How many of the cones are expected to be none, by their scores.
+    /// Expected number of false alarms among the cones, by their scores.
     pub expected_false_alarms: f64,
-    /// How many cones are expected among the candidates that were rejected, by their scores.
+    /// Expected number of cones among the rejected candidates, by their scores.
     pub expected_misses: f64,
 }
 
 impl DetectionRecord {
-    /// Records how cones were found, `n` of them in the whole image.
+    /// Records how the cones were detected; `n` is their number in the whole image.
     pub fn new(found: &Detections, n: usize) -> Self {
         Self {
             detector: found.detector,
@@ -180,7 +189,7 @@ impl DetectionRecord {
         }
     }
 
-    /// Errors expected per cone found.
+    /// Returns the number of errors expected per cone found: false alarms and misses.
     pub fn expected_error_rate(&self) -> f64 {
         (self.expected_false_alarms + self.expected_misses) / self.n.max(1) as f64
     }
@@ -190,16 +199,16 @@ impl DetectionRecord {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ConesFrom {
-    /// This program found them.
+    /// Cones that this program found.
     Detected,
-    /// They were marked or found before, and given.
+    /// Cones that were marked or found before, and given.
     Given,
-    /// This program found them, and a person corrected them.
+    /// Cones that this program found and a person corrected.
     Corrected,
 }
 
 impl ConesFrom {
-    /// Returns the origin in a word.
+    /// Returns the name of the origin, as files hold it.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Detected => "detected",
@@ -209,10 +218,12 @@ impl ConesFrom {
     }
 }
 
-/// Indices of the records, those first that need the eye of a person most; equals stay in order.
+/// Returns the indices of the records, those first that most need a person's eye; ties keep their
+/// order.
 pub fn by_need(records: &[ImageRecord]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..records.len()).collect();
-    // where the modality or the spacing is wrong, so are the scores
+    // A wrong modality or spacing makes the scores wrong as well, so doubt about either counts as
+    // need.
     let need = |k: &usize| {
         records[*k].detection.as_ref().map_or(0., |found| {
             found.expected_error_rate() + 1. - found.spacing_confidence * found.modality_confidence
@@ -222,48 +233,48 @@ pub fn by_need(records: &[ImageRecord]) -> Vec<usize> {
     order
 }
 
-/// One image of a run: a row of `summary.csv`, the content of `metrics.json`.
+/// One image of a run: a row of `summary.csv` and the content of `metrics.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ImageRecord {
-    /// Path as given.
+    /// Path of the image, as given.
     pub file: String,
-    /// Name under which its results stand.
+    /// Name under which the results of the image are filed.
     pub name: String,
-    /// SHA-256 of the file.
+    /// SHA-256 hash of the file.
     pub sha256: String,
-    /// SHA-256 of the version and of all options that results depend on.
+    /// SHA-256 hash of the program's version and of all options that the results depend on.
     pub options_sha256: String,
-    /// Width in px.
+    /// Width of the image, px.
     pub width_px: usize,
-    /// Height in px.
+    /// Height of the image, px.
     pub height_px: usize,
-    /// Where the cones are from.
+    /// Origin of the cones' coordinates.
     pub cones_from: ConesFrom,
-    /// Given cones outside the window, which are left out.
+    /// Number of given cones outside the window, which are left out.
     #[serde(default)]
     pub outside: usize,
-    /// How this program found the cones; `None` if they were given or corrected.
+    /// Record of the detection; `None` if the cones were given or corrected.
     pub detection: Option<DetectionRecord>,
-    /// Spacing by the spectrum of the image; `None` if no column of it is wanted.
+    /// Spacing from the spectrum of the image; `None` if no column that needs it is wanted.
     #[serde(default)]
     pub fourier: Option<FourierEstimate>,
-    /// Their statistics.
+    /// Record of the mosaic with its statistics.
     pub mosaic: MosaicRecord,
-    /// What a reader of these numbers should know.
+    /// Warnings that a reader of these numbers needs.
     pub warnings: Vec<String>,
 }
 
 /// Coordinates measured without an image: a row of `measure`'s `summary.csv`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CoordinatesRecord {
-    /// Path as given.
+    /// Path of the file, as given.
     pub file: String,
-    /// Name under which its results stand.
+    /// Name under which the results of the file are filed.
     pub name: String,
-    /// Points of the file that lie outside the window and were left out.
+    /// Number of points of the file outside the window, which are left out.
     pub outside: usize,
-    /// Their statistics.
+    /// Record of the mosaic with its statistics.
     pub mosaic: MosaicRecord,
-    /// What a reader of these numbers should know.
+    /// Warnings that a reader of these numbers needs.
     pub warnings: Vec<String>,
 }

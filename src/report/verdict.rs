@@ -2,40 +2,44 @@ use super::significant;
 use crate::compare::SamplerVerdict;
 use serde::{Deserialize, Serialize};
 
-/// What simulations of a sampler say of one mosaic.
+/// The verdict on one mosaic by simulations of one sampler.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VerdictRecord {
     /// Name of the sampler.
     pub sampler: String,
-    /// Whether the mosaic could be a realisation of it: `p_envelope` is above `level`.
+    /// Outcome of the test: true if `p_envelope` is above `level`, so that the mosaic could be a
+    /// realisation of the sampler.
     pub alike: bool,
     /// p-value of the global envelope test of g (extreme rank length).
     pub p_envelope: f64,
-    /// p-value of l-infinity: the mosaic's rank among the simulations.
+    /// p-value of `l_infinity`: the rank of the mosaic among the simulations.
     pub p_l_infinity: f64,
-    /// l-infinity between the mosaic and the mean of the simulations at its own n and window; that to the mean curve of the
-    /// class of n and window is in the record's distances.
+    /// l-infinity between the mosaic and the mean of the simulations at its own n and window.
+    ///
+    /// [`MosaicRecord::l_infinity`](super::MosaicRecord::l_infinity) holds the distance to the mean
+    /// curve of the class of n and window.
     pub l_infinity: f64,
     /// Median l-infinity of one simulation to the mean of all other curves.
     pub l_infinity_usual: f64,
-    /// The value that 95 % of them stay within.
+    /// Value that the l-infinity of 95 % of the simulations stays within.
     pub l_infinity_most: f64,
-    /// Distances, in hexagonal spacings, from–to, at which g is outside the envelope.
+    /// Ranges of r, from–to in hexagonal spacings, in which g is outside the envelope.
     pub outside: Vec<(f64, f64)>,
     /// Mean regularity index of the simulations (all points, sample deviation).
     pub ri_mean: Option<f64>,
-    /// Its standard deviation over the simulations.
+    /// Standard deviation of that index over the simulations.
     pub ri_sd: Option<f64>,
-    /// Number of simulations.
+    /// Number of simulations made.
     pub simulations: usize,
-    /// Fewest and most points of a simulation.
+    /// Fewest and most points of any simulation.
     pub points: (usize, usize),
     /// Level of the test and of the envelope.
     pub level: f64,
 }
 
-/// Stretches nearer than this, in spacings, are told as one; more of them than this are not told.
+/// Gap, in spacings, below which two stretches are reported as one.
 const NEAR: f64 = 0.05;
+/// Number of stretches that are reported at most.
 const MOST_STRETCHES: usize = 3;
 
 impl From<&SamplerVerdict> for VerdictRecord {
@@ -59,18 +63,19 @@ impl From<&SamplerVerdict> for VerdictRecord {
 }
 
 impl VerdictRecord {
-    /// “as bridson: p = 0.31”, or “differs from bnot: p = 0.005, at r = 0.9–1.1 s”.
+    /// Returns the verdict in words, with the p-value and the widest stretches outside the
+    /// envelope.
     pub fn words(&self) -> String {
         let p = significant(self.p_envelope, 2);
         if self.alike {
-            return format!("as {}: p = {p}", self.sampler);
+            return format!("consistent with {}: p = {p}", self.sampler);
         }
         let place = self.place();
-        let place = if place.is_empty() { String::new() } else { format!(", at r = {place} s") };
+        let place = if place.is_empty() { String::new() } else { format!(", at r = {place} spacings") };
         format!("differs from {}: p = {p}{place}", self.sampler)
     }
 
-    /// The widest stretches outside the envelope, in rising order, in spacings.
+    /// Returns the widest stretches outside the envelope in words, in rising order, in spacings.
     fn place(&self) -> String {
         let mut stretches: Vec<(f64, f64)> = Vec::new();
         for &(from, to) in &self.outside {
@@ -96,7 +101,7 @@ impl VerdictRecord {
         words.join(", ")
     }
 
-    /// Returns the stretches outside the envelope as they stand in `verdicts.csv`.
+    /// Returns all stretches outside the envelope, as `verdicts.csv` holds them.
     pub(super) fn outside_words(&self) -> String {
         let stretch = |(from, to): &(f64, f64)| format!("{from:.4}–{to:.4}");
         self.outside.iter().map(stretch).collect::<Vec<_>>().join(" ")
@@ -127,10 +132,13 @@ mod tests {
 
     #[test]
     fn words_say_how_likely_and_where() {
-        assert_eq!(record(0.312, vec![]).words(), "as bnot: p = 0.31");
+        assert_eq!(record(0.312, vec![]).words(), "consistent with bnot: p = 0.31");
         let near = vec![(0.9, 1.0), (1.02, 1.1), (1.7, 1.7)];
-        assert_eq!(record(0.005, near).words(), "differs from bnot: p = 0.0050, at r = 0.90–1.10, 1.70 s");
+        assert_eq!(
+            record(0.005, near).words(),
+            "differs from bnot: p = 0.0050, at r = 0.90–1.10, 1.70 spacings"
+        );
         let many = (0..6).map(|k| (f64::from(k) * 0.3, f64::from(k) * 0.31)).collect();
-        assert!(record(0.01, many).words().ends_with("0.90–0.93, 1.20–1.24, 1.50–1.55, … s"));
+        assert!(record(0.01, many).words().ends_with("0.90–0.93, 1.20–1.24, 1.50–1.55, … spacings"));
     }
 }

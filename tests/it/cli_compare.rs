@@ -38,7 +38,10 @@ fn a_mosaic_is_as_its_own_sampler_and_differs_from_another() {
     assert!(
         !verdicts[1]["outside_r_in_spacings"].is_empty() && verdicts[0]["outside_r_in_spacings"].is_empty()
     );
-    assert!(text.contains("as bridson: p = ") && text.contains("; differs from 1 more"), "{text}");
+    assert!(
+        text.contains("consistent with bridson: p = ") && text.contains("; differs from 1 more"),
+        "{text}"
+    );
     let envelope = place.header("out/b.envelope.csv");
     assert_eq!(envelope[..5], ["r", "g", "mean_bridson", "low_bridson", "high_bridson"]);
     assert!(place.read("out/b.verdict.svg").contains("jittered, p = 0.0050"));
@@ -84,7 +87,10 @@ fn regularity_is_correlated_with_distance_from_five_mosaics_on() {
     assert!(text.contains("more regular mosaics are nearer to bridson"), "{text}");
     let place = marks(&six[..3]);
     let text = place.ok(&[&COMPARE[..], &["--no-verdict", "--out", "out"]].concat()).stdout;
-    assert!(text.contains("distance: not tested, 3 mosaics with a regularity index: it needs 5"), "{text}");
+    assert!(
+        text.contains("distance: not tested (3 mosaics with a regularity index, at least 5 are needed)"),
+        "{text}"
+    );
     assert_eq!(place.table("out/finding.csv")[0]["p_value"], "");
 }
 

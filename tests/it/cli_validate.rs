@@ -191,7 +191,7 @@ fn two_detectors_are_compared_image_by_image() {
         "{}",
         outcome.stdout
     );
-    assert!(outcome.stdout.contains("least p possible"));
+    assert!(outcome.stdout.contains("smallest possible p"));
     let images = place.table("out/validation.csv");
     assert!(images.iter().all(|r| number(r, "versus_dice") == 1.));
     // the other detections are the marks themselves: a comparison with one is a comparison with the

@@ -3,8 +3,9 @@ use super::panels::{two_areas, two_panels};
 use crate::compare::Interval;
 use crate::report::significant;
 
-const DESCRIPTION: &str = "Bland–Altman plots: for every image the difference of two measurements against their mean, with \
-    the mean difference (bias, solid) and its 95 % limits of agreement (dashed), bands their 95 % confidence intervals.";
+const DESCRIPTION: &str = "Bland–Altman plots: the difference of two measurements of each image against their mean. The solid \
+    line is the mean difference (bias), the dashed lines are the 95 % limits of agreement, and the bands are the 95 % \
+    confidence intervals of these lines.";
 
 const DOTS: &str = "#0072B2";
 const LIMITS: &str = "#D55E00";
@@ -14,29 +15,30 @@ const DOT_OPACITY: f64 = 0.45;
 /// A horizontal line of a Bland–Altman plot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AgreementLine {
-    /// Where it stands.
+    /// Position of the line along y.
     pub value: f64,
-    /// Its 95 % confidence interval.
+    /// 95 % confidence interval of the value.
     pub interval: Option<Interval>,
 }
 
-/// One Bland–Altman plot.
+/// The content of one Bland–Altman plot.
 #[derive(Clone, Copy, Debug)]
 pub struct AgreementPanel<'a> {
-    /// Along x, with its unit.
+    /// Label of the x axis, with its unit.
     pub mean_label: &'a str,
-    /// Along y, with its unit.
+    /// Label of the y axis, with its unit.
     pub difference_label: &'a str,
-    /// Of every image the mean of both measurements and their difference.
+    /// Mean of both measurements and their difference, for every image.
     pub pairs: &'a [(f64, f64)],
-    /// Mean difference.
+    /// Mean difference, the bias.
     pub bias: Option<AgreementLine>,
     /// Lower and upper limit of agreement.
     pub limits: Option<[AgreementLine; 2]>,
 }
 
-/// Draws one or two Bland–Altman plots (Bland & Altman 1986) side by side, 180 mm wide, as a
-/// self-contained SVG.
+/// Draws one or two Bland–Altman plots side by side, as a self-contained SVG, 180 mm wide.
+///
+/// Source: Bland and Altman (1986), <https://doi.org/10.1016/S0140-6736(86)90837-8>.
 pub fn agreement_figure(title: &str, panels: &[AgreementPanel]) -> String {
     let mut canvas = two_panels(title);
     for (panel, area) in panels.iter().zip(two_areas()) {
@@ -57,7 +59,7 @@ fn draw(canvas: &mut Canvas, area: Area, panel: &AgreementPanel) {
     let ends = lines.iter().flat_map(|l| [Some(l.value), l.interval.map(|i| i[0]), l.interval.map(|i| i[1])]);
     let y = with_margin(pairs.iter().map(|p| p.1).chain(ends.flatten()).chain([0.]));
     let x = with_margin(pairs.iter().map(|p| p.0));
-    // what is never below 0 has no axis below 0
+    // A quantity that is never negative needs no axis below 0.
     let x = if pairs.iter().all(|p| p.0 >= 0.) { (x.0.max(0.), x.1) } else { x };
     let step = round_above((y.1 - y.0) / 6.);
     let place = canvas.axes(area, Ranges { x, y }, (panel.mean_label, panel.difference_label), step);
@@ -77,20 +79,23 @@ fn draw(canvas: &mut Canvas, area: Area, panel: &AgreementPanel) {
         let y = line.value;
         canvas.polyline(vec![place(x.0, y), place(x.1, y)], colour, 1.2, dash);
         let name = ["bias", "−1.96 SD", "+1.96 SD"].get(k).copied().unwrap_or_default();
-        // Below the lower limit, above the others, so that words and dots seldom meet.
+        // The text goes below the lower limit and above the other lines, where it rarely meets
+        // dots.
         let down = if k == 1 { 10. } else { -4. };
         let text = format!("{name} {}", signed(y));
         canvas.text(area.right() - 3., place(x.1, y).1 + down, &text, Style::Note, Anchor::End);
     }
 }
 
-/// Three significant digits with a sign that prints.
+/// Writes three significant digits with a sign, whose minus is as wide as the plus.
 fn signed(value: f64) -> String {
     let number = significant(value.abs(), 3);
     if value < 0. { format!("−{number}") } else { format!("+{number}") }
 }
 
-/// From the least to the greatest value, and a little beyond.
+/// Returns the least and the greatest value, each moved outwards by a margin.
+///
+/// The margin is 12 % of the range. Without a range it is a tenth of the value, and at least 1.
 fn with_margin(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
     let margin = if high > low { 0.12 * (high - low) } else { (0.1 * low.abs()).max(1.) };

@@ -6,17 +6,19 @@ use kuva::render::layout::{ComputedLayout, Layout};
 use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 use std::fmt::Write;
 
-/// Width of the page in canvas units: a quarter of a millimetre each, so that it prints 180 mm wide
-/// and a text of size 10 in 7 pt.
+/// Width of the page, in canvas units.
+///
+/// A unit is a quarter of a millimetre, so that the page prints 180 mm wide and a text of size 10
+/// in 7 pt.
 pub(super) const PAGE_WIDTH: f64 = 720.;
 const UNITS_PER_MM: f64 = 4.;
 const FONTS: &str = "Helvetica, Arial, 'Liberation Sans', sans-serif";
 
-/// Colour of frames and lines that are not data.
+/// Colour of frames and of lines that are not data.
 pub(super) const FRAME: &str = "#8c8c8c";
 pub(super) const INK: &str = "#000000";
 
-/// An upright rectangle of the page.
+/// An upright rectangle on the page, in canvas units.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Area {
     pub(super) x: f64,
@@ -34,7 +36,7 @@ impl Area {
     }
 }
 
-/// What a text is for, and with that its size and weight.
+/// The purpose of a text, which sets its size and weight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Style {
     Title,
@@ -53,7 +55,7 @@ impl Style {
     }
 }
 
-/// Which point of a text stands at its place.
+/// The point of a text that stands at its place.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Anchor {
     Start,
@@ -71,15 +73,17 @@ impl From<Anchor> for TextAnchor {
     }
 }
 
-/// Data ranges of a plot, from and to.
+/// The data ranges of a plot along x and y, each from and to.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ranges {
     pub(super) x: (f64, f64),
     pub(super) y: (f64, f64),
 }
 
-/// Width of a text in canvas units, near enough for placing it: by classes of letters of a
-/// Helvetica.
+/// Returns the approximate width of a text in canvas units, from Helvetica's widths of classes of
+/// letters.
+///
+/// That is near enough for placing it.
 pub(super) fn text_width(text: &str, style: Style) -> f64 {
     let advance = |c: char| match c {
         'i' | 'j' | 'l' | '\'' => 0.24,
@@ -91,7 +95,7 @@ pub(super) fn text_width(text: &str, style: Style) -> f64 {
     text.chars().map(advance).sum::<f64>() * f64::from(style.size())
 }
 
-/// The text, its middle cut out if it is wider than `width`.
+/// Returns the text, with its middle cut out if it is wider than `width`.
 pub(super) fn fit(text: &str, style: Style, width: f64) -> String {
     if text_width(text, style) <= width {
         return text.to_owned();
@@ -104,13 +108,15 @@ pub(super) fn fit(text: &str, style: Style, width: f64) -> String {
         if kept == 0 || text_width(&short, style) <= width {
             return short;
         }
-        // Geometric steps first: a title may be a megabyte long.
+        // Halving comes first, for speed: a title may be a megabyte long.
         kept = if kept > 400 { kept / 2 } else { kept - 1 };
     }
 }
 
-/// The page being drawn: axes and vector elements by kuva, pictures beneath them as embedded PNG
-/// (kuva has no element for pictures).
+/// The page being drawn.
+///
+/// kuva draws axes and vector elements. It has no element for pictures, so these lie beneath as
+/// embedded PNG.
 pub(super) struct Canvas {
     scene: Scene,
     pictures: String,
@@ -142,7 +148,7 @@ impl Canvas {
             anchor: anchor.into(),
             rotate: None,
             bold: style == Style::Letter,
-            // black is what the page writes in
+            // The page's own colour is black, which needs no attribute.
             color: (colour != INK).then(|| colour.into()),
         });
     }
@@ -160,7 +166,7 @@ impl Canvas {
         });
     }
 
-    /// A filled outline.
+    /// Draws a filled outline without stroke.
     pub(super) fn polygon(&mut self, corners: &[(f64, f64)], colour: &str) {
         let mut d = String::with_capacity(16 * corners.len());
         for (k, (x, y)) in corners.iter().enumerate() {
@@ -203,7 +209,7 @@ impl Canvas {
         });
     }
 
-    /// A coloured strip without outline, for what lies above it to shine through.
+    /// Draws a coloured strip without outline, which shines through where `opacity` is below 1.
     pub(super) fn band(&mut self, area: Area, colour: &str, opacity: f64) {
         self.scene.add(Primitive::Rect {
             x: area.x,
@@ -239,10 +245,9 @@ impl Canvas {
         });
     }
 
-    /// A PNG stretched over `place`, what lies outside `view` cut off.
+    /// Draws a PNG stretched over `place`; what lies outside `view` is cut off.
     pub(super) fn picture(&mut self, png: &[u8], place: Area, view: Area) {
-        // A nested <svg> clips without an id, and ids would clash where several figures share a
-        // page.
+        // A nested <svg> clips without an id. Ids would clash where several figures share a page.
         let _ = write!(
             self.pictures,
             r#"<svg x="{:.2}" y="{:.2}" width="{:.2}" height="{:.2}"><image x="{:.3}" y="{:.3}" width="{:.3}" height="{:.3}" preserveAspectRatio="none" href="data:image/png;base64,"#,
@@ -259,8 +264,9 @@ impl Canvas {
         self.pictures.push_str("\"/></svg>");
     }
 
-    /// Axes with ticks (along y at the multiples of `y_step`), labelled; returns the way from data
-    /// to the page.
+    /// Draws labelled axes with ticks, and returns the map from data to the page.
+    ///
+    /// Ticks along y stand at the multiples of `y_step`.
     pub(super) fn axes(
         &mut self,
         area: Area,
@@ -288,8 +294,8 @@ impl Canvas {
         add_axes_and_grid(&mut self.scene, &computed, &layout);
         let middle = area.x + area.width / 2.;
         self.text(middle, area.bottom() + 26., labels.0, Style::Axis, Anchor::Middle);
-        // Ticks are multiples of the step, with as many decimals: the outermost ones are the
-        // widest.
+        // Ticks are multiples of the step with equal numbers of decimals, so one of the outermost
+        // is the widest.
         let decimals = (-y_step.log10().floor()).max(0.) as usize;
         let width = |tick: f64| text_width(&format!("{:.decimals$}", tick * y_step), Style::Note);
         let ticks = width((ranges.y.1 / y_step).floor()).max(width((ranges.y.0 / y_step).ceil()));
@@ -306,7 +312,7 @@ impl Canvas {
         move |x, y| (computed.map_x(x), computed.map_y(y))
     }
 
-    /// An empty panel with a sentence that says why.
+    /// Draws an empty panel with a sentence that says why it is empty.
     pub(super) fn sentence(&mut self, area: Area, sentence: &str) {
         self.frame(area);
         let line_height = 12.;
@@ -318,11 +324,11 @@ impl Canvas {
         }
     }
 
-    /// The SVG, `title` its accessible name and `description` what screen readers read.
+    /// Returns the SVG; `title` is its accessible name, and screen readers read `description`.
     pub(super) fn into_svg(self, title: &str, description: &str) -> String {
         let height = self.scene.height;
         let drawn = SvgBackend::new().render_scene(&self.scene);
-        // Its own opening tag speaks of px; ours of millimetres.
+        // The opening tag of kuva gives the size in px; it is replaced by one in millimetres.
         let body = drawn.split_once('>').map_or("", |(_, body)| body);
         let mut svg = String::with_capacity(drawn.len() + self.pictures.len() + 512);
         let _ = write!(
@@ -340,8 +346,10 @@ impl Canvas {
     }
 }
 
-/// Text that kuva draws as it is: a dollar is not the beginning of a formula, and characters that
-/// XML forbids become replacement characters.
+/// Returns text that kuva draws literally.
+///
+/// A dollar sign does not begin a formula, and characters that XML forbids become replacement
+/// characters.
 fn plain(text: &str) -> String {
     allowed(text).replace('$', "\\$")
 }
@@ -371,15 +379,17 @@ fn wrap(text: &str, style: Style, width: f64) -> Vec<String> {
     lines
 }
 
-/// Upper end of a y axis under which curves with a highest value `peak` fit, and a block of `block`
-/// units at the top of `height` covers none of those that pass beneath it, whose highest value is
-/// `peak_under`.
+/// Returns the upper end of a y axis that leaves room for a block of text at the top of the plot.
+///
+/// `peak` is the highest value of all curves, which stay below the upper end. `peak_under` is the
+/// highest value of the curves that pass beneath the block, which covers none of them. The block is
+/// `block` units high, the plot `height` units.
 pub(super) fn headroom(peak: f64, peak_under: f64, block: f64, height: f64) -> f64 {
     let free = (1. - block / height).max(0.1);
     (peak * 1.06).max(peak_under * 1.02 / free)
 }
 
-/// The smallest of 1, 2, 5 × 10ᵏ that is not below `x`: the step between ticks.
+/// Returns the smallest of 1, 2, 5 × 10ᵏ that is not below `x`, as the step between ticks.
 pub(super) fn round_above(x: f64) -> f64 {
     let decade = 10f64.powf(x.log10().floor());
     [1., 2., 5.].into_iter().map(|step| step * decade).find(|&step| step >= x).unwrap_or(10. * decade)

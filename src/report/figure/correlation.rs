@@ -2,28 +2,29 @@ use super::canvas::{Area, Canvas, FRAME, INK, Ranges, headroom, round_above};
 use super::labels::{self, Label};
 use super::{Curve, MosaicFigure, ReferenceLine};
 
-/// Okabe & Ito (2008), told apart by colour-blind readers; black is the mosaic's, their yellow is
-/// too pale for a line.
+/// Colours that colour-blind readers can tell apart (Okabe & Ito 2008).
+///
+/// Black is left to the mosaic, and their yellow is too pale for a line.
 const COLOURS: [&str; 6] = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00"];
-/// The same, dark enough for words on white.
+/// The same colours, dark enough for words on white.
 const DARK: [&str; 6] = ["#0072B2", "#8A5F00", "#007A59", "#A3457A", "#1F7CB0", "#B84F00"];
-/// Dashes tell lines apart in grey, and beyond the sixth where colours repeat.
+/// Dashes that tell lines apart in grey, and beyond the sixth line, where colours repeat.
 const DASHES: [Option<&str>; 3] = [None, Some("5 1.6"), Some("1.6 1.2")];
-/// So many samplers are drawn: the nearest.
+/// Number of samplers drawn, the nearest ones.
 const NEAREST: usize = 3;
-/// Independent points are the scale on which the others are read, in grey.
+/// Name of the sampler of independent points, drawn in grey as a scale for reading the others.
 const SCALE: &str = "uniform";
 const GREY: &str = "#767676";
 const SAMPLER_WIDTH: f64 = 1.1;
 const MOSAIC_WIDTH: f64 = 2.2;
-/// No sampler stretches the axis beyond this multiple of the mosaic's highest value, or of the
-/// floor if that is lower.
+/// Limit to which a sampler may stretch the axis, as a multiple of the mosaic's highest value, or
+/// of the floor if that is higher.
 const SPIKE_FACTOR: f64 = 1.5;
 const SPIKE_FLOOR: f64 = 3.;
-/// Labels begin so far right of the peaks that they belong to, in spacings: beyond the flank of the
+/// Distance in spacings from the peaks to the labels on their right: beyond the flank of the
 /// widest.
 const BESIDE_PEAK: f64 = 0.3;
-/// A curve that stays below this has no peak to be labelled at: it is labelled where the labels
+/// Value below which a curve has no peak to be labelled at; its label points to where the labels
 /// begin.
 const FLAT: f64 = 1.15;
 
@@ -31,19 +32,19 @@ pub(super) fn style(index: usize) -> (&'static str, Option<&'static str>) {
     (COLOURS[index % COLOURS.len()], DASHES[(index + index / COLOURS.len()) % DASHES.len()])
 }
 
-/// A curve of the panel.
+/// A curve of the panel with its colours.
 struct Line<'a> {
     name: &'a str,
     l_infinity: Option<f64>,
     curve: Curve<'a>,
     colour: &'static str,
-    /// Colour of its label.
+    /// Colour of the label.
     dark: &'static str,
     width: f64,
 }
 
 impl Line<'_> {
-    /// “bnot, ℓ∞ 0.31”.
+    /// Returns the text of the label: “bnot, ℓ∞ 0.31”.
     fn text(&self) -> String {
         match self.l_infinity {
             Some(distance) => format!("{}, ℓ∞ {distance:.2}", self.name),
@@ -51,16 +52,18 @@ impl Line<'_> {
         }
     }
 
-    /// The highest point between two distances, if it is below `g_max`, else where the curve is
-    /// cut.
+    /// Returns the highest point between two distances, lowered to `g_max` if the curve is cut
+    /// there.
     fn peak(&self, from: f64, to: f64, g_max: f64) -> Option<(f64, f64)> {
         let within = finite(self.curve).filter(|p| p.0 >= from && p.0 <= to);
         within.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(r, g)| (r, g.min(g_max)))
     }
 }
 
-/// Returns the curves to draw, the mosaic's last: of the samplers the three nearest to the mosaic,
-/// and independent points for scale. More would hide each other; all distances are in the tables.
+/// Returns the curves to draw, the mosaic's last.
+///
+/// They are the three samplers nearest to the mosaic, and independent points for scale. More would
+/// hide each other; all distances are in the tables.
 fn lines<'a>(figure: &MosaicFigure<'a>, mosaic: Curve<'a>) -> Vec<Line<'a>> {
     let line = |l: &ReferenceLine<'a>, colour, dark| Line {
         name: l.name,
@@ -71,13 +74,14 @@ fn lines<'a>(figure: &MosaicFigure<'a>, mosaic: Curve<'a>) -> Vec<Line<'a>> {
         width: SAMPLER_WIDTH,
     };
     let mut others: Vec<_> = figure.references.iter().filter(|l| l.name != SCALE).enumerate().collect();
-    // samplers without a distance come behind those that have one
+    // Samplers without a distance come after those that have one.
     others.sort_by(|(_, a), (_, b)| {
         let of = |l: &ReferenceLine| l.l_infinity.unwrap_or(f64::INFINITY);
         of(a).total_cmp(&of(b))
     });
     let scale = figure.references.iter().filter(|l| l.name == SCALE).map(|l| line(l, GREY, GREY));
-    // a sampler has the same colour in the figures of all mosaics, unless one that is nearer has it
+    // A sampler has the same colour in the figures of all mosaics, unless a nearer one has taken
+    // it.
     let mut free: Vec<usize> = (0..COLOURS.len()).collect();
     let nearest = others.into_iter().take(NEAREST).map(|(k, l)| {
         let at = free.iter().position(|c| *c == k % COLOURS.len()).unwrap_or(0);
@@ -104,7 +108,7 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
     };
     let lines = lines(figure, mosaic);
     let x = (0., axis_end(finite(mosaic).map(|p| p.0).fold(0., f64::max)));
-    // A sampler's spike (few points, r beyond the window) may not flatten the mosaic's own curve.
+    // A sampler's spike (few points, r beyond the window) must not flatten the mosaic's own curve.
     let tallest = finite(mosaic).map(|p| p.1).fold(SPIKE_FLOOR, f64::max) * SPIKE_FACTOR;
     let peak_of = |line: &Line| line.peak(x.0, x.1, tallest);
     let peak = lines.iter().filter_map(peak_of).map(|p| p.1).fold(1., f64::max);
@@ -124,7 +128,7 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
             })
             .collect()
     };
-    // Labels begin right of all peaks, and left enough to end within the plot.
+    // Labels begin right of all peaks, but far enough left to end within the plot.
     let wide = labels::width(&texts(&|r, g| (r, g), x.1)) / area.width * x.1;
     let peaks = lines.iter().filter_map(peak_of).filter(|p| p.1 >= FLAT).map(|p| p.0).fold(0.7, f64::max);
     let beside = (peaks + BESIDE_PEAK).min(x.1 - wide).max(0.1);
@@ -153,14 +157,16 @@ fn finite(curve: Curve<'_>) -> impl Iterator<Item = (f64, f64)> {
     curve.r.iter().copied().zip(curve.g.iter().copied()).filter(|p| p.0.is_finite() && p.1.is_finite())
 }
 
-/// Up to the next half spacing where that is near: bins named by their left edges end a hair before
-/// a tick.
+/// Returns the end of the r axis: the next half spacing if that is near, else `r_max`.
+///
+/// Bins are named by their left edges, so that the last one stands just before a tick.
 pub(super) fn axis_end(r_max: f64) -> f64 {
     let tick = (r_max * 2.).ceil() / 2.;
     if tick - r_max < 0.03 * r_max { tick } else { r_max }
 }
 
-/// The stretches of a curve without gaps, up to `r_max` and cut where they leave 0..`g_max`.
+/// Returns the stretches of a curve without gaps, up to `r_max`, and cut where they leave
+/// 0..`g_max`.
 pub(super) fn runs(curve: Curve, r_max: f64, g_max: f64) -> Vec<Vec<(f64, f64)>> {
     let mut runs = vec![vec![]];
     let points: Vec<_> = curve.r.iter().copied().zip(curve.g.iter().copied()).collect();
@@ -183,7 +189,7 @@ pub(super) fn runs(curve: Curve, r_max: f64, g_max: f64) -> Vec<Vec<(f64, f64)>>
     runs
 }
 
-/// The part of a segment that lies in 0 ≤ g ≤ `g_max`.
+/// Returns the part of a segment that lies in 0 ≤ g ≤ `g_max`, if any.
 fn cut(from: (f64, f64), to: (f64, f64), g_max: f64) -> Option<((f64, f64), (f64, f64))> {
     let at = |g: f64| (from.0 + (to.0 - from.0) * (g - from.1) / (to.1 - from.1), g);
     let end =

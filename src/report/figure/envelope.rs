@@ -3,9 +3,10 @@ use super::correlation::axis_end;
 use super::page::{LEFT_EDGE, TITLE_BASELINE};
 use super::{Curve, ReportError};
 
-/// Read by screen readers.
-const DESCRIPTION: &str = "The pair correlation function of a mosaic (black) in the global 95 % envelope of simulations of \
-    each sampler (band) around their mean (thin blue line): one panel per sampler. Where the curve leaves the band it is drawn red.";
+/// Description of the figure for screen readers.
+const DESCRIPTION: &str = "The pair correlation function of a mosaic (black), one panel per sampler. The band is the global \
+    95 % envelope of simulations of the sampler, the thin blue line their mean. Where the mosaic's curve leaves the band it is \
+    drawn in red.";
 
 const COLUMNS: usize = 3;
 const PANEL: (f64, f64) = (184., 118.);
@@ -15,20 +16,24 @@ const AXIS_DEPTH: f64 = 36.;
 const BAND: &str = "#9ecae1";
 const MEAN: &str = "#0072B2";
 const OUTSIDE: &str = "#D55E00";
-/// Widths of the lines of the mosaic, of the simulations' mean, and of what is outside.
+/// Widths of the lines: the mosaic's, the mean of the simulations, and what is outside the
+/// envelope.
 const OWN_WIDTH: f64 = 1.6;
 const MEAN_WIDTH: f64 = 1.1;
 const OUTSIDE_WIDTH: f64 = 2.2;
-/// The key stands in a line of its own below the title; length of its samples of lines.
+/// Depth of the key, which stands in a line of its own below the title.
 const KEY_DEPTH: f64 = 16.;
+/// Length of the sample of a line in the key.
 const SWATCH: f64 = 18.;
 
-/// One sampler's panel. All curves are on the same distances.
+/// The panel of one sampler.
+///
+/// All its curves are given at the distances of the mosaic's curve.
 #[derive(Clone, Copy, Debug)]
 pub struct EnvelopePanel<'a> {
-    /// Its name.
+    /// Name of the sampler.
     pub name: &'a str,
-    /// Above the panel, behind the name: the p-value, “p = 0.3”.
+    /// Note behind the name above the panel: the p-value, “p = 0.3”.
     pub note: &'a str,
     /// Mean of the simulations.
     pub mean: &'a [f64],
@@ -38,11 +43,11 @@ pub struct EnvelopePanel<'a> {
     pub high: &'a [f64],
 }
 
-/// The mosaic's pair correlation function in the envelope of each sampler, as a self-contained SVG,
-/// 180 mm wide.
+/// Draws the mosaic's pair correlation function in the envelope of each sampler, as a
+/// self-contained SVG, 180 mm wide.
 ///
 /// # Errors
-/// If curves differ in length.
+/// Returns [`ReportError::Curve`] if curves differ in length.
 pub fn envelope_figure(title: &str, mosaic: Curve, panels: &[EnvelopePanel]) -> Result<String, ReportError> {
     let bins = mosaic.r.len();
     for (name, curve) in [("the mosaic", mosaic.g)]
@@ -77,7 +82,7 @@ pub fn envelope_figure(title: &str, mosaic: Curve, panels: &[EnvelopePanel]) -> 
     Ok(canvas.into_svg(title, DESCRIPTION))
 }
 
-/// Writes which line is which, from left to right.
+/// Draws the key that says which line is which, from left to right.
 fn key(canvas: &mut Canvas, baseline: f64) {
     let middle = baseline - 3.;
     let mut x = LEFT_EDGE;
@@ -108,13 +113,13 @@ fn draw(canvas: &mut Canvas, area: Area, ranges: Ranges, mosaic: Curve, panel: &
     canvas.line(place(ranges.x.0, 1.), place(ranges.x.1, 1.), FRAME, 0.6);
     canvas.polyline(along(panel.mean), MEAN, MEAN_WIDTH, None);
     canvas.polyline(along(mosaic.g), INK, OWN_WIDTH, None);
-    // edges are rounded to three decimals
+    // The edges of the envelope are rounded to three decimals, but this g is not.
     let within = |bin: usize| (panel.low[bin] - 6e-4..=panel.high[bin] + 6e-4).contains(&mosaic.g[bin]);
     let mut bin = 0;
     while bin < mosaic.r.len() {
         let run = (bin..mosaic.r.len()).take_while(|&b| !within(b)).count();
         if run > 0 {
-            // half a bin on either side, so that a single bin is seen
+            // One more bin on either side makes a single bin visible.
             let span = bin.saturating_sub(1)..(bin + run + 1).min(mosaic.r.len());
             let points = span.map(|b| place(mosaic.r[b], mosaic.g[b])).collect();
             canvas.polyline(points, OUTSIDE, OUTSIDE_WIDTH, None);

@@ -11,27 +11,30 @@ use image::imageops::thumbnail;
 use image::{ExtendedColorType, GrayImage};
 use ndarray::{Axis, Slice};
 
-/// Pictures are reduced to this side and area before they are embedded: about 560 dpi in a row of
-/// square fields.
+/// Largest side and area to which pictures are reduced before they are embedded, in px: about 560
+/// dpi in a row of square fields.
 const LARGEST_SIDE: f64 = 1200.;
 const LARGEST_AREA: f64 = 0.6e6;
-/// More points than this are embedded as a picture: as vectors they would make the file large and
-/// slow to open.
+/// Number of points above which points are embedded as a picture: as vectors they would make the
+/// file large and slow to open.
 const MOST_VECTOR_POINTS: usize = 4000;
-/// Pixels per canvas unit of that picture (600 dpi), and its largest side.
+/// Pixels per canvas unit of that picture (600 dpi).
 const DOT_RESOLUTION: f64 = 6.;
+/// Largest side of that picture, px.
 const LARGEST_DOT_SIDE: f64 = 1500.;
-/// Radius of a point in hexagonal spacings, and its bounds in canvas units.
+/// Radius of a point in hexagonal spacings.
 const DOT_RADIUS: f64 = 0.2;
+/// Least and greatest radius of a point, in canvas units.
 const DOT_RADIUS_BOUNDS: (f64, f64) = (0.1, 1.5);
-/// The border of a window that is no rectangle: its colour on a picture (Okabe & Ito 2008), its
-/// width in canvas units.
+/// Colour on a picture of the border of a window that is no rectangle (Okabe & Ito 2008).
 const OUTLINE_ON_PICTURE: &str = "#E69F00";
+/// Width of that border, in canvas units.
 const OUTLINE_WIDTH: f64 = 0.8;
-/// Share of the field's width that the scale bar takes at most.
+/// Greatest share of the field's width that the scale bar takes.
 const SCALE_BAR_SHARE: f64 = 0.4;
 
-/// From the mosaic's coordinates to the page: both y down, equal scale.
+/// The map from the mosaic's coordinates to the page: both have y down, and the scale is the same
+/// along x and y.
 pub(super) struct Projection {
     area: Area,
     bounds: Rectangle,
@@ -51,7 +54,7 @@ impl Projection {
     }
 }
 
-/// The part of the picture inside the window.
+/// Draws the part of the picture that lies inside the window.
 pub(super) fn draw_picture(
     canvas: &mut Canvas,
     area: Area,
@@ -89,9 +92,10 @@ pub(super) fn draw_picture(
     Ok(())
 }
 
-/// The pixels of a row or column of `size` that [from, to] touches; pixel 0 is [−½, ½].
+/// Returns the pixels of a row or column of `size` px that `from`..=`to` touches; pixel 0 covers
+/// −½..½.
 fn pixels(from: f64, to: f64, size: usize) -> std::ops::Range<usize> {
-    // Bounds that are a hair beyond a pixel's edge do not ask for the next pixel.
+    // Bounds that are a hair beyond a pixel's edge must not take in the next pixel.
     let first = (from + 0.5 + 1e-6).floor().clamp(0., size as f64) as usize;
     let last = (to + 0.5 - 1e-6).ceil().clamp(0., size as f64) as usize;
     first..last
@@ -107,7 +111,7 @@ fn reduced(grey: GrayImage) -> GrayImage {
     thumbnail(&grey, side(width), side(height))
 }
 
-/// The points in their window, and its border.
+/// Draws the points that lie in the window, and the border of the window.
 pub(super) fn draw_points(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) -> Result<(), ReportError> {
     let projection = Projection::new(area, figure.window.bounds());
     let inside = |p: &&Point| figure.window.contains(**p);
@@ -132,7 +136,7 @@ pub(super) fn draw_points(canvas: &mut Canvas, area: Area, figure: &MosaicFigure
     Ok(())
 }
 
-/// The rings of a window that is not its bounds.
+/// Draws the outline of a window that is not a rectangle.
 pub(super) fn draw_outline(canvas: &mut Canvas, projection: &Projection, window: &Window, colour: &str) {
     for ring in window.rings() {
         let corners = ring.iter().chain(ring.first()).map(|&p| projection.place(p)).collect();
@@ -166,8 +170,9 @@ fn draw_scale_bar(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
     scale_bar(canvas, area, figure.window.bounds().width() * factor, unit);
 }
 
-/// A bar of a round length below a field that is `shown_width` of `unit` wide, and what it stands
-/// for.
+/// Draws a scale bar of a round length below a field, with the length that it stands for.
+///
+/// The field is `shown_width` of `unit` wide.
 pub(super) fn scale_bar(canvas: &mut Canvas, area: Area, shown_width: f64, unit: &str) {
     let length = round_below(shown_width * SCALE_BAR_SHARE);
     let right = area.x + length / shown_width * area.width;
@@ -177,7 +182,7 @@ pub(super) fn scale_bar(canvas: &mut Canvas, area: Area, shown_width: f64, unit:
     canvas.text(right + 4., y + 3., &label, Style::Note, Anchor::Start);
 }
 
-/// The largest of 1, 2, 5 × 10ᵏ that is not above `x`.
+/// Returns the largest of 1, 2, 5 × 10ᵏ that is not above `x`.
 fn round_below(x: f64) -> f64 {
     let decade = 10f64.powf(x.log10().floor());
     [5., 2.].into_iter().map(|step| step * decade).find(|&length| length <= x).unwrap_or(decade)

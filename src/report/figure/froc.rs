@@ -4,36 +4,38 @@ use crate::compare::{Froc, FrocPoint, Summary};
 use crate::report::significant;
 
 const DESCRIPTION: &str = "Left: FROC curve, sensitivity against false alarms per image, as the threshold of the score falls. \
-    Right: precision against sensitivity. The dot is the threshold of the highest mean Dice (F1), the cross the detections as given.";
+    Right: precision against sensitivity. The dot marks the threshold with the highest mean Dice (F1), the cross the detections \
+    as given.";
 
-/// Okabe & Ito (2008).
+/// Colours of the curves (Okabe & Ito 2008).
 const COLOURS: [&str; 2] = ["#0072B2", "#D55E00"];
 const DASHES: [Option<&str>; 2] = [None, Some("5 1.6")];
 const LINE: f64 = 11.;
 const SWATCH: f64 = 15.;
-/// Half the width of a cross.
+/// Half the width of a cross, in canvas units.
 const CROSS: f64 = 3.2;
-/// The axes show so many times what is missing to 1 at the dot, and so many times its false alarms.
+/// Multiple of what the dot lacks to a rate of 1, and of its false alarms, that the axes show.
 const SHOWN: f64 = 4.;
-/// And at least this part of the axis of rates.
+/// Least part of an axis of rates that is shown.
 const LEAST_SHOWN: f64 = 0.02;
-/// More corners than these nobody sees.
+/// Greatest number of corners of a drawn curve; nobody sees more.
 const CORNERS: usize = 600;
 
-/// The curve of a detector.
+/// The curve of one detector.
 #[derive(Clone, Copy, Debug)]
 pub struct FrocLine<'a> {
-    /// The detector's name, for the legend.
+    /// Name of the detector, for the legend.
     pub name: &'a str,
-    /// Its curve.
+    /// FROC curve of the detector.
     pub froc: &'a Froc,
-    /// Its detections as they were given.
+    /// Scores of the detections as they were given.
     pub given: &'a Summary,
 }
 
-/// Draws the FROC curve (Bunch et al. 1978) and the precision–recall curve of one detector or two,
-/// 180 mm wide, as a self-contained SVG. The axes show the part around the threshold of the highest
-/// mean Dice.
+/// Draws the FROC curve (Bunch et al. 1978) and the precision–recall curve of one detector or two.
+///
+/// The figure is a self-contained SVG, 180 mm wide. The axes show the part around the threshold of
+/// the highest mean Dice.
 pub fn froc_figure(title: &str, lines: &[FrocLine]) -> String {
     let mut canvas = two_panels(title);
     let [left, right] = two_areas();
@@ -60,14 +62,14 @@ pub fn froc_figure(title: &str, lines: &[FrocLine]) -> String {
     canvas.into_svg(title, DESCRIPTION)
 }
 
-/// Lower end of an axis of rates where `missing` to 1 is to be seen well.
+/// Returns the lower end of an axis that shows well a rate that lacks `missing` to 1.
 fn shown(missing: f64) -> f64 {
     let span = (SHOWN * missing).clamp(LEAST_SHOWN, 1.);
     let step = round_above(span / 5.);
     1. - ((span / step).ceil() * step).min(1.)
 }
 
-/// What is drawn along an axis: of a threshold, and of the detections as given.
+/// A quantity along an axis: its value at a threshold, and that of the detections as given.
 #[derive(Clone, Copy)]
 struct Value {
     of: fn(&FrocPoint) -> f64,
@@ -115,7 +117,7 @@ fn cross(canvas: &mut Canvas, (x, y): (f64, f64)) {
     }
 }
 
-/// At the lower left of precision over sensitivity, where no good curve passes.
+/// Draws the legend at the lower left of precision over sensitivity, where no good curve passes.
 fn legend(canvas: &mut Canvas, area: Area, lines: &[FrocLine]) {
     let words = |line: &FrocLine| {
         let best = line.froc.points.get(line.froc.best)?;
@@ -134,7 +136,7 @@ fn legend(canvas: &mut Canvas, area: Area, lines: &[FrocLine]) {
     }
     let y = area.bottom() - 7.;
     cross(canvas, (start + SWATCH / 2., y - 3.));
-    canvas.text(start + SWATCH + 4., y, "as given", Style::Note, Anchor::Start);
+    canvas.text(start + SWATCH + 4., y, "detections as given", Style::Note, Anchor::Start);
 }
 
 #[cfg(test)]

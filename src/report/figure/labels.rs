@@ -1,20 +1,27 @@
+//! Labels of curves, placed beside a plot so that they never overlap.
+//!
+//! 1. Labels are sorted by the height of the point that they name.
+//! 2. From the lowest up, each goes to its own height, or one line above the label below it.
+//! 3. Labels that would leave the plot at the top are pushed down again.
+
 use super::canvas::{Anchor, Area, Canvas, Style, text_width};
 
-/// Distance of two baselines.
+/// Distance between two baselines, in canvas units.
 const LINE: f64 = 11.;
-/// From the baseline of a text up to its middle.
+/// Height of the middle of a text above its baseline.
 const MIDDLE: f64 = 3.;
-/// Free above the baseline of the uppermost text, and below that of the lowest.
+/// Room above the baseline of the uppermost text.
 const ASCENT: f64 = 8.;
+/// Room below the baseline of the lowest text.
 const DESCENT: f64 = 5.;
-/// Between a leader and its text.
+/// Gap between a leader and its text.
 const GAP: f64 = 3.;
 
-/// A curve's name, and the point of the curve that it belongs to.
+/// The name of a curve, and the point of the curve that it belongs to.
 pub(super) struct Label<'a> {
-    /// Text.
+    /// Text of the label.
     pub text: String,
-    /// Place on the page that the text is led from.
+    /// Point on the page from which a leader goes to the text.
     pub target: (f64, f64),
     /// Colour of the leader: that of the curve.
     pub colour: &'a str,
@@ -22,18 +29,20 @@ pub(super) struct Label<'a> {
     pub dark: &'a str,
 }
 
-/// Returns the width of the widest text, its leader's gap among it.
+/// Returns the width of the widest text, with the gap to its leader.
 pub(super) fn width(labels: &[Label]) -> f64 {
     labels.iter().map(|l| text_width(&l.text, Style::Note)).fold(0., f64::max) + GAP
 }
 
-/// Returns the height that so many labels take above whatever lies below them.
+/// Returns the height that `count` labels take above whatever lies below them.
 pub(super) fn height(count: usize) -> f64 {
     if count == 0 { 0. } else { (count - 1) as f64 * LINE + ASCENT + DESCENT }
 }
 
-/// Writes every label at its own height where it can, and above `floor` (a height on the page) in
-/// any case; labels keep their order from top to bottom and never overlap. Texts begin at `left`.
+/// Draws every label at its own height where possible, and above `floor` (a height on the page) in
+/// any case.
+///
+/// Labels keep their order from top to bottom and never overlap. Texts begin at `left`.
 pub(super) fn draw(canvas: &mut Canvas, area: Area, left: f64, floor: f64, mut labels: Vec<Label>) {
     labels.sort_by(|a, b| a.target.1.total_cmp(&b.target.1));
     let wanted: Vec<f64> = labels.iter().map(|l| l.target.1 + MIDDLE).collect();
@@ -44,8 +53,10 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, left: f64, floor: f64, mut l
     }
 }
 
-/// Returns baselines as near to the rising ones `wanted` as fit between `top` and `bottom`, a line
-/// apart.
+/// Returns baselines at least a line apart, as near to the rising ones `wanted` as `top` and
+/// `bottom` allow.
+///
+/// With too little room they begin at `top` and go beyond `bottom`.
 fn spread(wanted: &[f64], top: f64, bottom: f64) -> Vec<f64> {
     let mut below = bottom + LINE;
     let mut baselines: Vec<f64> = wanted
@@ -57,7 +68,7 @@ fn spread(wanted: &[f64], top: f64, bottom: f64) -> Vec<f64> {
         })
         .collect();
     baselines.reverse();
-    // where they would leave the plot at the top they are pushed down again
+    // Labels that would leave the plot at the top are pushed down again.
     let mut above = top - LINE;
     for y in &mut baselines {
         *y = y.max(above + LINE);
@@ -75,7 +86,7 @@ mod tests {
         assert_eq!(spread(&[20., 60.], 8., 100.), [20., 60.]);
         assert_eq!(spread(&[20., 22., 95.], 8., 100.), [11., 22., 95.]);
         assert_eq!(spread(&[90., 95., 99.], 8., 80.), [58., 69., 80.]);
-        // too little room: they stand below each other from the top
+        // With too little room they stand below each other from the top.
         assert_eq!(spread(&[5., 6., 7.], 8., 10.), [8., 19., 30.]);
     }
 

@@ -9,23 +9,27 @@ use crate::stats::{LocalValues, LocalWindow, MapGrid, Maps};
 use image::ExtendedColorType;
 use kuva::plot::ColorMap;
 
-/// Perceptually uniform, told apart by colour-blind readers and in grey.
+/// Colour map that is perceptually uniform, told apart by colour-blind readers and in grey.
 const COLOURS: ColorMap = ColorMap::Viridis;
-/// Samples of a map along the longer side of the window.
+/// Number of samples of a map along the longer side of the window.
 const SAMPLES: usize = 192;
 /// Share of white in the colours of windows that reach beyond the mosaic.
 const PALE: f64 = 0.65;
 
-/// Fields wider than this many heights stand in two columns, and in one.
+/// Width over height of a field above which fields stand in two columns.
 const WIDE: f64 = 1.9;
+/// Width over height of a field above which fields stand in one column.
 const VERY_WIDE: f64 = 4.;
 const GAP: f64 = 12.;
-/// Room for a colour bar and its labels beside a field, between the two, and its width.
+/// Room for a colour bar and its labels beside a field.
 const BAR_ROOM: f64 = 56.;
+/// Gap between a field and its colour bar.
 const BAR_GAP: f64 = 6.;
+/// Width of a colour bar, in canvas units.
 const BAR_WIDTH: f64 = 9.;
-/// A colour bar is at least so high, a field at most.
+/// Least height of a colour bar.
 const LEAST_HEIGHT: f64 = 60.;
+/// Greatest height of a field.
 const MOST_HEIGHT: f64 = 330.;
 const HEAD: f64 = 36.;
 /// Room for the scale bar below a row and the titles above the next.
@@ -35,10 +39,11 @@ const FOOT: f64 = 34.;
 const MARK: f64 = 4.5;
 const HALO: &str = "#ffffff";
 
-const DESCRIPTION: &str = "Maps of one cone mosaic: what a square window around each cone holds, linear between cones. PCD: the \
-    peak of the density map; CDC: the density-weighted centroid of the region above a share of it, which is outlined.";
+const DESCRIPTION: &str = "Maps of one cone mosaic. Each value is taken over a square window around a cone; between cones it is \
+    interpolated linearly. PCD: peak of the density map. CDC: density-weighted centroid of the outlined region, in which the \
+    density is above a share of the peak.";
 
-/// One map.
+/// One map of the figure.
 struct Panel {
     title: &'static str,
     unit: String,
@@ -64,7 +69,7 @@ fn panels(mosaic: &Mosaic) -> [Panel; 6] {
     ]
 }
 
-/// Where the fields stand on the page.
+/// The places of the fields on the page.
 struct Layout {
     columns: usize,
     cell: f64,
@@ -103,14 +108,15 @@ impl Layout {
     }
 }
 
-/// Draws six maps, 180 mm wide, as a self-contained SVG: local density, inter-cell distance,
-/// nearest-neighbour distance, its regularity index, |ψ6| and the share of six-sided cells, each
-/// with its colour bar (from the least to the greatest value of whole windows), with peak (PCD) and
-/// centroid (CDC) marked. Windows that reach beyond the mosaic's are pale. Equal input makes equal
-/// bytes.
+/// Draws six maps of a mosaic, as a self-contained SVG, 180 mm wide.
+///
+/// The maps show local density, inter-cell distance, nearest-neighbour distance, its regularity
+/// index, |ψ6| and the share of six-sided cells. Each has a colour bar from the least to the
+/// greatest value of whole windows. Peak (PCD) and centroid (CDC) are marked. Windows that reach
+/// beyond that of the mosaic are pale. Equal input makes equal bytes.
 ///
 /// # Errors
-/// If a picture cannot be encoded.
+/// Returns [`ReportError::Png`] if a picture cannot be encoded.
 pub fn maps_figure(title: &str, mosaic: &Mosaic, maps: &Maps) -> Result<String, ReportError> {
     let bounds = mosaic.window().bounds();
     let layout = Layout::of(bounds.width() / bounds.height());
@@ -126,7 +132,7 @@ pub fn maps_figure(title: &str, mosaic: &Mosaic, maps: &Maps) -> Result<String, 
         canvas.text(area.x + 14., area.y - LETTER_RISE, &name, Style::Axis, Anchor::Start);
         let grid = maps.grid(mosaic, panel.value, SAMPLES);
         let Some(range) = range(&grid) else {
-            canvas.sentence(area, "Nowhere defined: see the column flag of the table of maps.");
+            canvas.sentence(area, "Not defined in any window: see the column “flag” in the table of maps.");
             continue;
         };
         let projection = Projection::new(area, bounds);
@@ -163,14 +169,14 @@ pub fn maps_figure(title: &str, mosaic: &Mosaic, maps: &Maps) -> Result<String, 
     Ok(canvas.into_svg(title, DESCRIPTION))
 }
 
-/// From the least to the greatest value of whole windows; without any, of all.
+/// Returns the least and the greatest value of whole windows, or of all windows if none is whole.
 fn range(grid: &MapGrid) -> Option<(f64, f64)> {
     let of = |whole: bool| {
         let values = grid.values.iter().zip(&grid.whole).filter(|(v, w)| v.is_finite() && (**w || !whole));
         values.map(|(v, _)| (*v, *v)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     };
     let (low, high) = of(true).or_else(|| of(false))?;
-    // equal up to rounding: one colour, and a bar around it
+    // Values that are equal up to rounding get one colour, and a bar around it.
     let least = (low.abs().max(high.abs()) * 1e-3).max(f64::MIN_POSITIVE);
     if high - low >= least { Some((low, high)) } else { Some((low - least, high + least)) }
 }
@@ -180,7 +186,8 @@ fn colour(share: f64) -> [u8; 3] {
     [red, green, blue]
 }
 
-/// Red, green, blue and opacity of every sample: nothing where the map is not defined.
+/// Returns red, green, blue and opacity of every sample; a sample is transparent where the map is
+/// not defined.
 fn coloured(grid: &MapGrid, (low, high): (f64, f64)) -> Vec<u8> {
     let pixel = |(&value, &whole): (&f64, &bool)| {
         if !value.is_finite() {
@@ -194,7 +201,7 @@ fn coloured(grid: &MapGrid, (low, high): (f64, f64)) -> Vec<u8> {
     grid.values.iter().zip(&grid.whole).flat_map(pixel).collect()
 }
 
-/// The colours from low (below) to high, with labels at round values.
+/// Draws the colour bar from low (bottom) to high, with labels at round values.
 fn draw_bar(canvas: &mut Canvas, bar: Area, range: (f64, f64), factor: f64) -> Result<(), ReportError> {
     const STEPS: u32 = 128;
     let pixels: Vec<u8> = (0..STEPS)
@@ -205,7 +212,7 @@ fn draw_bar(canvas: &mut Canvas, bar: Area, range: (f64, f64), factor: f64) -> R
     let (low, high) = (range.0 * factor, range.1 * factor);
     let mut step = round_above((high - low) / (bar.height / 26.).clamp(2., 5.));
     if (high / step).floor() - (low / step).ceil() < 1. {
-        // one label is no scale: the next smaller of 1, 2, 5 × 10ᵏ
+        // One label makes no scale, so the step becomes the next smaller of 1, 2, 5 × 10ᵏ.
         step = round_above(0.4 * step);
     }
     let decimals = (-step.log10().floor()).max(0.) as usize;
@@ -247,10 +254,10 @@ fn draw_centroid(canvas: &mut Canvas, (x, y): (f64, f64)) {
     with_halo(canvas, &ring, 1.2);
 }
 
-/// Draws a mark about a place of the page.
+/// A function that draws a mark about a place of the page.
 type Mark = fn(&mut Canvas, (f64, f64));
 
-/// What the marks mean, and the window.
+/// Draws the legend: the meaning of the marks, and the window.
 fn legend(canvas: &mut Canvas, y: f64, maps: &Maps, mosaic: &Mosaic) {
     let (factor, unit) = shown_unit(mosaic.micrometres_per_unit(), mosaic.unit());
     let window = match maps.options.window {
@@ -274,7 +281,7 @@ fn legend(canvas: &mut Canvas, y: f64, maps: &Maps, mosaic: &Mosaic) {
     let line =
         |canvas: &mut Canvas, (x, y): (f64, f64)| with_halo(canvas, &[(x - MARK, y), (x + MARK, y)], 0.7);
     note(canvas, Some(line), &format!("{} % of the peak", significant(share, 2)));
-    note(canvas, None, &format!("{window}; pale: reaching beyond the mosaic"));
+    note(canvas, None, &format!("{window}; pale: windows that reach beyond the mosaic"));
 }
 
 #[cfg(test)]
@@ -310,7 +317,7 @@ mod tests {
         assert_eq!([pixels[4], pixels[5], pixels[6]], colour(0.));
         assert_eq!([pixels[8], pixels[9], pixels[10]], colour(1.));
         assert!(pixels[12] > pixels[8] && pixels[14] > pixels[10], "{pixels:?}");
-        // luminance rises
+        // The luminance of the colours rises with the value.
         let light = |share: f64| {
             let [r, g, b] = colour(share).map(f64::from);
             0.2126 * r + 0.7152 * g + 0.0722 * b

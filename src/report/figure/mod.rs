@@ -1,5 +1,8 @@
-//! The paper's row for one mosaic: picture, points, nearest neighbours, pair correlation function
-//! (Lanaro et al., figures 2–6). And what a validation shows: agreement, FROC, reliability.
+//! Figures of mosaics, samplers and validations, as self-contained SVG.
+//!
+//! [`mosaic_figure`] draws the row of panels that Lanaro et al. (2020,
+//! <https://doi.org/10.1088/2399-6528/ab8064>, figures 2–6) show for one mosaic: picture, points,
+//! nearest neighbours, pair correlation function.
 
 mod agreement;
 mod canvas;
@@ -30,46 +33,51 @@ pub use reliability::{ReliabilityFigure, reliability_figure};
 pub use samplers::{SamplerPanel, samplers_figure};
 pub use spectrum::{spectrum_figure, spectrum_png};
 
-/// Read by screen readers, and by whoever wonders what ℓ∞ is.
+/// Description of the figure for screen readers, and for whoever wonders what ℓ∞ is.
 const DESCRIPTION: &str = "One cone mosaic: its picture, its points, its nearest-neighbour distances with the Gaussian \
-    of the same mean and standard deviation (RI: mean over standard deviation), and its pair correlation function over \
-    the mean ones of the three nearest point samplers and of independent points (ℓ∞, l-infinity: the largest difference between a sampler's and the mosaic's).";
+    of the same mean and standard deviation (RI, regularity index: mean over standard deviation), and its pair correlation \
+    function with those of the three nearest point samplers and of independent points (ℓ∞, l-infinity: the largest difference \
+    between the functions of sampler and mosaic).";
 
-/// A function of distance, sampled: as many values as distances.
+/// A sampled function of distance, with one value per distance.
 #[derive(Clone, Copy, Debug)]
 pub struct Curve<'a> {
     /// Distances in hexagonal spacings.
     pub r: &'a [f64],
-    /// Values at these distances; what is not finite leaves a gap.
+    /// Values at these distances; a value that is not finite leaves a gap.
     pub g: &'a [f64],
 }
 
-/// The mean PCF of a sampler, and how far the mosaic is from it.
+/// The mean PCF of a sampler, and the distance of the mosaic's PCF from it.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceLine<'a> {
-    /// The sampler's name.
+    /// Name of the sampler.
     pub name: &'a str,
     /// Distances in hexagonal spacings.
     pub r: &'a [f64],
-    /// Its mean PCF at these distances.
+    /// Mean PCF of the sampler at these distances.
     pub g: &'a [f64],
     /// Largest difference from the mosaic's PCF, if it was computed.
     pub l_infinity: Option<f64>,
 }
 
-/// All that the figure of one mosaic shows. Lengths are in the unit of the mosaic; the figure shows
-/// them in µm where `um_per_unit` is known.
+/// The content of the figure of one mosaic.
+///
+/// Lengths are in the unit of the mosaic; the figure shows them in µm if `um_per_unit` is known.
 #[derive(Clone, Copy, Debug)]
 pub struct MosaicFigure<'a> {
-    /// Above the panels: usually the name of the file. Cut in the middle where it is too long for
-    /// the page.
+    /// Title above the panels, usually the name of the file.
+    ///
+    /// Its middle is cut out where it is too long for the page.
     pub title: &'a str,
-    /// The image; without one the figure has no picture panel. Of a mosaic in px the part inside
-    /// the window is shown; in another unit the image is taken to fill the window.
+    /// Image of the mosaic; without one the figure has no picture panel.
+    ///
+    /// For a mosaic in px the part inside the window is shown; in another unit the image is taken
+    /// to fill the window.
     pub picture: Option<&'a Plane>,
-    /// Cone centres; those outside the window are not drawn.
+    /// Centres of the cones; those outside the window are not drawn.
     pub points: &'a [Point],
-    /// Where points could have been seen.
+    /// Window in which points could have been seen.
     pub window: &'a Window,
     /// Unit of points, window and distances.
     pub unit: LengthUnit,
@@ -77,19 +85,21 @@ pub struct MosaicFigure<'a> {
     pub um_per_unit: Option<f64>,
     /// Nearest-neighbour distance of every point.
     pub nn: &'a [f64],
-    /// Their mean.
+    /// Mean of these distances.
     pub nn_mean: Option<f64>,
-    /// Their standard deviation.
+    /// Standard deviation of these distances.
     pub nn_sd: Option<f64>,
     /// Regularity index: mean over standard deviation.
     pub ri: Option<f64>,
     /// Rising edges of the histogram of `nn`, one more than counts; both empty without a histogram.
     pub histogram_edges: &'a [f64],
-    /// Points in each bin.
+    /// Number of points in each bin.
     pub histogram_counts: &'a [usize],
-    /// The mosaic's pair correlation function.
+    /// Pair correlation function of the mosaic.
     pub pcf: Option<Curve<'a>>,
-    /// The samplers it is compared with. Drawn are the three nearest, and `uniform` for scale.
+    /// Samplers that the mosaic is compared with.
+    ///
+    /// Only the three nearest are drawn, and `uniform` for scale.
     pub references: &'a [ReferenceLine<'a>],
 }
 
@@ -111,7 +121,7 @@ impl MosaicFigure<'_> {
     }
 }
 
-/// What to multiply lengths with before they are shown, and the unit they are then in ("" for the
+/// Returns the factor from lengths of the mosaic to shown ones, and the unit of these (“” for the
 /// unit square).
 fn shown_unit(um_per_unit: Option<f64>, unit: LengthUnit) -> (f64, &'static str) {
     match (um_per_unit, unit) {
@@ -122,19 +132,22 @@ fn shown_unit(um_per_unit: Option<f64>, unit: LengthUnit) -> (f64, &'static str)
     }
 }
 
-/// “3.2 µm”, or “0.07” of a length without a unit.
+/// Returns the number with its unit: “3.2 µm”, or “0.07” for a length without a unit.
 fn with_unit(number: &str, unit: &str) -> String {
     if unit.is_empty() { number.to_owned() } else { format!("{number} {unit}") }
 }
 
-/// Draws the row, 180 mm wide, as a self-contained SVG: (a) the picture, (b) the points in their
-/// window, (c) the histogram of nearest-neighbour distances with the Gaussian of the same mean and
-/// standard deviation, (d) the pair correlation function over the samplers'. Fields much wider than
-/// high are stacked beside or above the plots. A panel without data says why in a sentence. Equal
-/// input makes equal bytes.
+/// Draws the figure of one mosaic, as a self-contained SVG, 180 mm wide.
+///
+/// Its panels are (a) the picture, (b) the points in their window, (c) the histogram of
+/// nearest-neighbour distances with the Gaussian of the same mean and standard deviation, (d) the
+/// pair correlation function over those of samplers. Fields much wider than high are stacked beside
+/// or above the plots. A panel without data says why in a sentence. Equal input makes equal bytes.
 ///
 /// # Errors
-/// If edges and counts, or distances and values of a curve, do not belong together.
+/// Returns [`ReportError::Histogram`] if edges and counts do not belong together,
+/// [`ReportError::Curve`] if distances and values of a curve do not, [`ReportError::Png`] if a
+/// picture cannot be encoded.
 pub fn mosaic_figure(figure: &MosaicFigure) -> Result<String, ReportError> {
     figure.validate()?;
     let bounds = figure.window.bounds();

@@ -4,12 +4,13 @@ use crate::report::significant;
 
 const BARS: &str = "#b8b8b8";
 const GAUSSIAN: &str = "#D55E00";
-/// So far, in standard deviations, the Gaussian is drawn, and it has so many corners.
+/// Number of standard deviations to which the Gaussian is drawn, on either side of the mean.
 const REACH: f64 = 3.2;
+/// Number of segments of the Gaussian's curve.
 const CORNERS: usize = 120;
 const LINE: f64 = 11.;
 
-/// The Gaussian density N(mean, sd), scaled to a histogram of bins of `width`.
+/// The Gaussian density N(mean, sd), scaled to the area of the histogram.
 struct Gaussian {
     mean: f64,
     sd: f64,
@@ -23,8 +24,8 @@ impl Gaussian {
     }
 }
 
-/// The histogram of nearest-neighbour distances and the Gaussian of the same mean and standard
-/// deviation.
+/// Draws the histogram of nearest-neighbour distances and the Gaussian of the same mean and
+/// standard deviation.
 pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
     let n = figure.points.len();
     let (&[first, .., last], false) = (figure.histogram_edges, figure.nn.is_empty()) else {
@@ -83,7 +84,7 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
     } else {
         format!("nearest neighbour ({unit})")
     };
-    // Counts are whole.
+    // Counts are whole numbers, so a step between ticks below 1 would be pointless.
     let step = round_above((y_max / 4.).max(1.));
     let place = canvas.axes(area, Ranges { x, y: (0., y_max) }, (&label, "cones"), step);
     for (edge, &count) in edges.windows(2).zip(&counts).filter(|(_, c)| **c > 0.) {

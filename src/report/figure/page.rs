@@ -1,12 +1,12 @@
 use super::canvas::{Area, PAGE_WIDTH};
 
-/// Baseline of the title.
+/// Baseline of the title, from the top of the page.
 pub(super) const TITLE_BASELINE: f64 = 11.;
-/// From the top of a panel up to the baseline of its letter.
+/// Height of the baseline of a letter above the top of its panel.
 pub(super) const LETTER_RISE: f64 = 6.;
 /// Room for tick labels and the axis title, left of a plot.
 pub(super) const AXIS_ROOM: f64 = 40.;
-/// The same below a plot.
+/// Room for tick labels and the axis title, below a plot.
 const AXIS_DEPTH: f64 = 34.;
 /// Room for title and letters above the first row.
 const HEAD: f64 = 36.;
@@ -15,33 +15,36 @@ const LETTER_ROOM: f64 = 22.;
 /// Room for a scale bar below a field.
 const SCALE_BAR_ROOM: f64 = 18.;
 const GAP: f64 = 14.;
-/// Half a tick label on the right, half a dot on the left.
+/// Room at the right edge of the page, for half a tick label.
 const RIGHT_EDGE: f64 = 8.;
+/// Room at the left edge of the page, for half a dot.
 pub(super) const LEFT_EDGE: f64 = 2.;
 /// Height of the plots where nothing asks for more.
 const PLOT_HEIGHT: f64 = 160.;
-/// A field beside the plots is at most so high.
+/// Greatest height of a field beside the plots.
 const TALLEST: f64 = 200.;
 /// Share of the two plots' width that the histogram gets; the PCF has more to show.
 const HISTOGRAM_SHARE: f64 = 0.4;
-/// Wider fields than this are stacked beside the plots, and above them.
+/// Width over height of a field above which fields are stacked beside the plots.
 const WIDE: f64 = 1.7;
+/// Width over height of a field above which fields are stacked above the plots.
 const VERY_WIDE: f64 = 4.;
 
-/// Where everything stands, in canvas units from the top left of the page.
+/// The places of all panels, in canvas units from the top left of the page.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Page {
     pub(super) height: f64,
     pub(super) picture: Option<Area>,
     pub(super) points: Area,
-    /// Of the axes, without tick labels and titles.
+    /// Area of the axes, without tick labels and titles.
     pub(super) neighbours: Area,
-    /// Of the axes, without tick labels and titles.
+    /// Area of the axes, without tick labels and titles.
     pub(super) correlation: Area,
 }
 
 impl Page {
-    /// For a field of the given width over height, shown once, or twice with a picture.
+    /// Arranges a page for a field of the given width over height, shown once, or twice with a
+    /// picture.
     pub(super) fn arrange(aspect: f64, with_picture: bool) -> Self {
         if aspect <= WIDE {
             Self::row(aspect, with_picture)
@@ -52,7 +55,7 @@ impl Page {
         }
     }
 
-    /// All panels side by side.
+    /// Arranges all panels side by side.
     fn row(aspect: f64, with_picture: bool) -> Self {
         let widest = if with_picture { 140. } else { 180. };
         let width = f64::min(widest, TALLEST * aspect);
@@ -67,21 +70,21 @@ impl Page {
         Self { height: HEAD + bottom, picture, points, neighbours, correlation }
     }
 
-    /// Fields one above the other on the left, plots on the right.
+    /// Arranges the fields one above the other on the left, and the plots on the right.
     fn stacked_beside(aspect: f64, with_picture: bool) -> Self {
         let width = f64::min(270., if with_picture { 88. } else { 130. } * aspect);
         let height = width / aspect;
         let picture = with_picture.then_some(Area { x: LEFT_EDGE, y: HEAD, width, height });
         let top = HEAD + if with_picture { height + SCALE_BAR_ROOM + LETTER_ROOM } else { 0. };
         let points = Area { x: LEFT_EDGE, y: top, width, height };
-        // The axes end where the lower field does.
+        // The axes end where the lower field ends.
         let plot_height = PLOT_HEIGHT.max(top + height - HEAD);
         let (neighbours, correlation) = plots(LEFT_EDGE + width + GAP, HEAD, plot_height);
         let bottom = (top - HEAD + height + SCALE_BAR_ROOM).max(plot_height + AXIS_DEPTH);
         Self { height: HEAD + bottom, picture, points, neighbours, correlation }
     }
 
-    /// Fields over the whole width, plots below.
+    /// Arranges the fields over the whole width, and the plots below.
     fn stacked_above(aspect: f64, with_picture: bool) -> Self {
         let width = PAGE_WIDTH - 2. * LEFT_EDGE;
         let height = width / aspect;
@@ -94,7 +97,7 @@ impl Page {
     }
 }
 
-/// The axes of histogram and PCF, from `left` to the edge of the page.
+/// Returns the axes of histogram and PCF, from `left` to the edge of the page.
 fn plots(left: f64, y: f64, height: f64) -> (Area, Area) {
     let width = PAGE_WIDTH - RIGHT_EDGE - left - 2. * AXIS_ROOM - GAP;
     let first = Area { x: left + AXIS_ROOM, y, width: width * HISTOGRAM_SHARE, height };

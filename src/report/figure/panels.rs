@@ -6,10 +6,10 @@ const HEIGHT: f64 = 190.;
 const AXIS_DEPTH: f64 = 34.;
 const GAP: f64 = 30.;
 const RIGHT_EDGE: f64 = 10.;
-/// Widest tick label, beyond the room that every axis has.
+/// Room for the widest tick label, beyond the room that every axis has.
 const TICK_ROOM: f64 = 12.;
 
-/// The areas of two plots side by side, without tick labels and axis titles.
+/// Returns the areas of two plots side by side, without tick labels and axis titles.
 pub(super) fn two_areas() -> [Area; 2] {
     let room = AXIS_ROOM + TICK_ROOM;
     let width = (PAGE_WIDTH - LEFT_EDGE - RIGHT_EDGE - GAP) / 2. - room;
@@ -17,7 +17,7 @@ pub(super) fn two_areas() -> [Area; 2] {
     [area(LEFT_EDGE + room), area(LEFT_EDGE + 2. * room + width + GAP)]
 }
 
-/// A page for them, with its title and the letters a and b.
+/// Returns a page for two plots, with its title and the letters a and b.
 pub(super) fn two_panels(title: &str) -> Canvas {
     let mut canvas = Canvas::new(HEAD + HEIGHT + AXIS_DEPTH);
     let title = fit(title, Style::Title, PAGE_WIDTH - 2. * LEFT_EDGE);

@@ -3,29 +3,31 @@ use super::panels::{two_areas, two_panels};
 use crate::compare::{Reliability, ReliabilityBin};
 use crate::report::significant;
 
-const DESCRIPTION: &str = "Left: in every bin of the score the part of the detections that are hits, with its 95 % interval; \
-    on the diagonal the score is the probability of a hit; bars show how many detections a bin holds. Right: false alarms \
-    of every image, expected from the scores and observed.";
+const DESCRIPTION: &str = "Left: share of the detections that are hits in each bin of the score, with its 95 % interval. On the \
+    diagonal the score equals the probability of a hit. Bars show the number of detections in each bin. Right: observed false \
+    alarms against those expected from the scores, one dot per image.";
 
 const BARS: &str = "#d9d9d9";
 const DOTS: &str = "#0072B2";
 const DOT_OPACITY: f64 = 0.45;
-/// Height of the largest bar, as a part of the plot.
+/// Height of the largest bar, as a share of the plot.
 const BAR_HEIGHT: f64 = 0.3;
 
-/// What the figure of reliability shows.
+/// The content of the figure of reliability.
 #[derive(Clone, Copy, Debug)]
 pub struct ReliabilityFigure<'a> {
-    /// Above the panels.
+    /// Title above the panels.
     pub title: &'a str,
-    /// Bins of the score.
+    /// Reliability of the scores, bin by bin.
     pub reliability: &'a Reliability,
-    /// False alarms of every image: expected, and observed.
+    /// False alarms of every image, expected and observed.
     pub alarms: &'a [(f64, f64)],
 }
 
-/// Draws the reliability diagram (DeGroot & Fienberg 1983) and expected against observed false
-/// alarms, 180 mm wide, as a self-contained SVG.
+/// Draws the reliability diagram and the expected against the observed false alarms.
+///
+/// The figure is a self-contained SVG, 180 mm wide. Source of the diagram: DeGroot and Fienberg
+/// (1983), <https://doi.org/10.2307/2987588>.
 pub fn reliability_figure(figure: &ReliabilityFigure) -> String {
     let mut canvas = two_panels(figure.title);
     let [left, right] = two_areas();
@@ -36,12 +38,8 @@ pub fn reliability_figure(figure: &ReliabilityFigure) -> String {
 
 fn diagram(canvas: &mut Canvas, area: Area, reliability: &Reliability) {
     let unit = (0., 1.);
-    let place = canvas.axes(
-        area,
-        Ranges { x: unit, y: unit },
-        ("score", "part of the detections that are hits"),
-        0.2,
-    );
+    let place =
+        canvas.axes(area, Ranges { x: unit, y: unit }, ("score", "share of detections that are hits"), 0.2);
     let most = reliability.bins.iter().map(|b| b.n).max().unwrap_or(0).max(1);
     for bin in reliability.bins.iter().filter(|b| b.n > 0) {
         let height = BAR_HEIGHT * bin.n as f64 / most as f64;
@@ -58,10 +56,10 @@ fn diagram(canvas: &mut Canvas, area: Area, reliability: &Reliability) {
     let notes = [
         format!("calibration error {}", significant(reliability.expected_calibration_error, 2)),
         format!("Brier score {}", significant(reliability.brier, 2)),
-        format!("largest bar: {most} of {}", reliability.n),
+        format!("largest bar: {most} of {} detections", reliability.n),
     ];
-    // Dots of scores that are too low stand above the diagonal; then the notes go below it, over
-    // the bars.
+    // Where scores are too low, dots stand above the diagonal; then the notes go below it, over the
+    // bars.
     let gap = |b: &ReliabilityBin| Some(b.n as f64 * (b.hits? - b.mean_score?));
     let above = reliability.bins.iter().filter_map(gap).sum::<f64>() > 0.05 * reliability.n as f64;
     let (x, y, anchor) = if above {
@@ -77,7 +75,7 @@ fn diagram(canvas: &mut Canvas, area: Area, reliability: &Reliability) {
 fn alarms(canvas: &mut Canvas, area: Area, alarms: &[(f64, f64)]) {
     let most = alarms.iter().flat_map(|a| [a.0, a.1]).filter(|v| v.is_finite()).fold(1., f64::max) * 1.06;
     let ranges = Ranges { x: (0., most), y: (0., most) };
-    let labels = ("false alarms expected: Σ (1 − score)", "false alarms observed");
+    let labels = ("expected false alarms, Σ (1 − score)", "observed false alarms");
     let place = canvas.axes(area, ranges, labels, round_above((most / 5.).max(1.)));
     canvas.polyline(vec![place(0., 0.), place(most, most)], FRAME, 0.8, Some("4 3"));
     let finite = alarms.iter().filter(|a| a.0.is_finite() && a.1.is_finite());
@@ -85,6 +83,6 @@ fn alarms(canvas: &mut Canvas, area: Area, alarms: &[(f64, f64)]) {
     canvas.coloured_dots(&centres, 2.2, DOTS, Some(DOT_OPACITY));
     let n = alarms.len().max(1) as f64;
     let mean = |value: fn(&(f64, f64)) -> f64| significant(alarms.iter().map(value).sum::<f64>() / n, 3);
-    let note = format!("per image: {} expected, {} observed", mean(|a| a.0), mean(|a| a.1));
+    let note = format!("mean per image: {} expected, {} observed", mean(|a| a.0), mean(|a| a.1));
     canvas.text(area.x + 6., area.y + 9., &note, Style::Note, Anchor::Start);
 }

@@ -5,8 +5,8 @@ use super::page::{AXIS_ROOM, LEFT_EDGE};
 use crate::geometry::Point;
 use crate::report::ReportError;
 
-const DESCRIPTION: &str = "Point samplers: one pattern of each in the unit square; below it the plane of its power spectrum \
-    (frequency 0 in the middle); below that the mean pair correlation functions, and the radial power spectra.";
+const DESCRIPTION: &str = "Point samplers. Top row: one pattern of each in the unit square. Middle row: the plane of its power \
+    spectrum, with frequency 0 in the middle. Bottom row: the mean pair correlation functions and the radial power spectra.";
 
 const GAP: f64 = 8.;
 const HEAD: f64 = 18.;
@@ -19,14 +19,14 @@ const LINE_WIDTH: f64 = 1.2;
 const LEGEND_LINE: f64 = 11.;
 const SWATCH: f64 = 15.;
 
-/// A sampler's column of the figure.
+/// One sampler's column of the figure.
 #[derive(Clone, Debug)]
 pub struct SamplerPanel<'a> {
-    /// Its name.
+    /// Name of the sampler.
     pub name: &'a str,
     /// One pattern, in the unit square.
     pub points: &'a [Point],
-    /// The plane of its power spectrum, as PNG.
+    /// Plane of the pattern's power spectrum, as PNG.
     pub spectrum: &'a [u8],
     /// Mean pair correlation function; distances in hexagonal spacings.
     pub pcf: Curve<'a>,
@@ -34,11 +34,13 @@ pub struct SamplerPanel<'a> {
     pub radial: Curve<'a>,
 }
 
-/// Figure 1 of Lanaro et al.: patterns, spectra, and all curves on one plot each, as a
-/// self-contained SVG, 180 mm wide.
+/// Draws Figure 1 of Lanaro et al. (2020, <https://doi.org/10.1088/2399-6528/ab8064>): patterns,
+/// spectra, and all curves on one plot each.
+///
+/// The figure is a self-contained SVG, 180 mm wide.
 ///
 /// # Errors
-/// If distances and values of a curve do not belong together.
+/// Returns [`ReportError::Curve`] if a curve has unequal numbers of distances and values.
 pub fn samplers_figure(title: &str, panels: &[SamplerPanel]) -> Result<String, ReportError> {
     for panel in panels {
         for curve in [panel.pcf, panel.radial] {
@@ -84,7 +86,7 @@ fn curves<'a>(
     };
     let (x_max, y_max) = (values(|c| c.r), values(|c| c.g).max(1.) * 1.06);
     if x_max <= 0. {
-        canvas.sentence(area, "There are no curves.");
+        canvas.sentence(area, "There are no curves to show.");
         return;
     }
     let x_max = (x_max * 4.).ceil() / 4.;
@@ -121,7 +123,7 @@ mod tests {
         let panel =
             |name| SamplerPanel { name, points: &points, spectrum: &[1, 2, 3], pcf: curve, radial: curve };
         let svg = samplers_figure("Samplers", &[panel("green"), panel("bnot")]).unwrap();
-        // above the column and in both legends
+        // Each name stands above its column and in both legends.
         assert_eq!((svg.matches(">green<").count(), svg.matches(">bnot<").count()), (3, 3));
         assert_eq!(svg.matches("data:image/png").count(), 2);
         roxmltree::Document::parse(&svg).unwrap();

@@ -5,25 +5,27 @@ use crate::report::{FigureFormat, ReportError, convert};
 use crate::stats::PowerSpectrum;
 use image::ExtendedColorType;
 
-const TITLE: &str = "Power spectrum of the points; independent points have the power 1 at every frequency";
-/// Read by screen readers.
-const DESCRIPTION: &str = "The plane of the power spectrum of a point pattern, frequency 0 in the middle; the lighter a wave \
-    vector, the higher its power. x points to the right, y upwards.";
+const TITLE: &str = "Power spectrum of the points (independent points have power 1 at every frequency)";
+/// Description of the figure for screen readers.
+const DESCRIPTION: &str = "The plane of the power spectrum of a point pattern, with frequency 0 in the middle; the lighter a \
+    wave vector, the higher its power. x points to the right, y upwards.";
 
-/// Left upper corner of the plane and its side; the bar stands to its right.
+/// Upper left corner of the plane, in canvas units.
 const CORNER: (f64, f64) = (64., 38.);
+/// Side of the plane; the bar of grey values stands to its right.
 const SIDE: f64 = 560.;
 const AXIS_DEPTH: f64 = 36.;
 const BAR_GAP: f64 = 22.;
 const BAR_WIDTH: f64 = 14.;
-/// Grey values of the bar.
+/// Number of grey values of the bar.
 const STEPS: u32 = 128;
 
-/// Draws the plane of a power spectrum with its axes, in cycles per 1/√density, and a bar of its
-/// grey values, as a self-contained SVG, 180 mm wide.
+/// Draws the plane of a power spectrum with its axes and a bar of its grey values.
+///
+/// The figure is a self-contained SVG, 180 mm wide. Frequencies are in cycles per 1/√density.
 ///
 /// # Errors
-/// If the picture cannot be encoded.
+/// Returns [`ReportError::Png`] if the picture cannot be encoded.
 pub fn spectrum_figure(spectrum: &PowerSpectrum, scale: PowerScale) -> Result<String, ReportError> {
     let Plane { png, reach } = plane(spectrum, scale)?;
     let mut canvas = Canvas::new(CORNER.1 + SIDE + AXIS_DEPTH);
@@ -59,7 +61,7 @@ fn draw_bar(canvas: &mut Canvas, bar: Area, scale: PowerScale) -> Result<(), Rep
 /// Returns [`spectrum_figure`] as PNG, at 300 dpi.
 ///
 /// # Errors
-/// If the picture cannot be encoded.
+/// Returns [`ReportError::Png`] or [`ReportError::Convert`] if a picture cannot be encoded.
 pub fn spectrum_png(spectrum: &PowerSpectrum, scale: PowerScale) -> Result<Vec<u8>, ReportError> {
     convert(&spectrum_figure(spectrum, scale)?, FigureFormat::Png)
 }

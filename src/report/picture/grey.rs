@@ -1,20 +1,28 @@
+//! Grey pictures of images: contrast, enlargement and encoding.
+//!
+//! 1. [`stretched`] maps the grey values between two percentiles linearly to 0..255.
+//! 2. [`enlarged`] interpolates linearly between pixel centres.
+//! 3. [`png`] encodes the pixels.
+
 use crate::report::ReportError;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, GrayImage, ImageEncoder};
 use ndarray::ArrayView2;
 
-/// Shares of the pixels that become black and white.
+/// Share of the pixels that lie at or below black.
 const BLACK: f64 = 0.005;
+/// Share of the pixels that lie below white.
 const WHITE: f64 = 0.995;
 
-/// So many pixels settle a percentile; more only cost time.
+/// Number of pixels that settle a percentile; more would only cost time.
 const SAMPLE: usize = 1 << 17;
 
-/// The plane in 8 bits, its 0.5th percentile black and its 99.5th white. A constant plane is
-/// mid-grey, what is not a number is black.
+/// Returns the plane in 8 bits, its 0.5th percentile black and its 99.5th white.
+///
+/// A constant plane is mid-grey, and NaN is black.
 pub(in crate::report) fn stretched(plane: ArrayView2<f32>) -> GrayImage {
     let (height, width) = plane.dim();
-    // An odd step, so that the sample does not run down a few columns of an image of even width.
+    // An odd step keeps the sample from running down a few columns of an image of even width.
     let step = (plane.len() / SAMPLE) | 1;
     let mut sample: Vec<f32> = plane.iter().step_by(step).copied().filter(|v| v.is_finite()).collect();
     let low = percentile(&mut sample, BLACK);
@@ -36,15 +44,17 @@ fn percentile(sample: &mut [f32], share: f64) -> f32 {
     *sample.select_nth_unstable_by(rank, f32::total_cmp).1
 }
 
-/// The picture `factor` times as large, interpolated linearly between pixel centres, the border
-/// repeated. Several times as fast as `image::imageops::resize`.
+/// Returns the picture enlarged `factor` times, interpolated linearly between pixel centres.
+///
+/// The border is repeated. This is several times as fast as `image::imageops::resize`.
 pub(super) fn enlarged(grey: &GrayImage, factor: u32) -> GrayImage {
     let factor = factor.max(1) as usize;
     let (width, height) = (grey.width() as usize, grey.height() as usize);
     if factor == 1 || width == 0 || height == 0 {
         return grey.clone();
     }
-    // For every output pixel of a side the two pixels it lies between, and the share of the second.
+    // For every output pixel along a side: the two pixels it lies between, and the share of the
+    // second.
     let taps = |size: usize| -> Vec<(usize, usize, f32)> {
         let tap = |i: usize| {
             let at = ((i as f32 + 0.5) / factor as f32 - 0.5).clamp(0., (size - 1) as f32);
@@ -68,7 +78,7 @@ pub(super) fn enlarged(grey: &GrayImage, factor: u32) -> GrayImage {
     GrayImage::from_raw((width * factor) as u32, (height * factor) as u32, pixels).unwrap_or_default()
 }
 
-/// Speed before size: a run writes hundreds of pictures.
+/// Encodes pixels as PNG, for speed rather than size, because a run writes hundreds of pictures.
 pub(in crate::report) fn png(
     pixels: &[u8],
     width: u32,

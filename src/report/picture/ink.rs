@@ -1,21 +1,28 @@
-/// Where a stroke or a spot lies, in px of the image it is drawn on; pixel (0, 0) is centred at (0,
-/// 0). imageproc's circles and lines have whole-pixel centres, which would shift a mark by up to
-/// half a pixel.
+//! Smooth marks: a pixel takes ink by its distance from the middle of the stroke.
+//!
+//! 1. The distance from the pixel's centre to the stroke is computed exactly.
+//! 2. The coverage is half the thickness plus ½ px less that distance, clamped to 0..1.
+
+/// The form of a stroke or a spot, in px of the image it is drawn on.
+///
+/// Pixel (0, 0) is centred at (0, 0). The circles and lines of imageproc have whole-pixel centres,
+/// which would shift a mark by up to half a pixel.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::report) enum Shape {
-    /// A filled disc.
+    /// A disc that is filled.
     Disc,
     /// The outline of a circle.
     Ring,
-    /// A plus sign.
+    /// A plus sign of two strokes.
     Plus,
-    /// A diagonal cross.
+    /// A cross of two diagonal strokes.
     Cross,
 }
 
 impl Shape {
-    /// Distance from (dx, dy), measured from the centre, to the line (or to the centre, for a
-    /// disc).
+    /// Returns the distance from (dx, dy), measured from the centre, to the line.
+    ///
+    /// For a disc it is the distance to its edge, negative inside.
     fn distance(self, dx: f64, dy: f64, radius: f64) -> f64 {
         let arm = |along: f64, across: f64| {
             let beyond = (along.abs() - radius).max(0.);
@@ -36,7 +43,9 @@ impl Shape {
     }
 
     /// Calls `paint(x, y, coverage)` for every pixel of a `width` × `height` image that a line of
-    /// `thickness` px touches, coverage in (0, 1]. For a disc, thickness is 0.
+    /// `thickness` px touches.
+    ///
+    /// `coverage` is in (0, 1]. The thickness of a disc is 0.
     pub(in crate::report) fn cover(
         self,
         (width, height): (u32, u32),

@@ -4,33 +4,35 @@ use crate::image::Plane;
 use crate::report::ReportError;
 use image::{ExtendedColorType, Rgb, RgbImage};
 
-/// Neighbouring cones shall lie so many output px apart: less, and the rings hide them.
+/// Distance of neighbouring cones in output px below which rings would hide them.
 const CLEAR_SPACING: f64 = 16.;
-/// Largest side of an enlarged picture, in px.
+/// Largest side of an enlarged picture, px.
 const LARGEST_SIDE: usize = 4096;
-/// Line of a mark, and of the dark line beneath it, in output px.
+/// Width of the line of a mark, in output px.
 const LINE: f64 = 1.5;
+/// Width of the dark line beneath a mark, in output px.
 const HALO: f64 = 3.;
 const HALO_OPACITY: f64 = 0.55;
 
-/// What a mark says. Each kind has its own colour (Okabe & Ito 2008, told apart by colour-blind
-/// readers) and shape.
+/// The meaning of a mark.
+///
+/// Each kind has its own shape and colour (Okabe & Ito 2008, told apart by colour-blind readers).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MarkKind {
-    /// A cone found, nothing known of its truth: an orange ring.
+    /// A cone found, its truth unknown: an orange ring.
     Detection,
     /// A cone found and marked by hand: a blue ring.
     Hit,
-    /// Marked by hand and not found: a yellow plus sign.
+    /// A cone marked by hand and not found: a yellow plus sign.
     Miss,
-    /// Found and not marked by hand: a vermilion cross.
+    /// A cone found and not marked by hand: a vermilion cross.
     FalseAlarm,
-    /// In the border, where nothing counts: a grey ring.
+    /// A mark in the border, where nothing counts: a grey ring.
     Uncounted,
 }
 
 impl MarkKind {
-    /// Red, green, blue.
+    /// Returns red, green and blue of the mark.
     pub const fn colour(self) -> [u8; 3] {
         match self {
             Self::Detection => [0xE6, 0x9F, 0x00],
@@ -50,32 +52,34 @@ impl MarkKind {
     }
 }
 
-/// A mark on an image; x, y and radius in px of that image, (0, 0) the centre of its top-left
-/// pixel.
+/// A mark on an image.
+///
+/// All lengths are in px of that image; (0, 0) is the centre of its top-left pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OverlayMark {
-    /// To the right.
+    /// Place of the mark, to the right.
     pub x: f64,
-    /// Downwards.
+    /// Place of the mark, downwards.
     pub y: f64,
-    /// Radius of the ring, half the length of a cross.
+    /// Radius of a ring, or half the length of a cross.
     pub radius: f64,
-    /// What it says.
+    /// Meaning of the mark, with its shape and colour.
     pub kind: MarkKind,
 }
 
-/// What is left of the light of a border where nothing counts.
+/// Share of the brightness that is left in a border where nothing counts.
 const BORDER_LIGHT: f64 = 0.5;
 
-/// As [`overlay`], with a border of `border` px darkened: there nothing counts.
+/// Draws an [`overlay`] with a border of `border` px darkened, where nothing counts.
 pub fn overlay_with_border(picture: &Plane, marks: &[OverlayMark], spacing: f64, border: f64) -> RgbImage {
     draw(picture, marks, spacing, border)
 }
 
-/// The image in grey, its contrast stretched from the 0.5th to the 99.5th percentile, with a mark
-/// on every place given. Enlarged by the whole number that sets cones of `spacing` px at least 16
-/// px apart, as long as no side exceeds 4096 px; never reduced. Marks that are not finite are left
-/// out.
+/// Draws the image in grey, with a mark on every place given.
+///
+/// The contrast is stretched from the 0.5th to the 99.5th percentile. The picture is enlarged by
+/// the whole number that sets cones of `spacing` px at least 16 px apart, as long as no side
+/// exceeds 4096 px; it is never reduced. Marks that are not finite are left out.
 pub fn overlay(picture: &Plane, marks: &[OverlayMark], spacing: f64) -> RgbImage {
     draw(picture, marks, spacing, 0.)
 }
@@ -124,10 +128,10 @@ fn blend(pixel: &mut Rgb<u8>, colour: [u8; 3], opacity: f64) {
     }
 }
 
-/// The picture as PNG, compressed for speed rather than size.
+/// Encodes the picture as PNG, compressed for speed rather than size.
 ///
 /// # Errors
-/// If it has no pixels.
+/// Returns [`ReportError::Png`] if the picture has no pixels.
 pub fn encode_png(picture: &RgbImage) -> Result<Vec<u8>, ReportError> {
     png(picture.as_raw(), picture.width(), picture.height(), ExtendedColorType::Rgb8)
 }
@@ -140,7 +144,7 @@ mod tests {
         OverlayMark { x, y, radius: 1.5, kind }
     }
 
-    /// Mean place of the pixels that are not grey, in px of the original.
+    /// Returns the mean place of the pixels that are not grey, in px of the original.
     fn coloured_centre(out: &RgbImage, factor: f64) -> (f64, f64) {
         let coloured: Vec<_> = out
             .enumerate_pixels()

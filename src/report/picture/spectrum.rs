@@ -1,12 +1,18 @@
+//! Pictures of power spectra: the plane of wave vectors, one pixel per wave vector.
+//!
+//! 1. Large planes are divided into square blocks about the middle one.
+//! 2. The power of a block is the mean over its wave vectors, except frequency 0.
+//! 3. Power becomes grey on a linear or a decibel scale.
+
 use super::grey::png;
 use crate::report::ReportError;
 use crate::stats::PowerSpectrum;
 use image::ExtendedColorType;
 
-/// Pictures with more pixels along a side are made smaller by whole factors.
+/// Number of pixels along a side above which pictures are reduced by a whole factor.
 const LARGEST: usize = 1024;
 
-/// How power becomes grey.
+/// The scale by which power becomes grey.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PowerScale {
     /// Black at 0, white at 3 times the power of independent points.
@@ -28,27 +34,28 @@ impl PowerScale {
 
 /// A picture of the plane of wave vectors.
 pub(in crate::report) struct Plane {
-    /// Grey, as PNG.
+    /// Grey picture, as PNG.
     pub png: Vec<u8>,
-    /// How far it reaches from its middle to its edges along x and y, in cycles per 1/√density.
+    /// Distance from the middle to the edges along x and y, in cycles per 1/√density.
     pub reach: [f64; 2],
 }
 
-/// Returns the plane of wave vectors as grey PNG: frequency 0 in the middle, and black; x to the
-/// right, y down, one pixel per wave vector. Of large planes a pixel is the mean of a square of
-/// them, so that no side has more than 1024.
+/// Returns the plane of wave vectors as grey PNG, frequency 0 in the middle and black.
+///
+/// x points to the right and y down, with one pixel per wave vector. In large planes a pixel is the
+/// mean of a square of them, so that no side has more than 1024.
 ///
 /// # Errors
-/// If the encoder refuses it.
+/// Returns [`ReportError::Png`] if the encoder refuses the picture.
 pub fn spectrum_plane(spectrum: &PowerSpectrum, scale: PowerScale) -> Result<Vec<u8>, ReportError> {
     plane(spectrum, scale).map(|plane| plane.png)
 }
 
-/// Returns the same, and how far it reaches.
+/// Returns the picture of [`spectrum_plane`] with the distances to its edges.
 pub(in crate::report) fn plane(spectrum: &PowerSpectrum, scale: PowerScale) -> Result<Plane, ReportError> {
     let [columns, rows] = spectrum.highest().map(|k| k as isize);
     let block = ((2 * columns.max(rows) + 1) as usize).div_ceil(LARGEST) as isize;
-    // blocks lie symmetrically about the middle one
+    // Blocks lie symmetrically about the middle one.
     let half = |highest: isize| (2 * highest + 1 - block).max(0) / (2 * block);
     let (half_width, half_height) = (half(columns), half(rows));
     let side = (block - 1) / 2;

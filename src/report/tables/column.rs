@@ -1,7 +1,8 @@
 use crate::report::Cell;
 
-/// Says what one row of a table is made from. The type may borrow: `Of<'a>` is that type with its
-/// lifetime, so that tables can be statics.
+/// The source of one row of a table.
+///
+/// The type may borrow: `Of<'a>` is the type with its lifetime, so that tables can be statics.
 pub trait Row {
     /// A row that lives for `'a`.
     type Of<'a>;
@@ -10,21 +11,21 @@ pub trait Row {
 /// Treatment of points whose neighbours may lie beyond the border.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EdgeRule {
-    /// The border does not matter.
+    /// No treatment, because the border does not matter.
     NotAffected,
-    /// Nothing: all points count.
+    /// No treatment: all points count.
     All,
-    /// Only points at least as far from the border as from their nearest neighbour.
+    /// Restriction to points at least as far from the border as from their nearest neighbour.
     Interior,
-    /// Only points whose Voronoi cell is finite and has every vertex strictly inside the window
-    /// (Cooper et al. 2016, <https://doi.org/10.1167/iovs.16-19072>).
+    /// Restriction to points whose Voronoi cell is finite and has every vertex strictly inside the
+    /// window (Cooper et al. 2016, <https://doi.org/10.1167/iovs.16-19072>).
     Bound,
-    /// One of the column's own, which the definition names.
+    /// A rule of the column's own, which its definition names.
     Own,
 }
 
 impl EdgeRule {
-    /// Returns the rule in a word.
+    /// Returns the name of the rule, as the data dictionary shows it.
     pub const fn name(self) -> &'static str {
         match self {
             Self::NotAffected => "–",
@@ -36,28 +37,28 @@ impl EdgeRule {
     }
 }
 
-/// Columns that only some files of a kind have.
+/// A set of columns that only some files of a kind have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// Files whose scale is known.
+    /// Columns of files whose scale is known.
     Scaled,
-    /// Files of mosaics whose density varies across the window.
+    /// Columns of files of mosaics whose density varies across the window.
     Varying,
-    /// Files that compare two detectors or graders.
+    /// Columns of files that compare two detectors or graders.
     Versus,
-    /// Summaries of images (`run`).
+    /// Columns of summaries of images (`run`).
     Images,
-    /// Summaries of coordinates (`measure`).
+    /// Columns of summaries of coordinates (`measure`).
     Coordinates,
 }
 
-/// The way from a row to a cell.
+/// The function that makes a cell from a row.
 pub enum Value<R: Row> {
-    /// One column.
+    /// The value of a single column.
     One(for<'a, 'b> fn(&'b R::Of<'a>) -> Cell),
-    /// One column per sampler; the second argument is the sampler's name.
+    /// The value of one column per sampler; the second argument is the sampler's name.
     PerSampler(for<'a, 'b, 'c> fn(&'b R::Of<'a>, &'c str) -> Cell),
-    /// One column, looked up by its own name among named series.
+    /// The value of a single column, looked up by the column's own name among named series.
     Named(for<'a, 'b, 'c> fn(&'b R::Of<'a>, &'c str) -> Cell),
 }
 
@@ -69,32 +70,39 @@ impl<R: Row> Clone for Value<R> {
 
 impl<R: Row> Copy for Value<R> {}
 
-/// A column without its value: its name and what it means.
+/// A column without its value: name, unit and meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ColumnWords {
-    /// Name in the header; `SAMPLER` stands for that of each sampler.
+    /// Name in the header; `SAMPLER` stands for the name of each sampler.
     pub name: &'static str,
-    /// Unit of the value; “unit” is that of the coordinates.
+    /// Unit of the value; “unit” is the unit of the coordinates.
     pub unit: &'static str,
-    /// Edge rule.
+    /// Edge rule of the value.
     pub edge: EdgeRule,
-    /// Definition of the value, and when there is none.
+    /// Definition of the value, with the cases in which it is missing.
     pub definition: &'static str,
-    /// Author and year of the definition; empty where it needs none.
+    /// Author and year of the definition; empty where none is needed.
     pub source: &'static str,
-    /// The only files that have it; `None`: all.
+    /// Part to which the column belongs; `None` if all files have the column.
     pub part: Option<Part>,
 }
 
-/// A column of a table: what it means, and its value. Header, data dictionary and cells all come from here.
+/// A column of a table: what it means, and its value.
+///
+/// Header, data dictionary and cells are all made from it.
 pub struct Column<R: Row> {
-    /// Name and meaning.
+    /// Name and meaning of the column.
     pub words: ColumnWords,
-    /// The way from a row to its cell.
+    /// Function that makes the cell from a row.
     pub value: Value<R>,
 }
 
-/// Begins a column: `column("nn_mean", "unit", "Mean distance.").edge(All).of(|row| row.mean.into())`.
+/// Begins the description of a column, for example:
+///
+/// `column("nn_mean", "unit", "Mean distance.").edge(All).of(|row| row.mean.into())`
+///
+/// Unless set, the edge rule is [`EdgeRule::NotAffected`], there is no source, and all files have
+/// the column.
 pub const fn column(name: &'static str, unit: &'static str, definition: &'static str) -> ColumnWords {
     ColumnWords { name, unit, edge: EdgeRule::NotAffected, definition, source: "", part: None }
 }
@@ -106,25 +114,26 @@ impl ColumnWords {
         Self { edge, ..self }
     }
 
-    /// Sets who defined it.
+    /// Sets the source: author and year of the definition.
     #[must_use]
     pub const fn source(self, source: &'static str) -> Self {
         Self { source, ..self }
     }
 
-    /// Sets which files alone have it.
+    /// Restricts the column to files that have this part.
     #[must_use]
     pub const fn only(self, part: Part) -> Self {
         Self { part: Some(part), ..self }
     }
 
-    /// Completes a column of one value per row.
+    /// Completes a column with one value per row.
     pub const fn of<R: Row>(self, value: for<'a, 'b> fn(&'b R::Of<'a>) -> Cell) -> Column<R> {
         Column { words: self, value: Value::One(value) }
     }
 
-    /// Completes a column that is repeated for each sampler, whose name stands where this one says
-    /// `SAMPLER`.
+    /// Completes a column that is repeated for each sampler.
+    ///
+    /// The sampler's name replaces `SAMPLER` in the name of the column.
     pub const fn per_sampler<R: Row>(
         self,
         value: for<'a, 'b, 'c> fn(&'b R::Of<'a>, &'c str) -> Cell,
@@ -132,7 +141,7 @@ impl ColumnWords {
         Column { words: self, value: Value::PerSampler(value) }
     }
 
-    /// Completes a column whose value is found by the column's own name.
+    /// Completes a column whose value is looked up by the column's own name.
     pub const fn by_name<R: Row>(
         self,
         value: for<'a, 'b, 'c> fn(&'b R::Of<'a>, &'c str) -> Cell,
@@ -142,8 +151,9 @@ impl ColumnWords {
 }
 
 impl<R: Row> Column<R> {
-    /// Returns the name that the column has for a sampler: hyphens of the sampler become underscores,
-    /// unless its name is all of the column's.
+    /// Returns the name of the column for a sampler.
+    ///
+    /// Hyphens of the sampler become underscores, unless the whole name is `SAMPLER`.
     pub(in crate::report) fn name_for(&self, sampler: &str) -> String {
         match self.words.name {
             "SAMPLER" => sampler.to_owned(),
@@ -151,7 +161,7 @@ impl<R: Row> Column<R> {
         }
     }
 
-    /// Returns the cell of a row; `sampler` counts for repeated columns only.
+    /// Returns the cell of a row; `sampler` matters for repeated columns only.
     pub(in crate::report) fn cell(&self, row: &R::Of<'_>, sampler: &str) -> Cell {
         match self.value {
             Value::One(of) => of(row),

@@ -4,7 +4,7 @@ use crate::compare::{ReferenceCurve, SamplerVerdict};
 use crate::report::ReportError;
 use crate::stats::{Inhomogeneous, Measures, Pcf};
 
-/// A distance at which pair correlation functions are given.
+/// One distance at which pair correlation functions are given.
 #[derive(Clone, Copy, Debug)]
 pub struct PcfRow<'a> {
     index: usize,
@@ -28,33 +28,33 @@ impl<'a> PcfRow<'a> {
     }
 }
 
-/// Pair correlation functions.
+/// The table of pair correlation functions.
 pub static PCF: Table<PcfRow> = Table {
     file: "NAME.pcf.csv",
     commands: "measure, compare, run (images/NAME/pcf.csv)",
-    about: "One row per distance; no rows where the function is not defined. Edge rule as chosen, \
-            by default division by the set covariance of the window (Lanaro et al. \
-            2020).",
+    about: "One row per distance; there are no rows if the function is not defined. The edge rule \
+            is the one chosen; by default g is divided by the set covariance of the window (Lanaro \
+            et al. 2020).",
     columns: &[
         column(
             "r",
             "spacings",
-            "Left edge of the bin, at which g is taken, in hexagonal spacings of the mosaic's \
-                density.",
+            "Left edge of the bin, in hexagonal spacings of the mosaic's density; g is taken there.",
         )
         .of(|p| p.pcf.r.get(p.index).copied().into()),
         column(
             "g",
             "ratio",
-            "Pair correlation function: pairs at this distance over those of independent points.",
+            "Pair correlation function: number of pairs at this distance over the number expected \
+             of independent points.",
         )
         .edge(Own)
         .of(|p| p.pcf.g.get(p.index).copied().into()),
         column(
             "g_inhomogeneous",
             "ratio",
-            "Pair correlation function for a density that varies, only where the trend is \
-                significant.",
+            "Pair correlation function for a density that varies across the window; given only if \
+             the trend is significant.",
         )
         .edge(Own)
         .source("Baddeley et al. 2000")
@@ -63,8 +63,8 @@ pub static PCF: Table<PcfRow> = Table {
         column(
             "g_locally_scaled",
             "ratio",
-            "Pair correlation function of distances in local spacings, only where the trend is \
-                significant.",
+            "Pair correlation function of distances in local spacings; given only if the trend is \
+             significant.",
         )
         .edge(Own)
         .source("Hahn et al. 2003")
@@ -73,8 +73,7 @@ pub static PCF: Table<PcfRow> = Table {
         column(
             "k_inhomogeneous",
             "spacings²",
-            "K for a density that varies, only where the trend is \
-                significant.",
+            "K function for a density that varies across the window; given only if the trend is significant.",
         )
         .edge(Own)
         .source("Baddeley et al. 2000")
@@ -83,19 +82,21 @@ pub static PCF: Table<PcfRow> = Table {
         column(
             "g_SAMPLER",
             "ratio",
-            "Mean g of samples of as many points in the same window; one column per sampler \
-                compared with.",
+            "Mean g of samples with about as many points in a window of about the same shape; one column \
+                per sampler compared with.",
         )
         .edge(Own)
         .per_sampler(|p, sampler| p.of_sampler(sampler).into()),
     ],
 };
 
-/// Returns `NAME.pcf.csv` of a mosaic beside the mean curves of samplers; without rows where the function
-/// is not defined.
+/// Returns `NAME.pcf.csv`: the pair correlation function of a mosaic beside the mean ones of
+/// samplers.
+///
+/// There are no rows if the function is not defined.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn pcf_csv(measures: &Measures, curves: &[ReferenceCurve]) -> Result<Vec<u8>, ReportError> {
     let samplers: Vec<String> = curves.iter().map(|c| c.sampler.clone()).collect();
     let varying = measures.inhomogeneous.as_ref();
@@ -107,7 +108,7 @@ pub fn pcf_csv(measures: &Measures, curves: &[ReferenceCurve]) -> Result<Vec<u8>
     PCF.csv_as(&Layout { samplers: &samplers, parts: parts.as_slice() }, rows)
 }
 
-/// A distance at which a mosaic's pair correlation function and envelopes are given.
+/// One distance at which a mosaic's pair correlation function and its envelopes are given.
 #[derive(Clone, Copy, Debug)]
 pub struct EnvelopeRow<'a> {
     index: usize,
@@ -126,7 +127,7 @@ impl EnvelopeRow<'_> {
     }
 }
 
-/// Global envelopes of the pair correlation function.
+/// The table of global envelopes of the pair correlation function.
 pub static ENVELOPE: Table<EnvelopeRow> = Table {
     file: "NAME.envelope.csv",
     commands: "compare, run --verdict (images/NAME/envelope.csv)",
@@ -135,14 +136,13 @@ pub static ENVELOPE: Table<EnvelopeRow> = Table {
         column(
             "r",
             "spacings",
-            "Left edge of the bin, at which g is taken, in hexagonal spacings of the mosaic's \
-                density.",
+            "Left edge of the bin, in hexagonal spacings of the mosaic's density; g is taken there.",
         )
         .of(|e| e.pcf.r.get(e.index).copied().into()),
         column("g", "ratio", "Pair correlation function of the mosaic.")
             .edge(Own)
             .of(|e| e.pcf.g.get(e.index).copied().into()),
-        column("mean_SAMPLER", "ratio", "Mean of the simulations.")
+        column("mean_SAMPLER", "ratio", "Mean g of the simulations.")
             .edge(Own)
             .per_sampler(|e, sampler| e.of_sampler(sampler, |v| &v.envelope.mean).into()),
         column("low_SAMPLER", "ratio", "Lower edge of the global envelope.")
@@ -154,10 +154,10 @@ pub static ENVELOPE: Table<EnvelopeRow> = Table {
     ],
 };
 
-/// Returns `NAME.envelope.csv` of a mosaic; without rows where its function is not defined.
+/// Returns `NAME.envelope.csv` of a mosaic; there are no rows if its function is not defined.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn envelope_csv(measures: &Measures, verdicts: &[SamplerVerdict]) -> Result<Vec<u8>, ReportError> {
     let samplers: Vec<String> = verdicts.iter().map(|v| v.sampler.clone()).collect();
     let rows = measures

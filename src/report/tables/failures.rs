@@ -1,12 +1,12 @@
 use super::{Row, Table, column};
 use serde::Serialize;
 
-/// A file that could not be worked on.
+/// A file that could not be processed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Failure {
-    /// Path as given.
+    /// Path of the file, as given.
     pub file: String,
-    /// The reason, in one line.
+    /// Reason of the failure, in one line.
     pub reason: String,
 }
 
@@ -14,13 +14,14 @@ impl Row for Failure {
     type Of<'a> = &'a Self;
 }
 
-/// Files without results.
+/// The table of files without results.
 pub static FAILURES: Table<Failure> = Table {
     file: "failures.csv",
-    commands: "all that take several files",
-    about: "One row per file that failed; there is no such table if none did.",
+    commands: "all commands that take several files",
+    about: "One row per file that failed; the table is not written if none did.",
     columns: &[
-        column("file", "text", "The file, as given.").of(|f| f.file.as_str().into()),
-        column("reason", "text", "Why, and what helps.").of(|f| f.reason.as_str().into()),
+        column("file", "text", "Path of the file, as given.").of(|f| f.file.as_str().into()),
+        column("reason", "text", "Reason of the failure, and what to do about it.")
+            .of(|f| f.reason.as_str().into()),
     ],
 };

@@ -3,7 +3,7 @@ use super::{Row, Table, column};
 use crate::report::ReportError;
 use crate::stats::{DensityRecovery, Functions, PowerSpectrum};
 
-/// A distance at which functions are given, each by its name.
+/// One distance at which functions are given, each under its name.
 #[derive(Clone, Copy, Debug)]
 pub struct FunctionsRow<'a> {
     index: usize,
@@ -21,16 +21,18 @@ impl FunctionsRow<'_> {
     }
 }
 
-/// Functions of distance by spatstat's names.
+/// The table of functions of distance, under spatstat's names.
 pub static FUNCTIONS: Table<FunctionsRow> = Table {
     file: "NAME.functions.csv",
     commands: "measure --functions",
-    about: "One row per distance. Edge rules in the names, as in spatstat (Baddeley, Rubak & \
-            Turner 2015): none: nothing is done; rs or border: reduced sample (points at least r \
-            from the border); km: Kaplan–Meier; han: Hanisch; trans: translation; iso: isotropic; \
-            theo: independent points. A cell is empty where the function is not defined.",
+    about: "One row per distance. The names of the columns tell the edge rule, as in spatstat \
+            (Baddeley, Rubak & Turner 2015): none: no correction; rs or border: reduced sample \
+            (only points at least r from the border); km: Kaplan–Meier; han: Hanisch; trans: \
+            translation; iso: isotropic; theo: value for independent points. A cell is empty where \
+            the function is not defined.",
     columns: &[
-        column("r", "unit", "Distance.").by_name(|f, name| f.get(name).into()),
+        column("r", "unit", "Distance at which the functions are given.")
+            .by_name(|f, name| f.get(name).into()),
         column("G_none", "0–1", "Share of points whose nearest neighbour is at most r away.")
             .edge(All)
             .by_name(|f, name| f.get(name).into()),
@@ -42,9 +44,14 @@ pub static FUNCTIONS: Table<FunctionsRow> = Table {
             .by_name(|f, name| f.get(name).into()),
         column("G_han", "0–1", "G_none by the Hanisch rule.").edge(Own).by_name(|f, name| f.get(name).into()),
         column("G_theo", "0–1", "1 − exp(−π r² density).").by_name(|f, name| f.get(name).into()),
-        column("F_none", "0–1", "Share of the window (128 × 128 places) that is at most r from a point.")
-            .edge(All)
-            .by_name(|f, name| f.get(name).into()),
+        column(
+            "F_none",
+            "0–1",
+            "Share of the window (of 128 × 128 places) that is at most r away \
+                                 from a point.",
+        )
+        .edge(All)
+        .by_name(|f, name| f.get(name).into()),
         column("F_rs", "0–1", "F_none by the reduced sample rule.")
             .edge(Own)
             .by_name(|f, name| f.get(name).into()),
@@ -73,7 +80,7 @@ pub static FUNCTIONS: Table<FunctionsRow> = Table {
         column(
             "K_none",
             "unit²",
-            "Mean number of further points within r of a point, over density (Ripley 1976).",
+            "Mean number of further points within r of a point, divided by the density (Ripley 1976).",
         )
         .edge(All)
         .by_name(|f, name| f.get(name).into()),
@@ -100,8 +107,8 @@ pub static FUNCTIONS: Table<FunctionsRow> = Table {
         column(
             "pcf_trans_divr",
             "ratio",
-            "Pair correlation by an Epanechnikov kernel of half-width .15/√density, divided by 2πr \
-                (pcf.ppp of spatstat).",
+            "Pair correlation function by an Epanechnikov kernel of half-width 0.15/√density, \
+             divided by 2πr (pcf.ppp of spatstat), with the translation rule.",
         )
         .edge(Own)
         .by_name(|f, name| f.get(name).into()),
@@ -111,7 +118,7 @@ pub static FUNCTIONS: Table<FunctionsRow> = Table {
         column(
             "pcf_trans_divd",
             "ratio",
-            "pcf_trans_divr with each pair divided by its own distance (Guan 2007).",
+            "pcf_trans_divr, but with each pair divided by its own distance (Guan 2007).",
         )
         .edge(Own)
         .by_name(|f, name| f.get(name).into()),
@@ -121,16 +128,16 @@ pub static FUNCTIONS: Table<FunctionsRow> = Table {
     ],
 };
 
-/// Returns `NAME.functions.csv`.
+/// Returns `NAME.functions.csv` of a mosaic.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn functions_csv(functions: &Functions) -> Result<Vec<u8>, ReportError> {
     let series = functions.columns();
     FUNCTIONS.csv((0..functions.r.len()).map(|index| FunctionsRow { index, series: &series }))
 }
 
-/// An annulus about the average point.
+/// An annulus around the average point.
 #[derive(Clone, Copy, Debug)]
 pub struct AnnulusRow {
     r: f64,
@@ -142,25 +149,28 @@ impl Row for AnnulusRow {
     type Of<'a> = Self;
 }
 
-/// Density around the average point.
+/// The table of the density around the average point.
 pub static DENSITY_RECOVERY: Table<AnnulusRow> = Table {
     file: "NAME.density_recovery.csv",
     commands: "measure --functions",
-    about: "One row per annulus about the average point (Rodieck 1991); no rows for fewer than two \
-            points. What the annuli cover beyond the window is made up for.",
+    about: "One row per annulus around the average point (Rodieck 1991); there are no rows for \
+            fewer than two points. The density is corrected for the part of the annuli that lies \
+            outside the window.",
     columns: &[
-        column("r", "unit", "Middle of the annulus.").of(|a| a.r.into()),
-        column("density", "1/unit²", "Points per area in the annulus.").edge(Own).of(|a| a.density.into()),
-        column("relative_density", "ratio", "That over the mean density.")
+        column("r", "unit", "Radius of the middle of the annulus.").of(|a| a.r.into()),
+        column("density", "1/unit²", "Number of points per area in the annulus.")
+            .edge(Own)
+            .of(|a| a.density.into()),
+        column("relative_density", "ratio", "density over the mean density.")
             .edge(Own)
             .of(|a| (a.density / a.mean_density).into()),
     ],
 };
 
-/// Returns `NAME.density_recovery.csv`; without rows where there is no profile.
+/// Returns `NAME.density_recovery.csv`; there are no rows without a profile.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn density_recovery_csv(profile: Option<&DensityRecovery>) -> Result<Vec<u8>, ReportError> {
     let rows = profile.into_iter().flat_map(|p| {
         let annulus = |(&r, &density)| AnnulusRow { r, density, mean_density: p.mean_density };
@@ -169,7 +179,7 @@ pub fn density_recovery_csv(profile: Option<&DensityRecovery>) -> Result<Vec<u8>
     DENSITY_RECOVERY.csv(rows)
 }
 
-/// A ring of frequencies.
+/// A ring of frequencies in a power spectrum.
 #[derive(Clone, Copy, Debug)]
 pub struct FrequencyRow<'a> {
     index: usize,
@@ -180,25 +190,30 @@ impl Row for FrequencyRow<'static> {
     type Of<'a> = FrequencyRow<'a>;
 }
 
-/// Power spectrum of points.
+/// The table of the radial power spectrum of the points.
 pub static SPECTRUM: Table<FrequencyRow> = Table {
     file: "NAME.spectrum.csv",
     commands: "measure --spectrum",
     about: "One row per ring of frequencies (Ulichney 1987; Lanaro et al. 2020).",
     columns: &[
-        column("frequency", "√density", "Middle of the ring, in cycles per 1/√density.")
+        column("frequency", "√density", "Frequency of the middle of the ring, in cycles per 1/√density.")
             .of(|f| f.spectrum.frequency.get(f.index).copied().into()),
-        column("power", "ratio", "Mean power: 1 for independent points.")
+        column("power", "ratio", "Mean power in the ring: 1 for independent points.")
             .of(|f| f.spectrum.power.get(f.index).copied().into()),
-        column("anisotropy_db", "dB", "Variance of the power over its squared mean: 0 without direction.")
-            .of(|f| f.spectrum.anisotropy_db.get(f.index).copied().into()),
+        column(
+            "anisotropy_db",
+            "dB",
+            "Variance of the power in the ring over its squared mean, in \
+                                       decibels: about 0 for a pattern without preferred direction.",
+        )
+        .of(|f| f.spectrum.anisotropy_db.get(f.index).copied().into()),
     ],
 };
 
-/// Returns `NAME.spectrum.csv`.
+/// Returns `NAME.spectrum.csv` of a mosaic.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn spectrum_csv(spectrum: &PowerSpectrum) -> Result<Vec<u8>, ReportError> {
     SPECTRUM.csv((0..spectrum.power.len()).map(|index| FrequencyRow { index, spectrum }))
 }

@@ -4,16 +4,16 @@ use crate::report::{ReportError, Subject, Summary};
 use crate::stats::{Deviation, Moments, moments};
 use std::collections::BTreeMap;
 
-/// An image or file in a group.
+/// An image or file of coordinates that belongs to a group.
 #[derive(Clone, Copy)]
 pub struct GroupMember<'a> {
-    /// The record of its mosaic.
+    /// Record of the member's mosaic.
     pub record: Subject<'a>,
-    /// The person it is of, if known.
+    /// Person of whom the image is, if known.
     pub person: Option<&'a str>,
 }
 
-/// A column of the summary over the images of a group.
+/// One column of the summary over the images of one group.
 #[derive(Clone, Debug)]
 pub struct GroupRow<'a> {
     group: &'a str,
@@ -28,39 +28,56 @@ impl Row for GroupRow<'static> {
     type Of<'a> = GroupRow<'a>;
 }
 
-/// Means by group.
+/// The table of means by group.
 pub static GROUPS: Table<GroupRow> = Table {
     file: "groups.csv",
     commands: "measure --group-by, run --group-by",
-    about: "One row per group and column of summary.csv. In mean and sd every image counts once. Images of \
-            one subject are not independent: standard error and interval are those of the mean over \
-            subjects, each with the mean of its images, where the manifest has a column subject; without \
-            one, every image counts as a subject of its own.",
+    about: "One row per group and column of summary.csv. In mean and sd every image counts once. \
+            Since images of one subject are not independent, the standard error and the interval \
+            are those of the mean over subjects, where each subject counts with the mean of its \
+            images. They need a column “subject” in the manifest; without one, every image counts \
+            as a subject of its own.",
     columns: &[
-        column("group", "text", "The group; the values of several columns of the manifest by commas.")
-            .of(|g| g.group.into()),
-        column("images", "count", "Images (files) of the group.").of(|g| g.images.into()),
-        column("column", "text", "The column of summary.csv.").of(|g| g.column.as_str().into()),
+        column(
+            "group",
+            "text",
+            "Name of the group; if the manifest is grouped by several columns, \
+                                 their values separated by commas.",
+        )
+        .of(|g| g.group.into()),
+        column("images", "count", "Number of images (or files) in the group.").of(|g| g.images.into()),
+        column("column", "text", "Name of the column of summary.csv.").of(|g| g.column.as_str().into()),
         column("unit", "text", "Unit of that column.").of(|g| g.unit.into()),
-        column("n", "count", "Images of the group that have a value there.").of(|g| g.over_images.n.into()),
-        column("mean", "column “unit”", "Mean of these.").of(|g| g.over_images.mean.into()),
-        column("sd", "column “unit”", "Standard deviation (n − 1) of these; empty for fewer than two.")
-            .of(|g| g.over_images.sd.into()),
-        column("subjects", "count", "Subjects whose images these are; empty if the manifest does not say.")
-            .of(|g| g.over_subjects.subjects.into()),
+        column("n", "count", "Number of images of the group that have a value in that column.")
+            .of(|g| g.over_images.n.into()),
+        column("mean", "column “unit”", "Mean of these values.").of(|g| g.over_images.mean.into()),
+        column(
+            "sd",
+            "column “unit”",
+            "Standard deviation (n − 1) of these values; empty for fewer than two.",
+        )
+        .of(|g| g.over_images.sd.into()),
+        column(
+            "subjects",
+            "count",
+            "Number of subjects whose images these are; empty if the \
+                                     manifest does not tell.",
+        )
+        .of(|g| g.over_subjects.subjects.into()),
         column("mean_of_subjects", "column “unit”", "Mean of the subjects' means.")
             .of(|g| g.over_subjects.mean.into()),
         column(
             "se",
             "column “unit”",
-            "Standard error of mean_of_subjects: standard deviation (n − 1) of the subjects' means over \
-                √subjects; empty for fewer than two subjects.",
+            "Standard error of mean_of_subjects: standard deviation (n − 1) of the subjects' means \
+             over √subjects; empty for fewer than two subjects.",
         )
         .of(|g| g.over_subjects.standard_error.into()),
         column(
             "mean_low",
             "column “unit”",
-            "Lower end of the 95 % interval of mean_of_subjects (t, subjects − 1 degrees of freedom).",
+            "Lower end of the 95 % confidence interval of mean_of_subjects (t distribution, \
+             subjects − 1 degrees of freedom).",
         )
         .of(|g| g.over_subjects.interval.map(|i| i[0]).into()),
         column("mean_high", "column “unit”", "Upper end of that interval.")
@@ -68,10 +85,10 @@ pub static GROUPS: Table<GroupRow> = Table {
     ],
 };
 
-/// Returns `groups.csv`: every column of numbers of a summary over the members of each group.
+/// Returns `groups.csv`: every numeric column of a summary over the members of each group.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn groups_csv(
     summary: &Summary,
     groups: &BTreeMap<String, Vec<GroupMember>>,

@@ -1,7 +1,8 @@
-//! Every table that is written as CSV beside `summary.csv`: its columns, and for each of them name, unit,
-//! edge rule, definition, source and value. Header, rows and the data dictionary come from one list.
+//! Tables that are written as CSV beside `summary.csv`.
 //!
-//! A new column is one [`column()`] in the list of its table.
+//! A table is a list of columns; each has a name, a unit, an edge rule, a definition, a source and
+//! a value. Header, rows and the data dictionary are all made from that list, so that a new column
+//! is one [`column()`] in the list of its table.
 //!
 //! # Examples
 //! ```
@@ -9,9 +10,7 @@
 //! use conemosaic::report::tables::FAILURES;
 //!
 //! let failure = Failure { file: "a.png".into(), reason: "it is empty".into() };
-//! assert_eq!(FAILURES.csv([&failure])?, b"file,reason
-//! a.png,it is empty
-//! ");
+//! assert_eq!(FAILURES.csv([&failure])?, b"file,reason\na.png,it is empty\n");
 //! # Ok::<(), conemosaic::report::ReportError>(())
 //! ```
 
@@ -59,7 +58,7 @@ pub use validation::{
     validation_csv,
 };
 
-/// The tables, in the order in which a user meets them.
+/// All tables, in the order in which a user meets them.
 pub static TABLES: [&dyn Described; 32] = [
     &DETECTIONS,
     &PCF,

@@ -20,28 +20,35 @@ impl Row for DetectedCone {
     type Of<'a> = Self;
 }
 
-/// Columns of detected cones. The files are written as coordinates, by
-/// [`write_points`](crate::mosaic::io::write_points), to which a test holds this.
+/// The table of detected cones.
+///
+/// These files are written as coordinates, by [`write_points`](crate::mosaic::io::write_points); a
+/// test holds that function to these columns.
 pub static DETECTIONS: Table<DetectedCone> = Table {
     file: "points.csv",
     commands: "run (images/NAME/points.csv), detect (NAME.csv; NAME.rejected.csv: candidates that \
         were rejected)",
-    about: "One row per cone, the best score first.",
+    about: "One row per cone, in falling order of the score.",
     columns: &[
-        column("x_px", "px", "To the right from the centre of the first pixel.").of(|d| d.centre.x.into()),
-        column("y_px", "px", "Down from the centre of the first pixel.").of(|d| d.centre.y.into()),
-        column("score", "0–1", "Probability that a person would mark it (cross-validated calibration).")
-            .of(|d| d.score.into()),
-        column("x_um", "µm", "x_px in µm of retina; without a scale there is no such column.")
+        column("x_px", "px", "Distance to the right of the centre of the top-left pixel.")
+            .of(|d| d.centre.x.into()),
+        column("y_px", "px", "Distance below the centre of the top-left pixel.").of(|d| d.centre.y.into()),
+        column(
+            "score",
+            "0–1",
+            "Probability that a person would mark the cone (cross-validated calibration).",
+        )
+        .of(|d| d.score.into()),
+        column("x_um", "µm", "x_px in µm of retina; the column is missing without a scale.")
             .only(Part::Scaled)
             .of(|d| d.um_per_px.map(|um| d.centre.x * um).into()),
-        column("y_um", "µm", "y_px in µm of retina; without a scale there is no such column.")
+        column("y_um", "µm", "y_px in µm of retina; the column is missing without a scale.")
             .only(Part::Scaled)
             .of(|d| d.um_per_px.map(|um| d.centre.y * um).into()),
     ],
 };
 
-/// A point of a mosaic, by its index.
+/// One point of a mosaic, by its index.
 #[derive(Clone, Copy, Debug)]
 pub struct PointRow<'a> {
     index: usize,
@@ -61,34 +68,46 @@ impl PointRow<'_> {
     }
 }
 
-/// Neighbours and Voronoi cell of every point of a mosaic.
+/// The table of the neighbours and the Voronoi cell of every point of a mosaic.
 pub static POINTS: Table<PointRow> = Table {
     file: "NAME.points.csv",
     commands: "measure --functions",
-    about: "One row per point of the window, in the order of the file. A cell is empty where it is \
-            not defined: no neighbour, an infinite Voronoi cell, a point that coincides with an \
-            earlier one.",
+    about: "One row per point in the window, in the order of the file. A cell is empty where the \
+            value is not defined: without a neighbour, for an infinite Voronoi cell, or for a point \
+            that coincides with an earlier one.",
     columns: &[
         column("x", "unit", "x of the point.").of(|p| p.point.x.into()),
         column("y", "unit", "y of the point.").of(|p| p.point.y.into()),
         column("nndist", "unit", "Distance to the nearest neighbour.")
             .edge(All)
             .of(|p| p.of(&p.measures.neighbours.distances).into()),
-        column("nnwhich", "row", "The nearest neighbour, rows counted from 1.")
+        column("nnwhich", "row", "Row of the nearest neighbour, counted from 1.")
             .edge(All)
             .of(|p| p.of(&p.measures.neighbours.indices).map(|j| j + 1).into()),
-        column("bdist", "unit", "Distance to the border of the window; infinite on a torus.")
-            .of(|p| p.of(&p.measures.borders).into()),
+        column(
+            "bdist",
+            "unit",
+            "Distance to the border of the window; empty on a torus, which has \
+                                 no border.",
+        )
+        .of(|p| p.of(&p.measures.borders).into()),
         column("dirichlet_area", "unit²", "Area of the Voronoi cell within the window.")
             .of(|p| p.cell.clipped_area.into()),
         column("cell_area", "unit²", "Area of the whole Voronoi cell; empty where it is infinite.")
             .edge(All)
             .of(|p| p.cell.area.into()),
-        column("sides", "count", "Sides of the Voronoi cell.").edge(All).of(|p| p.cell.sides.into()),
-        column("bound", "0 or 1", "1 where the cell is finite with every vertex strictly inside the window.")
-            .source("Cooper et al. 2016")
-            .of(|p| usize::from(p.cell.bound).into()),
-        column("icd", "unit", "Mean distance to the Delaunay neighbours.")
+        column("sides", "count", "Number of sides of the Voronoi cell.")
+            .edge(All)
+            .of(|p| p.cell.sides.into()),
+        column(
+            "bound",
+            "0 or 1",
+            "1 if the Voronoi cell is finite and has every vertex strictly \
+                                   inside the window.",
+        )
+        .source("Cooper et al. 2016")
+        .of(|p| usize::from(p.cell.bound).into()),
+        column("icd", "unit", "Inter-cell distance: mean distance to the Delaunay neighbours.")
             .edge(All)
             .of(|p| p.cell.inter_cell.into()),
         column("furthest", "unit", "Distance to the furthest Delaunay neighbour.")
@@ -97,23 +116,22 @@ pub static POINTS: Table<PointRow> = Table {
         column(
             "psi6",
             "0–1",
-            "|ψ6|, modulus of the mean of exp(6iθ) over Delaunay neighbours: 1 in a triangular \
-                lattice.",
+            "Modulus of ψ6, the mean of exp(6iθ) over the Delaunay neighbours: 1 in a triangular lattice.",
         )
         .edge(All)
         .of(|p| p.cell.psi6.map(|[re, im]| re.hypot(im)).into()),
         column(
             "nn_direction_deg",
             "degrees",
-            "Direction of the nearest neighbour as an axis, 0–180°, counter-clockwise from the \
-                right as one sees the picture.",
+            "Direction of the axis to the nearest neighbour, 0–180°, counter-clockwise from the \
+             right as seen in the picture.",
         )
         .edge(All)
         .of(|p| p.of(&p.measures.orientation.nearest.degrees).flatten().into()),
         column(
             "hexagon_direction_deg",
             "degrees",
-            "Direction of the hexagon of neighbours, 0–60° likewise: phase of ψ6 over 6.",
+            "Direction of the hexagon of neighbours, 0–60°, counter-clockwise likewise: phase of ψ6 over 6.",
         )
         .edge(Bound)
         .of(|p| p.of(&p.measures.orientation.hexagons).flatten().into()),
@@ -123,7 +141,7 @@ pub static POINTS: Table<PointRow> = Table {
 /// Returns `NAME.points.csv` of a mosaic.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn points_csv(mosaic: &Mosaic, measures: &Measures) -> Result<Vec<u8>, ReportError> {
     let cells = mosaic.points().iter().zip(&measures.cells.cells).enumerate();
     POINTS.csv(cells.map(|(index, (&point, &cell))| PointRow { index, point, cell, measures }))

@@ -6,15 +6,15 @@ use serde::{Deserialize, Serialize};
 /// A region of interest of a mosaic.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct RoiRow {
-    /// The file of the mosaic, as given.
+    /// Path of the mosaic's file, as given.
     pub file: String,
     /// Name of the region.
     pub roi: String,
-    /// The box, after it has grown.
+    /// Box of the region, after growing to hold enough bound cells.
     pub frame: Rectangle,
-    /// Remarks: `edge`, `few`, `outside`, or several.
+    /// Remarks on the region: `edge`, `few`, `outside`, or several.
     pub flag: String,
-    /// The points in it as a mosaic of their own; `None` outside the window.
+    /// Record of the points in the region as a mosaic of their own; `None` outside the window.
     pub record: Option<CoordinatesRecord>,
 }
 
@@ -22,34 +22,35 @@ impl Row for RoiRow {
     type Of<'a> = &'a Self;
 }
 
-/// Regions of interest; the columns of a summary follow behind.
+/// The table of regions of interest; the columns of a summary follow its own.
 pub static ROIS: Table<RoiRow> = Table {
     file: "rois.csv",
     commands: "measure --rois, measure --roi-side",
-    about: "One row per region, measured as a mosaic of its own: behind these columns come those of \
-            summary.csv for the points in it, by their own Voronoi cells, bound by the region.",
+    about: "One row per region, measured as a mosaic of its own. After these columns come those of \
+            summary.csv for the points in the region, by their own Voronoi cells, which are bound \
+            if they lie in the region.",
     columns: &[
-        column("file", "text", "The file, as given.").of(|r| r.file.as_str().into()),
-        column("roi", "text", "Name of the region; rROWcCOLUMN of sliding ones.")
+        column("file", "text", "Path of the file, as given.").of(|r| r.file.as_str().into()),
+        column("roi", "text", "Name of the region; rROWcCOLUMN for sliding regions.")
             .of(|r| r.roi.as_str().into()),
-        column("x0", "unit", "Left edge, after it has grown.").of(|r| r.frame.x0().into()),
-        column("y0", "unit", "Upper edge, after it has grown.").of(|r| r.frame.y0().into()),
-        column("x1", "unit", "Right edge, after it has grown.").of(|r| r.frame.x1().into()),
-        column("y1", "unit", "Lower edge, after it has grown.").of(|r| r.frame.y1().into()),
+        column("x0", "unit", "Left edge of the region, after it has grown.").of(|r| r.frame.x0().into()),
+        column("y0", "unit", "Upper edge of the region, after it has grown.").of(|r| r.frame.y0().into()),
+        column("x1", "unit", "Right edge of the region, after it has grown.").of(|r| r.frame.x1().into()),
+        column("y1", "unit", "Lower edge of the region, after it has grown.").of(|r| r.frame.y1().into()),
         column(
             "flag",
             "text",
-            "Empty; edge: it reaches beyond the window and is cut; few: not enough bound cells; outside: \
-                none of the window.",
+            "Empty, or “edge”: the region reaches beyond the window and is cut, “few”: it has too \
+             few bound cells, “outside”: no part of it lies in the window.",
         )
         .of(|r| r.flag.as_str().into()),
     ],
 };
 
-/// Returns `rois.csv`: where the regions are, then the columns of a summary but for the file.
+/// Returns `rois.csv`: the columns of the regions, then those of a summary except `file`.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
 pub fn rois_csv(summary: &Summary, rows: &[RoiRow]) -> Result<Vec<u8>, ReportError> {
     let layout = Layout::default();
     let names = summary.header();

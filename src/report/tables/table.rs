@@ -3,38 +3,38 @@ use crate::report::{Cell, ReportError, write_csv};
 
 /// A kind of CSV file: where it is written, what a row is, and its columns.
 pub struct Table<R: Row + 'static> {
-    /// Name of the file; `NAME` stands for that of an image or file of coordinates.
+    /// Name of the file; `NAME` stands for the name of an image or file of coordinates.
     pub file: &'static str,
-    /// The commands that write it.
+    /// Commands that write the file.
     pub commands: &'static str,
     /// Description of a row, and of what holds for all columns.
     pub about: &'static str,
-    /// The columns, in their order.
+    /// Columns in their order.
     pub columns: &'static [Column<R>],
 }
 
-/// Differences between files of one kind.
+/// The differences between files of one kind.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Layout<'s> {
     /// Samplers for which columns are repeated.
     pub samplers: &'s [String],
-    /// Parts that the file has.
+    /// Optional parts that the file has.
     pub parts: &'s [Part],
 }
 
 impl<R: Row> Table<R> {
-    /// Returns the file of these rows, without columns that are repeated or optional.
+    /// Returns these rows as a CSV file, without columns that are repeated or optional.
     ///
     /// # Errors
-    /// If the rows cannot be written as CSV.
+    /// Returns [`ReportError::Csv`] if the rows cannot be written as CSV.
     pub fn csv<'a>(&self, rows: impl IntoIterator<Item = R::Of<'a>>) -> Result<Vec<u8>, ReportError> {
         self.csv_as(&Layout::default(), rows)
     }
 
-    /// Returns the file of these rows with the columns of a layout.
+    /// Returns these rows as a CSV file with the columns of a layout.
     ///
     /// # Errors
-    /// If the rows cannot be written as CSV.
+    /// Returns [`ReportError::Csv`] if the rows cannot be written as CSV.
     pub fn csv_as<'a>(
         &self,
         layout: &Layout,
@@ -51,13 +51,16 @@ impl<R: Row> Table<R> {
         self.expanded(layout).into_iter().map(|(column, sampler)| column.name_for(sampler)).collect()
     }
 
-    /// Returns the cells of a row, under [`Self::header`].
+    /// Returns the cells of a row, in the order of [`Self::header`].
     pub fn cells(&self, layout: &Layout, row: &R::Of<'_>) -> Vec<Cell> {
         self.expanded(layout).into_iter().map(|(column, sampler)| column.cell(row, sampler)).collect()
     }
 
-    /// Returns every column of the layout with its sampler. Repeated columns that stand together are
-    /// repeated together: `low_a`, `high_a`, `low_b`, `high_b`.
+    /// Returns every column of the layout with its sampler, which is empty for columns that are not
+    /// repeated.
+    ///
+    /// Repeated columns that stand together are repeated together: `low_a`, `high_a`, `low_b`,
+    /// `high_b`.
     fn expanded<'s>(&self, layout: &Layout<'s>) -> Vec<(&'static Column<R>, &'s str)> {
         let repeats = |column: &Column<R>| matches!(column.value, Value::PerSampler(_));
         let kept = |column: &&Column<R>| column.words.part.is_none_or(|part| layout.parts.contains(&part));
@@ -74,7 +77,7 @@ impl<R: Row> Table<R> {
     }
 }
 
-/// Returns rows as CSV: the one way in which tables become files.
+/// Returns rows as CSV; this is the only way in which tables become files.
 pub(in crate::report) fn sheet(header: &[String], rows: &[Vec<Cell>]) -> Result<Vec<u8>, ReportError> {
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let mut bytes = Vec::new();
@@ -87,17 +90,17 @@ pub(in crate::report) fn sheet(header: &[String], rows: &[Vec<Cell>]) -> Result<
 pub struct TableWords {
     /// Name of the file.
     pub file: &'static str,
-    /// The commands that write it.
+    /// Commands that write the file.
     pub commands: &'static str,
-    /// Description of a row.
+    /// Description of a row, and of what holds for all columns.
     pub about: &'static str,
-    /// The columns, without their values.
+    /// Columns without their values.
     pub columns: Vec<ColumnWords>,
 }
 
 /// A table whose rows may be of any type.
 pub trait Described: Sync {
-    /// Returns its words.
+    /// Returns the description of the table.
     fn words(&self) -> TableWords;
 }
 

@@ -1,8 +1,10 @@
 use comfy_table::{CellAlignment, LineStyle, Table, TableStyle};
 
-/// A table to be read: headers, a rule, rows; columns of numbers flush right, everything else flush
-/// left. Plain text without colours or escape codes, so that it may go to a terminal, a pipe or a
-/// log alike. Units belong in the headers.
+/// Lays out a table for a reader: headers, a rule, rows.
+///
+/// Columns of numbers are flush right, all others flush left. The text is plain, without colours or
+/// escape codes, so that it may go to a terminal, a pipe or a log alike. Units belong in the
+/// headers.
 pub fn table(headers: &[&str], rows: &[Vec<String>]) -> String {
     let mut table = Table::new();
     table.load_style(TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─')));
@@ -19,7 +21,7 @@ pub fn table(headers: &[&str], rows: &[Vec<String>]) -> String {
     table.trim_fmt()
 }
 
-/// What file names hold must not steer the terminal.
+/// Replaces control characters, so that the name of a file cannot steer the terminal.
 fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }
@@ -29,8 +31,10 @@ fn is_number(text: &str) -> bool {
     matches!(bare.as_str(), "–" | "∞") || bare.split_whitespace().all(|part| part.parse::<f64>().is_ok())
 }
 
-/// `x` to `digits` significant digits, without ever cutting digits before the decimal point: 9.1537
-/// → 9.15, 61234.5 → 61235. Beyond 10⁻⁴..10⁹ in scientific notation. Not a number is “–”.
+/// Writes `x` with `digits` significant digits, but never cuts digits before the decimal point.
+///
+/// At three digits 9.1537 becomes 9.15 and 61234.5 becomes 61234. Numbers beyond 10⁻⁴..10⁹ are in
+/// scientific notation; NaN is “–”.
 pub fn significant(x: f64, digits: usize) -> String {
     if x.is_nan() {
         return "–".to_owned();
@@ -39,7 +43,7 @@ pub fn significant(x: f64, digits: usize) -> String {
         return if x > 0. { "∞" } else { "−∞" }.to_owned();
     }
     let digits = digits.max(1);
-    // The exponent after rounding: 9.996 to three digits is 10.0, not 10.00.
+    // The exponent is taken after rounding: 9.996 to three digits is 10.0, not 10.00.
     let scientific = format!("{x:.*e}", digits - 1);
     let exponent: i32 = scientific.rsplit_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
     if x != 0. && !(-4..9).contains(&exponent) {
@@ -49,7 +53,7 @@ pub fn significant(x: f64, digits: usize) -> String {
     format!("{x:.decimals$}")
 }
 
-/// “1 image”, “2 images”.
+/// Returns a count with its noun, in the plural unless it is 1: “1 image”, “2 images”.
 pub fn counted(count: usize, one: &str) -> String {
     format!("{count} {one}{}", if count == 1 { "" } else { "s" })
 }

@@ -4,12 +4,14 @@ use crate::compare::{
 };
 use std::collections::BTreeMap;
 
-/// A table to be read, on a terminal or on a page. Units stand in its headers or first cells.
+/// A table for a reader, on a terminal or on a page.
+///
+/// Units stand in its headers or first cells.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TextTable {
-    /// One a column.
+    /// Headers, one per column.
     pub header: Vec<String>,
-    /// As many cells as the header.
+    /// Rows with as many cells as the header.
     pub rows: Vec<Vec<String>>,
 }
 
@@ -18,19 +20,19 @@ impl TextTable {
         Self { header: header.iter().map(|h| (*h).to_owned()).collect(), rows }
     }
 
-    /// As plain text.
+    /// Returns the table as plain text.
     pub fn to_text(&self) -> String {
         let header: Vec<&str> = self.header.iter().map(String::as_str).collect();
         table(&header, &self.rows)
     }
 }
 
-/// 95 % intervals by what they are of, as [`intervals`](crate::compare::intervals) names them.
+/// 95 % intervals by name, as [`intervals`](crate::compare::intervals) names them.
 type Intervals = BTreeMap<&'static str, Interval>;
 
 const NONE: &str = "–";
 
-/// A rate: four decimals.
+/// Writes a rate with four decimals.
 fn rate(value: f64) -> String {
     format!("{value:.4}")
 }
@@ -43,7 +45,7 @@ fn between(interval: Option<Interval>, number: fn(f64) -> String) -> String {
     interval.map_or(NONE.into(), |[low, high]| format!("{} to {}", number(low), number(high)))
 }
 
-/// Sensitivity, false discovery rate, precision, Dice and localisation error.
+/// Returns the table of sensitivity, false discovery rate, precision, Dice and localisation error.
 pub fn accuracy_table(summary: &Summary, intervals: &Intervals) -> TextTable {
     let interval = |name: &str| intervals.get(name).copied();
     let (mean, pooled) = (summary, &summary.pooled);
@@ -82,7 +84,9 @@ pub fn accuracy_table(summary: &Summary, intervals: &Intervals) -> TextTable {
     TextTable::new(&["", "mean over images", "95 % interval", "all cones pooled", "95 % interval"], rows)
 }
 
-/// Bland–Altman statistics of count and density; `difference` says of what: “detections − marks”.
+/// Returns the table of Bland–Altman statistics of count and density.
+///
+/// `difference` names the difference taken: “detections − marks”.
 pub fn agreement_table(difference: &str, summary: &Summary, intervals: &Intervals) -> TextTable {
     let agreements = [("count", summary.count), ("density_percent", summary.density_percent)];
     let row = |label: &str, of: &str, value: fn(&Agreement) -> Option<f64>| {
@@ -106,7 +110,7 @@ pub fn agreement_table(difference: &str, summary: &Summary, intervals: &Interval
     TextTable::new(&header, rows)
 }
 
-/// One row a group, and the mean over groups.
+/// Returns the table of groups, one row per group, with the mean over groups below.
 pub fn group_table(groups: &[GroupSummary], over: Option<&MeanOverGroups>) -> TextTable {
     let sd = |value: Option<f64>| value.map_or(NONE.into(), rate);
     let of_group = |g: &GroupSummary| {
@@ -123,8 +127,10 @@ pub fn group_table(groups: &[GroupSummary], over: Option<&MeanOverGroups>) -> Te
     TextTable::new(&["group", "images", "sensitivity", "FDR", "precision", "Dice", "SD of Dice"], rows)
 }
 
-/// What the score is good for: the threshold of the highest mean Dice, and the reliability of
-/// scores.
+/// Returns the table on the scores of detections: the threshold of the highest mean Dice, and the
+/// reliability of the scores.
+///
+/// `alarms` is the number of false alarms per image, expected and observed.
 pub fn threshold_table(
     froc: &Froc,
     reliability: Option<&Reliability>,
@@ -133,10 +139,10 @@ pub fn threshold_table(
     let mut rows = Vec::new();
     let mut add = |label: &str, value: String| rows.push(vec![label.to_owned(), value]);
     if let Some(best) = froc.points.get(froc.best) {
-        add("threshold of the highest mean Dice (F1)", three(best.threshold));
-        add("  mean Dice there", rate(best.mean_dice));
-        add("  sensitivity there, pooled", rate(best.sensitivity));
-        add("  precision there, pooled", rate(best.precision));
+        add("threshold with the highest mean Dice (F1)", three(best.threshold));
+        add("  mean Dice at that threshold", rate(best.mean_dice));
+        add("  sensitivity, all images pooled", rate(best.sensitivity));
+        add("  precision, all images pooled", rate(best.precision));
         add("  false alarms per image", three(best.false_alarms_per_image));
         match (best.false_alarms_per_mm2, best.false_alarms_per_100_marks) {
             (Some(alarms), _) => add("  false alarms per mm²", three(alarms)),
@@ -149,14 +155,16 @@ pub fn threshold_table(
         add("Brier score", three(found.brier));
     }
     if let Some((expected, observed)) = alarms {
-        add("false alarms per image expected, Σ (1 − score)", three(expected));
-        add("false alarms per image observed", three(observed));
+        add("expected false alarms per image, Σ (1 − score)", three(expected));
+        add("observed false alarms per image", three(observed));
     }
     TextTable::new(&["score of the detections", ""], rows)
 }
 
-/// Returns paired differences of two detectors or graders. Few groups cannot have a small p,
-/// however they differ: the least that they can have stands beside it.
+/// Returns the table of paired differences of two detectors or graders.
+///
+/// Few groups cannot have a small p, however much they differ, so the least possible p stands
+/// beside it.
 pub fn comparison_table(first: &str, second: &str, differences: &[Difference]) -> TextTable {
     let row = |d: &Difference| {
         let (label, number): (_, fn(f64) -> String) = match d.measure {
@@ -173,6 +181,7 @@ pub fn comparison_table(first: &str, second: &str, differences: &[Difference]) -
         [vec![label.to_owned()], values.to_vec(), vec![between(d.interval, number), p, least]].concat()
     };
     let rows = differences.iter().map(row).collect();
-    let header = ["mean over images", first, second, "difference", "95 % interval", "p", "least p possible"];
+    let header =
+        ["mean over images", first, second, "difference", "95 % interval", "p", "smallest possible p"];
     TextTable::new(&header, rows)
 }

@@ -1,5 +1,7 @@
-//! Every column of every table is held to the value of the API that it names. Columns of a table differ in
-//! these rows, so that exchanging the values of any two cannot pass.
+//! Tests that hold every column of every table to the value of the API that it names.
+//!
+//! The columns of a table differ in these rows, so that exchanging the values of any two cannot
+//! pass.
 
 mod mosaic;
 mod paper;
@@ -9,15 +11,15 @@ mod scores;
 use super::{Described, TABLES, sheet};
 use crate::report::Cell;
 
-/// A column and its expected cells, one per row.
+/// A column name and its expected cells, one per row.
 type Expected<'a> = (&'a str, Vec<Cell>);
 
-/// The file and commands of tables that were held to the API.
+/// Tables that were held to the API, by file and commands.
 #[derive(Default)]
 struct Held(Vec<(&'static str, &'static str)>);
 
 impl Held {
-    /// Insists that a file is these columns and nothing else.
+    /// Asserts that a file has exactly these columns.
     fn table(&mut self, table: &dyn Described, file: Vec<u8>, expected: &[Expected]) {
         let words = table.words();
         let name = words.file;
@@ -40,7 +42,7 @@ impl Held {
         self.0.push((name, words.commands));
     }
 
-    /// Insists that a file has this one row.
+    /// Asserts that a file has exactly this row.
     fn row(&mut self, table: &dyn Described, file: Vec<u8>, expected: Vec<(&str, Cell)>) {
         let expected: Vec<Expected> =
             expected.into_iter().map(|(column, cell)| (column, vec![cell])).collect();
@@ -48,7 +50,7 @@ impl Held {
     }
 }
 
-/// Cells of a series.
+/// Returns a series as cells.
 fn cells<T: Copy + Into<Cell>>(values: impl IntoIterator<Item = T>) -> Vec<Cell> {
     values.into_iter().map(Into::into).collect()
 }

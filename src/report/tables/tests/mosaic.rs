@@ -12,7 +12,7 @@ use crate::stats::{
 };
 use rand::{RngExt, SeedableRng};
 
-/// A mosaic whose density rises to the left, and its scale.
+/// Returns a mosaic whose density rises to the left, with its measures.
 pub fn mosaic() -> (Mosaic, Measures) {
     let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(7);
     let mut place = |k: usize, n: usize| (k as f64 + rng.random_range(0.2..0.8)) / n as f64;
@@ -28,6 +28,7 @@ pub fn mosaic() -> (Mosaic, Measures) {
     (mosaic, measures)
 }
 
+/// Holds the tables of points and of detected cones to the API.
 pub fn points_and_cones(held: &mut Held) {
     let (mosaic, m) = mosaic();
     let cell = |value: fn(&crate::stats::Cell) -> Cell| m.cells.cells.iter().map(value).collect::<Vec<_>>();
@@ -60,11 +61,12 @@ pub fn points_and_cones(held: &mut Held) {
     held.row(&DETECTIONS, file, expected.map(|(name, value)| (name, value.into())).to_vec());
 }
 
-/// A curve of its own: g moved up.
+/// Returns the curve moved up by `by`, which makes a curve of its own.
 fn moved(pcf: &Pcf, by: f64) -> Vec<f64> {
     pcf.g.iter().map(|g| g + by).collect()
 }
 
+/// Returns a verdict whose values differ from one another.
 pub fn verdict(pcf: &Pcf, sampler: &str, by: f64) -> SamplerVerdict {
     SamplerVerdict {
         sampler: sampler.into(),
@@ -87,6 +89,7 @@ pub fn verdict(pcf: &Pcf, sampler: &str, by: f64) -> SamplerVerdict {
     }
 }
 
+/// Holds the tables of functions of distance to the API.
 pub fn functions_of_distance(held: &mut Held) {
     let (mosaic, m) = mosaic();
     let pcf = m.pcf.as_ref().unwrap();
@@ -131,7 +134,7 @@ pub fn functions_of_distance(held: &mut Held) {
     );
     let found =
         functions(mosaic.points(), mosaic.window(), &m.neighbours, &FunctionOptions::default()).unwrap();
-    // values stand under the names that the statistics give them, so that two cannot be exchanged
+    // The statistics name the values themselves, so that no two can be exchanged here.
     let series = found.columns();
     let expected: Vec<_> = series.iter().map(|(name, values)| (*name, numbers(values))).collect();
     held.table(&FUNCTIONS, functions_csv(&found).unwrap(), &expected);
@@ -157,6 +160,7 @@ pub fn functions_of_distance(held: &mut Held) {
     );
 }
 
+/// Holds the tables of maps and profiles to the API.
 pub fn maps_and_profiles(held: &mut Held) {
     let (mosaic, m) = mosaic();
     let options = MapOptions { window: LocalWindow::Cells(20), ..MapOptions::default() };
@@ -204,6 +208,7 @@ pub fn maps_and_profiles(held: &mut Held) {
     );
 }
 
+/// Holds the table of spacings from tiles to the API.
 pub fn spectra_of_tiles(held: &mut Held) {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/images/confocal_dense.png");
     let image = crate::image::read(std::path::Path::new(file)).unwrap();

@@ -30,6 +30,7 @@ fn results() -> PaperResults {
     }
 }
 
+/// Holds the tables of the paper to the API.
 pub fn tables(held: &mut Held) {
     let results = results();
     let made = &results.rows[0];
@@ -63,7 +64,7 @@ pub fn tables(held: &mut Held) {
             ("second", cells(["dart-throwing", "jittered", "jittered"])),
             ("l_infinity", cells([1.01, 1.38, 0.73])),
             ("standard_error", cells([0.01, 0.02, 0.03])),
-            // |a − b| and a + b of the printed 0.6, 0.5, 0.9
+            // Lower and upper bound: |a − b| and a + b of the printed 0.6, 0.5, 0.9.
             ("least_allowed_by_table_2", cells([0.6 - 0.5, 0.9 - 0.6, 0.9 - 0.5])),
             ("most_allowed_by_table_2", cells([0.6 + 0.5, 0.6 + 0.9, 0.5 + 0.9])),
         ],

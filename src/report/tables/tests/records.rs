@@ -20,6 +20,7 @@ fn record() -> CoordinatesRecord {
     CoordinatesRecord { file: "in/a.csv".into(), name: "a".into(), outside: 3, mosaic, warnings }
 }
 
+/// Holds the tables of records to the API.
 pub fn records(held: &mut Held) {
     let record = record();
     let nearest = record.mosaic.stats.nearest;
@@ -131,6 +132,7 @@ fn landmarks(held: &mut Held) {
     held.row(&LANDMARKS, LANDMARKS.csv([&found]).unwrap(), expected);
 }
 
+/// Holds the tables of regions, groups and failures to the API.
 pub fn regions_groups_and_failures(held: &mut Held) {
     let summary = |metrics: &str| Summary::new(SummaryKind::Coordinates, &metrics.parse().unwrap(), &[], &[]);
     let record = record();
@@ -159,7 +161,8 @@ pub fn regions_groups_and_failures(held: &mut Held) {
     ];
     held.table(&ROIS, rois_csv(&summary("ri"), &[region, outside]).unwrap(), &expected);
 
-    // indexes 2, 6 of one subject and 10 of another: means 4 and 10; a fourth image has none
+    // Regularity indices 2 and 6 of one subject and 10 of another: means 4 and 10. A fourth image
+    // has none.
     let with = |ri: Option<f64>| {
         let mut record = record.clone();
         record.mosaic.stats.nearest.ri = ri;
