@@ -21,9 +21,9 @@ least one bound cell (there are none with fewer than four points), a standard de
 a ratio to a standard deviation needs values that differ. The columns of a manifest come after all others.
 
 The edge rule says which points count, as the neighbours of a point near the border may lie outside the window. \
-*all*: all points count, without any correction. *interior*: only points that are at least as far from the \
-border as from their nearest neighbour count. *bound*: only points whose Voronoi cell is finite and has every \
-vertex strictly inside the window count (Cooper et al. 2016). *see definition*: the definition states the \
+*all*: all points count, without any correction. *interior*: only those points count that are at least as far \
+from the border as from their nearest neighbour. *bound*: only those points count whose Voronoi cell is finite \
+and has every vertex strictly inside the window (Cooper et al. 2016). *see definition*: the definition states the \
 column's own rule. –: the border does not affect the value.";
 
 /// Opening paragraph of the part about all other tables.

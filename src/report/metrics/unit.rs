@@ -78,8 +78,8 @@ impl Unit {
     pub fn convert(self, value: Cell, quantity: Quantity, mosaic: &MosaicRecord) -> Cell {
         let (Cell::Number(number), false) = (&value, self == Self::Coordinates) else { return value };
         let um = mosaic.um_per_unit;
-        // Number of this unit per unit of the coordinates; for areas and densities that of their
-        // side.
+        // The factor is that of a length and is squared below. Areas and densities are in mm², so
+        // theirs converts to mm.
         let length = match self {
             Self::Coordinates => Some(1.),
             Self::Pixels => mosaic.px_per_unit(),

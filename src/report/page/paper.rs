@@ -11,7 +11,7 @@ use crate::stats::Pcf;
 /// The mean of ten patterns scatters by .03.
 const NO_PEAK: f64 = 1.1;
 
-/// Returns a number with its sign, for which a true minus is used.
+/// Returns a number with its sign, with the minus sign U+2212 in place of a hyphen.
 fn signed(value: f64, decimals: usize) -> String {
     format!("{value:+.decimals$}").replace('-', "−")
 }
