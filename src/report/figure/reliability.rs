@@ -3,8 +3,8 @@ use super::panels::{two_areas, two_panels};
 use crate::compare::{Reliability, ReliabilityBin};
 use crate::report::significant;
 
-const DESCRIPTION: &str = "Left: share of detections that are hits in each bin of the score, with its 95 % confidence interval; \
-    on the diagonal the score is the probability of a hit; bars show the number of detections in each bin. Right: false alarms \
+const DESCRIPTION: &str = "Left: in every bin of the score the part of the detections that are hits, with its 95 % interval; \
+    on the diagonal the score is the probability of a hit; bars show how many detections a bin holds. Right: false alarms \
     of every image, expected from the scores and observed.";
 
 const BARS: &str = "#d9d9d9";
@@ -36,8 +36,12 @@ pub fn reliability_figure(figure: &ReliabilityFigure) -> String {
 
 fn diagram(canvas: &mut Canvas, area: Area, reliability: &Reliability) {
     let unit = (0., 1.);
-    let place =
-        canvas.axes(area, Ranges { x: unit, y: unit }, ("score", "share of detections that are hits"), 0.2);
+    let place = canvas.axes(
+        area,
+        Ranges { x: unit, y: unit },
+        ("score", "part of the detections that are hits"),
+        0.2,
+    );
     let most = reliability.bins.iter().map(|b| b.n).max().unwrap_or(0).max(1);
     for bin in reliability.bins.iter().filter(|b| b.n > 0) {
         let height = BAR_HEIGHT * bin.n as f64 / most as f64;

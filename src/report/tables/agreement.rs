@@ -42,133 +42,83 @@ impl AgreementRow<'_> {
 pub static AGREEMENT: Table<AgreementRow> = Table {
     file: "agreement.csv",
     commands: "agree",
-    about: "One row for each column of numbers and each pair of graders, sessions or programs; \
-        with more than two of them, also one row over all. Values are in the unit of the \
-        column unless another unit is given.",
+    about: "One row per column of numbers and pair of graders, sessions or programs; with more \
+            than two of them a further row over all. In the unit of the column where no other is \
+            named.",
     columns: &[
-        column("column", "text", "Name of the column that is compared.").of(|a| a.column.into()),
-        column("first", "text", "Name of the first grader, session or program.").of(|a| a.graders[0].into()),
-        column("second", "text", "Name of the second grader, session or program.")
-            .of(|a| a.graders[1].into()),
-        column("n", "count", "Number of images for which both have a value.").of(|a| a.n.into()),
-        column("mean_first", "of the column", "Mean of the values of the first.")
-            .of(|a| a.means.map(|m| m[0]).into()),
-        column("mean_second", "of the column", "Mean of the values of the second.")
-            .of(|a| a.means.map(|m| m[1]).into()),
-        column("difference", "of the column", "Bias: mean of the differences first − second.")
+        column("column", "text", "The column.").of(|a| a.column.into()),
+        column("first", "text", "The first grader, session or program.").of(|a| a.graders[0].into()),
+        column("second", "text", "The second.").of(|a| a.graders[1].into()),
+        column("n", "count", "Images that both have.").of(|a| a.n.into()),
+        column("mean_first", "of the column", "Mean of the first.").of(|a| a.means.map(|m| m[0]).into()),
+        column("mean_second", "of the column", "Mean of the second.").of(|a| a.means.map(|m| m[1]).into()),
+        column("difference", "of the column", "Bias: mean of first − second.")
             .of(|a| a.agreement.map(|g| g.agreement.bias).into()),
-        column(
-            "difference_low",
-            "of the column",
-            "Lower end of the 95 % confidence interval of difference (t distribution).",
-        )
-        .of(|a| a.end(0, |g| g.bias_interval).into()),
-        column(
-            "difference_high",
-            "of the column",
-            "Upper end of the 95 % confidence interval of difference (t distribution).",
-        )
-        .of(|a| a.end(1, |g| g.bias_interval).into()),
-        column(
-            "sd",
-            "of the column",
-            "Standard deviation (divisor n − 1) of the differences. If the images are grouped, it \
-                is the square root of the sum of both components of the variance, between and within \
-                groups.",
-        )
-        .of(|a| a.agreement.and_then(|g| g.agreement.sd).into()),
-        column(
-            "limit_low",
-            "of the column",
-            "Lower limit of agreement: bias − 1.96 × standard deviation of the differences.",
-        )
-        .source("Bland & Altman 1999")
-        .of(|a| a.end(0, |g| g.agreement.limits).into()),
-        column("limit_low_from", "of the column", "Lower end of the 95 % confidence interval of limit_low.")
+        column("difference_low", "of the column", "Lower end of the 95 % interval of difference (t).")
+            .of(|a| a.end(0, |g| g.bias_interval).into()),
+        column("difference_high", "of the column", "Upper end of that interval.")
+            .of(|a| a.end(1, |g| g.bias_interval).into()),
+        column("sd", "of the column", "Standard deviation (n − 1) of the differences; with groups, of both components of their variance.")
+            .of(|a| a.agreement.and_then(|g| g.agreement.sd).into()),
+        column("limit_low", "of the column", "Lower limit of agreement, bias − 1.96 SD.")
+            .source("Bland & Altman 1999")
+            .of(|a| a.end(0, |g| g.agreement.limits).into()),
+        column("limit_low_from", "of the column", "Lower end of the 95 % interval of limit_low.")
             .source("Bland & Altman 1999")
             .of(|a| a.end(0, |g| g.limit_intervals.map(|i| i[0])).into()),
-        column("limit_low_to", "of the column", "Upper end of the 95 % confidence interval of limit_low.")
+        column("limit_low_to", "of the column", "Upper end of that interval.")
             .source("Bland & Altman 1999")
             .of(|a| a.end(1, |g| g.limit_intervals.map(|i| i[0])).into()),
-        column(
-            "limit_high",
-            "of the column",
-            "Upper limit of agreement: bias + 1.96 × standard deviation of the differences.",
-        )
-        .source("Bland & Altman 1999")
-        .of(|a| a.end(1, |g| g.agreement.limits).into()),
-        column(
-            "limit_high_from",
-            "of the column",
-            "Lower end of the 95 % confidence interval of limit_high.",
-        )
-        .source("Bland & Altman 1999")
-        .of(|a| a.end(0, |g| g.limit_intervals.map(|i| i[1])).into()),
-        column("limit_high_to", "of the column", "Upper end of the 95 % confidence interval of limit_high.")
+        column("limit_high", "of the column", "Upper limit of agreement, bias + 1.96 SD.")
+            .source("Bland & Altman 1999")
+            .of(|a| a.end(1, |g| g.agreement.limits).into()),
+        column("limit_high_from", "of the column", "Lower end of the 95 % interval of limit_high.")
+            .source("Bland & Altman 1999")
+            .of(|a| a.end(0, |g| g.limit_intervals.map(|i| i[1])).into()),
+        column("limit_high_to", "of the column", "Upper end of that interval.")
             .source("Bland & Altman 1999")
             .of(|a| a.end(1, |g| g.limit_intervals.map(|i| i[1])).into()),
         column(
             "icc_agreement",
             "≤ 1",
-            "Intraclass correlation for absolute agreement, ICC(2,1): differences between the \
-                means lower it; empty if all values are equal.",
+            "ICC(2,1), absolute agreement: differences of the means count against it; empty where \
+                nothing varies.",
         )
         .source("McGraw & Wong 1996")
         .of(|a| a.intraclass.and_then(|i| i.agreement).into()),
-        column("icc_agreement_low", "≤ 1", "Lower end of the 95 % confidence interval of icc_agreement.")
+        column("icc_agreement_low", "≤ 1", "Lower end of the 95 % interval of icc_agreement.")
             .source("McGraw & Wong 1996")
             .of(|a| a.icc_end(0, |i| i.agreement_interval).into()),
-        column("icc_agreement_high", "≤ 1", "Upper end of the 95 % confidence interval of icc_agreement.")
+        column("icc_agreement_high", "≤ 1", "Upper end of that interval.")
             .source("McGraw & Wong 1996")
             .of(|a| a.icc_end(1, |i| i.agreement_interval).into()),
-        column(
-            "icc_consistency",
-            "≤ 1",
-            "Intraclass correlation for consistency, ICC(3,1): differences between the means do \
-                not lower it.",
-        )
-        .source("McGraw & Wong 1996")
-        .of(|a| a.intraclass.and_then(|i| i.consistency).into()),
-        column("icc_consistency_low", "≤ 1", "Lower end of the 95 % confidence interval of icc_consistency.")
+        column("icc_consistency", "≤ 1", "ICC(3,1), consistency: differences of the means do not count.")
+            .source("McGraw & Wong 1996")
+            .of(|a| a.intraclass.and_then(|i| i.consistency).into()),
+        column("icc_consistency_low", "≤ 1", "Lower end of the 95 % interval of icc_consistency.")
             .source("McGraw & Wong 1996")
             .of(|a| a.icc_end(0, |i| i.consistency_interval).into()),
-        column(
-            "icc_consistency_high",
-            "≤ 1",
-            "Upper end of the 95 % confidence interval of icc_consistency.",
-        )
-        .source("McGraw & Wong 1996")
-        .of(|a| a.icc_end(1, |i| i.consistency_interval).into()),
-        column(
-            "within_sd",
-            "of the column",
-            "Within-image standard deviation: standard deviation of the measurements of the same \
-                image.",
-        )
-        .source("Bland & Altman 1996")
-        .of(|a| a.intraclass.map(|i| i.within_sd).into()),
+        column("icc_consistency_high", "≤ 1", "Upper end of that interval.")
+            .source("McGraw & Wong 1996")
+            .of(|a| a.icc_end(1, |i| i.consistency_interval).into()),
+        column("within_sd", "of the column", "Standard deviation of the measurements of one image.")
+            .source("Bland & Altman 1996")
+            .of(|a| a.intraclass.map(|i| i.within_sd).into()),
         column(
             "repeatability",
             "of the column",
-            "Repeatability, 1.96 √2 within_sd: in 95 % of cases, two measurements of the same \
-                image differ by less than this.",
+            "Of two measurements of one image 95 % differ by less: 1.96 √2 within_sd.",
         )
         .source("Bland & Altman 1996")
         .of(|a| a.intraclass.map(|i| i.repeatability).into()),
-        column(
-            "within_cv_percent",
-            "%",
-            "Within-image coefficient of variation: within_sd as a percentage of the mean; empty \
-                if the mean is 0.",
-        )
-        .of(|a| a.intraclass.and_then(|i| i.within_cv_percent).into()),
+        column("within_cv_percent", "%", "within_sd over the mean; empty where that is 0.")
+            .of(|a| a.intraclass.and_then(|i| i.within_cv_percent).into()),
         column(
             "groups",
             "count",
-            "Number of groups of images that count as independent, which is smaller than the \
-                number of images if the images are grouped. In that case the limits of agreement are \
-                those for repeated measurements (Bland & Altman 2007), with the confidence intervals \
-                of Zou (2013), and confidence intervals of the ICC are left out.",
+            "Groups of images that count as independent: with groups fewer than images. The limits are then \
+             those for repeated measurements (Bland & Altman 2007), their intervals by Zou (2013), and \
+             intervals of ICC are left out.",
         )
         .source("Bland & Altman 2007")
         .of(|a| a.agreement.map(|g| g.clusters).into()),
@@ -196,20 +146,16 @@ impl Row for DifferenceRow<'static> {
 pub static DIFFERENCES: Table<DifferenceRow> = Table {
     file: "differences.csv",
     commands: "agree",
-    about: "One row for each column, each pair of graders and each image.",
+    about: "One row per column, pair of graders and image.",
     columns: &[
-        column("image", "text", "Name of the image.").of(|d| d.image.into()),
-        column("column", "text", "Name of the column.").of(|d| d.column.into()),
-        column("first", "text", "Name of the first grader, session or program.").of(|d| d.graders[0].into()),
-        column("second", "text", "Name of the second grader, session or program.")
-            .of(|d| d.graders[1].into()),
-        column("value_first", "of the column", "Value from the first grader, session or program.")
-            .of(|d| d.values[0].into()),
-        column("value_second", "of the column", "Value from the second grader, session or program.")
-            .of(|d| d.values[1].into()),
-        column("mean", "of the column", "Mean of the two values.")
-            .of(|d| ((d.values[0] + d.values[1]) / 2.).into()),
-        column("difference", "of the column", "Difference of the two values, value_first − value_second.")
+        column("image", "text", "The image.").of(|d| d.image.into()),
+        column("column", "text", "The column.").of(|d| d.column.into()),
+        column("first", "text", "The first grader, session or program.").of(|d| d.graders[0].into()),
+        column("second", "text", "The second.").of(|d| d.graders[1].into()),
+        column("value_first", "of the column", "Value of the first.").of(|d| d.values[0].into()),
+        column("value_second", "of the column", "Value of the second.").of(|d| d.values[1].into()),
+        column("mean", "of the column", "Mean of the two.").of(|d| ((d.values[0] + d.values[1]) / 2.).into()),
+        column("difference", "of the column", "value_first − value_second.")
             .of(|d| (d.values[0] - d.values[1]).into()),
     ],
 };
@@ -231,10 +177,9 @@ impl Row for UnpairedRow<'static> {
 pub static UNPAIRED: Table<UnpairedRow> = Table {
     file: "unpaired.csv",
     commands: "agree",
-    about: "One row for each image that some of the graders lack.",
+    about: "One row per image that not all have.",
     columns: &[
-        column("image", "text", "Name of the image.").of(|u| u.image.into()),
-        column("missing_from", "text", "Names of the graders who lack the image, separated by commas.")
-            .of(|u| u.missing_from.into()),
+        column("image", "text", "The image.").of(|u| u.image.into()),
+        column("missing_from", "text", "Graders who lack it.").of(|u| u.missing_from.into()),
     ],
 };

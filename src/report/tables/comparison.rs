@@ -20,39 +20,28 @@ impl Row for VerdictRow<'static> {
 pub static VERDICTS: Table<VerdictRow> = Table {
     file: "verdicts.csv",
     commands: "compare, run --verdict",
-    about: "One row per mosaic and sampler: comparison with simulations of the sampler that have \
-        the number of points and the window of the mosaic.",
+    about: "One row per mosaic and sampler: simulations of the sampler at the mosaic's own number \
+            of points and window.",
     columns: &[
-        column("file", "text", "Path of the file, as given.").of(|v| v.file.into()),
-        column("sampler", "text", "Name of the sampler.").of(|v| v.verdict.sampler.as_str().into()),
-        column(
-            "verdict",
-            "text",
-            "Verdict: as (the mosaic could be a realisation of the sampler) or differs.",
-        )
-        .of(|v| if v.verdict.alike { "as" } else { "differs" }.into()),
-        column(
-            "p_envelope",
-            "0–1",
-            "p-value of the global envelope test (extreme rank length) of the pair correlation \
-                function g.",
-        )
-        .edge(Own)
-        .source("Myllymäki et al. 2017")
-        .of(|v| v.verdict.p_envelope.into()),
+        column("file", "text", "The file, as given.").of(|v| v.file.into()),
+        column("sampler", "text", "The sampler.").of(|v| v.verdict.sampler.as_str().into()),
+        column("verdict", "text", "as: the mosaic could be a realisation of it; differs.")
+            .of(|v| if v.verdict.alike { "as" } else { "differs" }.into()),
+        column("p_envelope", "0–1", "p-value of the global envelope test of g (extreme rank length).")
+            .edge(Own)
+            .source("Myllymäki et al. 2017")
+            .of(|v| v.verdict.p_envelope.into()),
         column(
             "outside_r_in_spacings",
             "spacings",
-            "Ranges of r, written from–to, in which g lies outside the envelope.",
+            "Stretches of r, from–to, at which g is outside the envelope.",
         )
         .of(|v| v.verdict.outside_words().as_str().into()),
         column(
             "l_infinity_to_simulations",
             "ratio",
-            "Largest absolute difference between g of the mosaic and the mean g of the \
-                simulations, which have the number of points and the window of the mosaic. In \
-                l_infinity.csv and summary.csv the distance is to the mean curve of the class of the \
-                mosaic, with about as many points in a window of about the same shape.",
+            "Greatest difference of g and the mean of the simulations at the mosaic's own n and window; \
+             l_infinity.csv and summary.csv have that to the mean curve of its class.",
         )
         .edge(Own)
         .source("Lanaro et al. 2020")
@@ -60,37 +49,29 @@ pub static VERDICTS: Table<VerdictRow> = Table {
         column(
             "p_l_infinity",
             "0–1",
-            "p-value of l_infinity_to_simulations, from the rank of the mosaic among the \
-                simulations.",
+            "p-value of l_infinity_to_simulations: the mosaic's rank among the simulations.",
         )
         .edge(Own)
         .of(|v| v.verdict.p_l_infinity.into()),
         column(
             "l_infinity_usual",
             "ratio",
-            "Median over the simulations of the l-infinity distance from one simulation to the \
-                mean of all other curves.",
+            "Median l_infinity of one simulation against the mean of all other curves.",
         )
         .edge(Own)
         .of(|v| v.verdict.l_infinity_usual.into()),
-        column(
-            "l_infinity_95_percent",
-            "ratio",
-            "Value of this l-infinity distance that 95 % of the simulations do not exceed.",
-        )
-        .edge(Own)
-        .of(|v| v.verdict.l_infinity_most.into()),
-        column("ri_mean", "ratio", "Mean regularity index of the simulations (all points, divisor n − 1).")
+        column("l_infinity_95_percent", "ratio", "The l_infinity that 95 % of the simulations stay within.")
+            .edge(Own)
+            .of(|v| v.verdict.l_infinity_most.into()),
+        column("ri_mean", "ratio", "Mean regularity index of the simulations (all points, n − 1).")
             .edge(All)
             .of(|v| v.verdict.ri_mean.into()),
-        column("ri_sd", "ratio", "Standard deviation of the regularity index over the simulations.")
+        column("ri_sd", "ratio", "Standard deviation of that index over the simulations.")
             .edge(All)
             .of(|v| v.verdict.ri_sd.into()),
         column("simulations", "count", "Number of simulations.").of(|v| v.verdict.simulations.into()),
-        column("points_min", "count", "Smallest number of points in a simulation.")
-            .of(|v| v.verdict.points.0.into()),
-        column("points_max", "count", "Largest number of points in a simulation.")
-            .of(|v| v.verdict.points.1.into()),
+        column("points_min", "count", "Fewest points of a simulation.").of(|v| v.verdict.points.0.into()),
+        column("points_max", "count", "Most points of a simulation.").of(|v| v.verdict.points.1.into()),
     ],
 };
 
@@ -113,42 +94,37 @@ fn in_um(record: &CoordinatesRecord, length: Option<f64>) -> Option<f64> {
 pub static REGULARITY: Table<CoordinatesRecord> = Table {
     file: "regularity.csv",
     commands: "compare",
-    about: "One row per file: nearest-neighbour distances of all points, without any correction \
-        for the border.",
+    about: "One row per file: distances to the nearest neighbour of all points, nothing done about \
+            the border.",
     columns: &[
-        column("file", "text", "Path of the file, as given.").of(|r| r.file.as_str().into()),
-        column("unit", "text", "Unit of the coordinates (px, um or unit).")
+        column("file", "text", "The file, as given.").of(|r| r.file.as_str().into()),
+        column("unit", "text", "Unit of the coordinates (px, um, unit).")
             .of(|r| r.mosaic.unit.symbol().into()),
-        column("nn_mean", "unit", "Mean distance to the nearest neighbour.")
+        column("nn_mean", "unit", "Mean distance.")
             .edge(All)
             .source("Wässle & Riemann 1978")
             .of(|r| r.mosaic.stats.nearest.mean.into()),
         column(
             "nn_sd_population",
             "unit",
-            "Standard deviation (divisor n) of the nearest-neighbour distances, as in the tables \
-                of Lanaro et al. 2020.",
+            "Standard deviation (n) of these distances, as in the tables of Lanaro et al. 2020.",
         )
         .edge(All)
         .source("Wässle & Riemann 1978")
         .of(|r| nearest(r, Deviation::Population).sd.into()),
-        column("ri_population", "ratio", "Regularity index, nn_mean / nn_sd_population.")
+        column("ri_population", "ratio", "nn_mean / nn_sd_population.")
             .edge(All)
             .source("Wässle & Riemann 1978")
             .of(|r| nearest(r, Deviation::Population).ri.into()),
-        column(
-            "nn_sd_sample",
-            "unit",
-            "Standard deviation (divisor n − 1) of the nearest-neighbour distances.",
-        )
-        .edge(All)
-        .source("Wässle & Riemann 1978")
-        .of(|r| nearest(r, Deviation::Sample).sd.into()),
-        column("ri_sample", "ratio", "Regularity index, nn_mean / nn_sd_sample.")
+        column("nn_sd_sample", "unit", "Standard deviation (n − 1) of these distances.")
+            .edge(All)
+            .source("Wässle & Riemann 1978")
+            .of(|r| nearest(r, Deviation::Sample).sd.into()),
+        column("ri_sample", "ratio", "nn_mean / nn_sd_sample.")
             .edge(All)
             .source("Wässle & Riemann 1978")
             .of(|r| nearest(r, Deviation::Sample).ri.into()),
-        column("n", "count", "Number of points.").of(|r| r.mosaic.stats.nearest.n.into()),
+        column("n", "count", "Points.").of(|r| r.mosaic.stats.nearest.n.into()),
         column("nn_mean_um", "µm", "nn_mean in µm; empty without a scale.")
             .edge(All)
             .source("Wässle & Riemann 1978")
@@ -168,33 +144,27 @@ pub static REGULARITY: Table<CoordinatesRecord> = Table {
 pub static L_INFINITY: Table<CoordinatesRecord> = Table {
     file: "l_infinity.csv",
     commands: "compare",
-    about: "One row per file: distances between the pair correlation function of the mosaic and \
-        those of the samplers.",
+    about: "One row per file.",
     columns: &[
-        column("file", "text", "Path of the file, as given.").of(|r| r.file.as_str().into()),
+        column("file", "text", "The file, as given.").of(|r| r.file.as_str().into()),
         column(
             "SAMPLER",
             "ratio",
-            "Largest absolute difference between the pair correlation function of the mosaic and \
-                that of the sampler; one column per sampler.",
+            "Greatest difference of the pair correlation functions of the mosaic and of the \
+                sampler, one column per sampler.",
         )
         .edge(Own)
         .source("Lanaro et al. 2020")
         .per_sampler(|r, sampler| r.mosaic.distance_to(sampler).into()),
-        column("closest_sampler", "text", "Name of the sampler with the smallest distance.")
+        column("closest_sampler", "text", "The sampler of the least.")
             .of(|r| r.mosaic.closest_sampler().into()),
-        column("n", "count", "Number of points.").of(|r| r.mosaic.n.into()),
+        column("n", "count", "Points.").of(|r| r.mosaic.n.into()),
         column("ri", "ratio", "Regularity index of all points.")
             .edge(All)
             .of(|r| r.mosaic.stats.nearest.ri.into()),
-        column(
-            "sd_kind",
-            "text",
-            "Divisor in the variance of the nearest-neighbour distances in ri: sample (n − 1) or \
-                population (n).",
-        )
-        .of(|r| r.mosaic.stats.deviation.name().into()),
-        column("warnings", "text", "Warnings about the numbers in this row, separated by semicolons.")
+        column("sd_kind", "text", "Divisor of its variance: sample (n − 1) or population (n).")
+            .of(|r| r.mosaic.stats.deviation.name().into()),
+        column("warnings", "text", "Remarks that a reader of the numbers needs, separated by semicolons.")
             .of(|r| r.warnings.join("; ").as_str().into()),
     ],
 };
@@ -207,22 +177,15 @@ impl Row for FindingRecord {
 pub static FINDING: Table<FindingRecord> = Table {
     file: "finding.csv",
     commands: "compare",
-    about: "One row per sampler: correlation over the mosaics between regularity and the distance \
-        to the sampler.",
+    about: "One row per sampler: how regularity and distance to it hang together over the mosaics.",
     columns: &[
-        column("sampler", "text", "Name of the sampler.").of(|f| f.sampler.as_str().into()),
-        column("mosaics", "count", "Number of mosaics that have both a regularity index and a distance.")
-            .of(|f| f.mosaics.into()),
-        column(
-            "spearman_rho_of_ri_and_l_infinity",
-            "−1–1",
-            "Rank correlation (Spearman) between the regularity index and the l-infinity \
-                distance.",
-        )
-        .source("Spearman 1904")
-        .of(|f| f.correlation.map(|c| c.rho).into()),
-        column("p_value", "0–1", "Two-sided p-value of the rank correlation.")
+        column("sampler", "text", "The sampler.").of(|f| f.sampler.as_str().into()),
+        column("mosaics", "count", "Mosaics with both.").of(|f| f.mosaics.into()),
+        column("spearman_rho_of_ri_and_l_infinity", "−1–1", "Rank correlation.")
+            .source("Spearman 1904")
+            .of(|f| f.correlation.map(|c| c.rho).into()),
+        column("p_value", "0–1", "Two-sided p-value of that correlation.")
             .of(|f| f.correlation.map(|c| c.p_value).into()),
-        column("in_words", "text", "Result of the test in words.").of(|f| f.words().as_str().into()),
+        column("in_words", "text", "The correlation in words.").of(|f| f.words().as_str().into()),
     ],
 };

@@ -32,30 +32,29 @@ impl<'a> PcfRow<'a> {
 pub static PCF: Table<PcfRow> = Table {
     file: "NAME.pcf.csv",
     commands: "measure, compare, run (images/NAME/pcf.csv)",
-    about: "One row per distance r; no rows if the function is not defined. The edge rule can be \
-        chosen; by default, counts are divided by the set covariance of the window (Lanaro et \
-        al. 2020).",
+    about: "One row per distance; no rows where the function is not defined. Edge rule as chosen, \
+            by default division by the set covariance of the window (Lanaro et al. \
+            2020).",
     columns: &[
         column(
             "r",
             "spacings",
-            "Distance: left edge of the bin at which g is evaluated, in hexagonal spacings of the \
-                density of the mosaic.",
+            "Left edge of the bin, at which g is taken, in hexagonal spacings of the mosaic's \
+                density.",
         )
         .of(|p| p.pcf.r.get(p.index).copied().into()),
         column(
             "g",
             "ratio",
-            "Pair correlation function: number of pairs at this distance divided by the number \
-                expected for independent points.",
+            "Pair correlation function: pairs at this distance over those of independent points.",
         )
         .edge(Own)
         .of(|p| p.pcf.g.get(p.index).copied().into()),
         column(
             "g_inhomogeneous",
             "ratio",
-            "Pair correlation function that allows for a varying density; given only if the trend \
-                in density is significant.",
+            "Pair correlation function for a density that varies, only where the trend is \
+                significant.",
         )
         .edge(Own)
         .source("Baddeley et al. 2000")
@@ -64,8 +63,8 @@ pub static PCF: Table<PcfRow> = Table {
         column(
             "g_locally_scaled",
             "ratio",
-            "Pair correlation function of distances measured in local spacings; given only if the \
-                trend in density is significant.",
+            "Pair correlation function of distances in local spacings, only where the trend is \
+                significant.",
         )
         .edge(Own)
         .source("Hahn et al. 2003")
@@ -74,7 +73,7 @@ pub static PCF: Table<PcfRow> = Table {
         column(
             "k_inhomogeneous",
             "spacings²",
-            "K function that allows for a varying density; given only if the trend in density is \
+            "K for a density that varies, only where the trend is \
                 significant.",
         )
         .edge(Own)
@@ -84,8 +83,8 @@ pub static PCF: Table<PcfRow> = Table {
         column(
             "g_SAMPLER",
             "ratio",
-            "Mean pair correlation function of patterns that the sampler generated with about as \
-                many points in a window of about the same shape; one column per sampler.",
+            "Mean g of samples of as many points in the same window; one column per sampler \
+                compared with.",
         )
         .edge(Own)
         .per_sampler(|p, sampler| p.of_sampler(sampler).into()),
@@ -131,19 +130,19 @@ impl EnvelopeRow<'_> {
 pub static ENVELOPE: Table<EnvelopeRow> = Table {
     file: "NAME.envelope.csv",
     commands: "compare, run --verdict (images/NAME/envelope.csv)",
-    about: "One row per distance r, with three columns per sampler.",
+    about: "One row per distance; three columns per sampler.",
     columns: &[
         column(
             "r",
             "spacings",
-            "Distance: left edge of the bin at which g is evaluated, in hexagonal spacings of the \
-                density of the mosaic.",
+            "Left edge of the bin, at which g is taken, in hexagonal spacings of the mosaic's \
+                density.",
         )
         .of(|e| e.pcf.r.get(e.index).copied().into()),
         column("g", "ratio", "Pair correlation function of the mosaic.")
             .edge(Own)
             .of(|e| e.pcf.g.get(e.index).copied().into()),
-        column("mean_SAMPLER", "ratio", "Mean pair correlation function of the simulations of the sampler.")
+        column("mean_SAMPLER", "ratio", "Mean of the simulations.")
             .edge(Own)
             .per_sampler(|e, sampler| e.of_sampler(sampler, |v| &v.envelope.mean).into()),
         column("low_SAMPLER", "ratio", "Lower edge of the global envelope.")

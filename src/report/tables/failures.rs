@@ -17,11 +17,10 @@ impl Row for Failure {
 /// Files without results.
 pub static FAILURES: Table<Failure> = Table {
     file: "failures.csv",
-    commands: "all commands that take several files",
-    about: "One row per file that failed. The table does not exist if no file failed.",
+    commands: "all that take several files",
+    about: "One row per file that failed; there is no such table if none did.",
     columns: &[
-        column("file", "text", "Path of the file, as given.").of(|f| f.file.as_str().into()),
-        column("reason", "text", "Reason for the failure, with advice on what to do.")
-            .of(|f| f.reason.as_str().into()),
+        column("file", "text", "The file, as given.").of(|f| f.file.as_str().into()),
+        column("reason", "text", "Why, and what helps.").of(|f| f.reason.as_str().into()),
     ],
 };

@@ -25,128 +25,99 @@ impl FunctionsRow<'_> {
 pub static FUNCTIONS: Table<FunctionsRow> = Table {
     file: "NAME.functions.csv",
     commands: "measure --functions",
-    about: "One row per distance r. The end of a column's name states the edge rule or the \
-        theoretical value, as in spatstat (Baddeley, Rubak & Turner 2015): none: no \
-        correction; rs or border: reduced sample (points at least r from the border); km: \
-        Kaplan–Meier; han: Hanisch; trans: translation; iso: isotropic; theo: value for \
-        independent points. A cell is empty if the function is not defined.",
+    about: "One row per distance. Edge rules in the names, as in spatstat (Baddeley, Rubak & \
+            Turner 2015): none: nothing is done; rs or border: reduced sample (points at least r \
+            from the border); km: Kaplan–Meier; han: Hanisch; trans: translation; iso: isotropic; \
+            theo: independent points. A cell is empty where the function is not defined.",
     columns: &[
-        column("r", "unit", "Distance at which the functions are evaluated.")
+        column("r", "unit", "Distance.").by_name(|f, name| f.get(name).into()),
+        column("G_none", "0–1", "Share of points whose nearest neighbour is at most r away.")
+            .edge(All)
             .by_name(|f, name| f.get(name).into()),
-        column(
-            "G_none",
-            "0–1",
-            "Nearest-neighbour distance distribution G: share of the points whose nearest \
-                neighbour is at most r away.",
-        )
-        .edge(All)
-        .by_name(|f, name| f.get(name).into()),
-        column("G_rs", "0–1", "G with the reduced-sample edge rule.")
+        column("G_rs", "0–1", "G_none by the reduced sample rule.")
             .edge(Own)
             .by_name(|f, name| f.get(name).into()),
-        column("G_km", "0–1", "G with the Kaplan–Meier edge rule.")
+        column("G_km", "0–1", "G_none by the Kaplan–Meier rule.")
             .edge(Own)
             .by_name(|f, name| f.get(name).into()),
-        column("G_han", "0–1", "G with the Hanisch edge rule.")
+        column("G_han", "0–1", "G_none by the Hanisch rule.").edge(Own).by_name(|f, name| f.get(name).into()),
+        column("G_theo", "0–1", "1 − exp(−π r² density).").by_name(|f, name| f.get(name).into()),
+        column("F_none", "0–1", "Share of the window (128 × 128 places) that is at most r from a point.")
+            .edge(All)
+            .by_name(|f, name| f.get(name).into()),
+        column("F_rs", "0–1", "F_none by the reduced sample rule.")
             .edge(Own)
             .by_name(|f, name| f.get(name).into()),
-        column("G_theo", "0–1", "Value of G for independent points, 1 − exp(−π r² density).")
-            .by_name(|f, name| f.get(name).into()),
-        column(
-            "F_none",
-            "0–1",
-            "Empty-space function F: share of the window (128 × 128 places) that is at most r \
-                from a point.",
-        )
-        .edge(All)
-        .by_name(|f, name| f.get(name).into()),
-        column("F_rs", "0–1", "F with the reduced-sample edge rule.")
+        column("F_km", "0–1", "F_none by the Kaplan–Meier rule.")
             .edge(Own)
             .by_name(|f, name| f.get(name).into()),
-        column("F_km", "0–1", "F with the Kaplan–Meier edge rule.")
-            .edge(Own)
-            .by_name(|f, name| f.get(name).into()),
-        column("F_han", "0–1", "F with the Hanisch edge rule (Chiu & Stoyan 1998).")
+        column("F_han", "0–1", "F_none by the Hanisch rule (Chiu & Stoyan 1998).")
             .edge(Own)
             .by_name(|f, name| f.get(name).into()),
         column(
             "J_none",
             "ratio",
-            "J function, (1 − G)/(1 − F) (van Lieshout & Baddeley 1996): above 1 for regular \
-                patterns.",
+            "(1 − G)/(1 − F) (van Lieshout & Baddeley 1996): above 1 for regular patterns.",
         )
         .edge(All)
         .by_name(|f, name| f.get(name).into()),
-        column("J_rs", "ratio", "J with the reduced-sample edge rule.")
+        column("J_rs", "ratio", "J_none by the reduced sample rule.")
             .edge(Own)
             .by_name(|f, name| f.get(name).into()),
-        column("J_km", "ratio", "J with the Kaplan–Meier edge rule.")
+        column("J_km", "ratio", "J_none by the Kaplan–Meier rule.")
             .edge(Own)
             .by_name(|f, name| f.get(name).into()),
-        column("J_han", "ratio", "J with the Hanisch edge rule.")
+        column("J_han", "ratio", "J_none by the Hanisch rule.")
             .edge(Own)
             .by_name(|f, name| f.get(name).into()),
         column(
             "K_none",
             "unit²",
-            "Ripley's K function: mean number of further points within r of a point, divided by \
-                the density (Ripley 1976).",
+            "Mean number of further points within r of a point, over density (Ripley 1976).",
         )
         .edge(All)
         .by_name(|f, name| f.get(name).into()),
-        column("K_border", "unit²", "K with the reduced-sample edge rule.")
+        column("K_border", "unit²", "K_none by the reduced sample rule.")
             .edge(Own)
             .by_name(|f, name| f.get(name).into()),
-        column("K_iso", "unit²", "K with the isotropic edge rule.")
+        column("K_iso", "unit²", "K_none by the isotropic rule.")
             .edge(Own)
             .by_name(|f, name| f.get(name).into()),
-        column("K_trans", "unit²", "K with the translation edge rule.")
+        column("K_trans", "unit²", "K_none by the translation rule.")
             .edge(Own)
             .by_name(|f, name| f.get(name).into()),
-        column("K_theo", "unit²", "Value of K for independent points, π r².")
-            .by_name(|f, name| f.get(name).into()),
-        column("L_none", "unit", "L function, √(K/π) (Besag 1977).")
-            .edge(All)
-            .by_name(|f, name| f.get(name).into()),
-        column("L_border", "unit", "L with the reduced-sample edge rule.")
+        column("K_theo", "unit²", "π r².").by_name(|f, name| f.get(name).into()),
+        column("L_none", "unit", "√(K/π) (Besag 1977).").edge(All).by_name(|f, name| f.get(name).into()),
+        column("L_border", "unit", "L_none by the reduced sample rule.")
             .edge(Own)
             .by_name(|f, name| f.get(name).into()),
-        column("L_iso", "unit", "L with the isotropic edge rule.")
+        column("L_iso", "unit", "L_none by the isotropic rule.")
             .edge(Own)
             .by_name(|f, name| f.get(name).into()),
-        column("L_trans", "unit", "L with the translation edge rule.")
+        column("L_trans", "unit", "L_none by the translation rule.")
             .edge(Own)
             .by_name(|f, name| f.get(name).into()),
         column(
             "pcf_trans_divr",
             "ratio",
-            "Pair correlation function with the translation edge rule, from an Epanechnikov \
-                kernel of half-width .15/√density and divided by 2πr (as pcf.ppp of spatstat).",
+            "Pair correlation by an Epanechnikov kernel of half-width .15/√density, divided by 2πr \
+                (pcf.ppp of spatstat).",
         )
         .edge(Own)
         .by_name(|f, name| f.get(name).into()),
-        column(
-            "pcf_iso_divr",
-            "ratio",
-            "Pair correlation function as in pcf_trans_divr, but with the isotropic edge rule.",
-        )
-        .edge(Own)
-        .by_name(|f, name| f.get(name).into()),
+        column("pcf_iso_divr", "ratio", "pcf_trans_divr by the isotropic rule.")
+            .edge(Own)
+            .by_name(|f, name| f.get(name).into()),
         column(
             "pcf_trans_divd",
             "ratio",
-            "Pair correlation function as in pcf_trans_divr, but with each pair divided by its \
-                own distance (Guan 2007).",
+            "pcf_trans_divr with each pair divided by its own distance (Guan 2007).",
         )
         .edge(Own)
         .by_name(|f, name| f.get(name).into()),
-        column(
-            "pcf_iso_divd",
-            "ratio",
-            "Pair correlation function as in pcf_trans_divd, but with the isotropic edge rule.",
-        )
-        .edge(Own)
-        .by_name(|f, name| f.get(name).into()),
+        column("pcf_iso_divd", "ratio", "pcf_trans_divd by the isotropic rule.")
+            .edge(Own)
+            .by_name(|f, name| f.get(name).into()),
     ],
 };
 
@@ -175,14 +146,12 @@ impl Row for AnnulusRow {
 pub static DENSITY_RECOVERY: Table<AnnulusRow> = Table {
     file: "NAME.density_recovery.csv",
     commands: "measure --functions",
-    about: "One row per annulus around the average point (Rodieck 1991); no rows for fewer than \
-        two points. Only the part of each annulus that lies in the window counts as its area.",
+    about: "One row per annulus about the average point (Rodieck 1991); no rows for fewer than two \
+            points. What the annuli cover beyond the window is made up for.",
     columns: &[
-        column("r", "unit", "Radius of the middle of the annulus.").of(|a| a.r.into()),
-        column("density", "1/unit²", "Number of points in the annulus divided by its area.")
-            .edge(Own)
-            .of(|a| a.density.into()),
-        column("relative_density", "ratio", "Density in the annulus divided by the mean density.")
+        column("r", "unit", "Middle of the annulus.").of(|a| a.r.into()),
+        column("density", "1/unit²", "Points per area in the annulus.").edge(Own).of(|a| a.density.into()),
+        column("relative_density", "ratio", "That over the mean density.")
             .edge(Own)
             .of(|a| (a.density / a.mean_density).into()),
     ],
@@ -215,20 +184,14 @@ impl Row for FrequencyRow<'static> {
 pub static SPECTRUM: Table<FrequencyRow> = Table {
     file: "NAME.spectrum.csv",
     commands: "measure --spectrum",
-    about: "One row per ring of frequencies in the power spectrum of the points (Ulichney 1987; \
-        Lanaro et al. 2020).",
+    about: "One row per ring of frequencies (Ulichney 1987; Lanaro et al. 2020).",
     columns: &[
-        column("frequency", "√density", "Frequency of the middle of the ring, in cycles per 1/√density.")
+        column("frequency", "√density", "Middle of the ring, in cycles per 1/√density.")
             .of(|f| f.spectrum.frequency.get(f.index).copied().into()),
-        column("power", "ratio", "Mean power in the ring: 1 for independent points.")
+        column("power", "ratio", "Mean power: 1 for independent points.")
             .of(|f| f.spectrum.power.get(f.index).copied().into()),
-        column(
-            "anisotropy_db",
-            "dB",
-            "Variance of the power in the ring divided by its squared mean: 0 dB if no direction \
-                is preferred.",
-        )
-        .of(|f| f.spectrum.anisotropy_db.get(f.index).copied().into()),
+        column("anisotropy_db", "dB", "Variance of the power over its squared mean: 0 without direction.")
+            .of(|f| f.spectrum.anisotropy_db.get(f.index).copied().into()),
     ],
 };
 

@@ -32,60 +32,39 @@ impl Row for GroupRow<'static> {
 pub static GROUPS: Table<GroupRow> = Table {
     file: "groups.csv",
     commands: "measure --group-by, run --group-by",
-    about: "One row for each group and each column of summary.csv. In mean and sd every image \
-        counts once. Images of the same subject are not independent: the standard error and \
-        the confidence interval are therefore those of the mean over subjects, where each \
-        subject contributes the mean of its images. This needs a column subject in the \
-        manifest; without it, every image counts as a subject of its own.",
+    about: "One row per group and column of summary.csv. In mean and sd every image counts once. Images of \
+            one subject are not independent: standard error and interval are those of the mean over \
+            subjects, each with the mean of its images, where the manifest has a column subject; without \
+            one, every image counts as a subject of its own.",
     columns: &[
-        column(
-            "group",
-            "text",
-            "Name of the group; for several columns of the manifest, their values separated by \
-                commas.",
-        )
-        .of(|g| g.group.into()),
-        column("images", "count", "Number of images (files) in the group.").of(|g| g.images.into()),
-        column("column", "text", "Name of the column of summary.csv.").of(|g| g.column.as_str().into()),
+        column("group", "text", "The group; the values of several columns of the manifest by commas.")
+            .of(|g| g.group.into()),
+        column("images", "count", "Images (files) of the group.").of(|g| g.images.into()),
+        column("column", "text", "The column of summary.csv.").of(|g| g.column.as_str().into()),
         column("unit", "text", "Unit of that column.").of(|g| g.unit.into()),
-        column("n", "count", "Number of images of the group that have a value in that column.")
-            .of(|g| g.over_images.n.into()),
-        column("mean", "column “unit”", "Mean of these values.").of(|g| g.over_images.mean.into()),
-        column(
-            "sd",
-            "column “unit”",
-            "Standard deviation (divisor n − 1) of these values; empty for fewer than two.",
-        )
-        .of(|g| g.over_images.sd.into()),
-        column(
-            "subjects",
-            "count",
-            "Number of subjects to whom these images belong; empty if the manifest does not say.",
-        )
-        .of(|g| g.over_subjects.subjects.into()),
-        column("mean_of_subjects", "column “unit”", "Mean over the subjects of the mean of their images.")
+        column("n", "count", "Images of the group that have a value there.").of(|g| g.over_images.n.into()),
+        column("mean", "column “unit”", "Mean of these.").of(|g| g.over_images.mean.into()),
+        column("sd", "column “unit”", "Standard deviation (n − 1) of these; empty for fewer than two.")
+            .of(|g| g.over_images.sd.into()),
+        column("subjects", "count", "Subjects whose images these are; empty if the manifest does not say.")
+            .of(|g| g.over_subjects.subjects.into()),
+        column("mean_of_subjects", "column “unit”", "Mean of the subjects' means.")
             .of(|g| g.over_subjects.mean.into()),
         column(
             "se",
             "column “unit”",
-            "Standard error of mean_of_subjects: standard deviation (divisor n − 1) of the \
-                subjects' means divided by √subjects; empty for fewer than two subjects.",
+            "Standard error of mean_of_subjects: standard deviation (n − 1) of the subjects' means over \
+                √subjects; empty for fewer than two subjects.",
         )
         .of(|g| g.over_subjects.standard_error.into()),
         column(
             "mean_low",
             "column “unit”",
-            "Lower end of the 95 % confidence interval of mean_of_subjects (t distribution, \
-                subjects − 1 degrees of freedom).",
+            "Lower end of the 95 % interval of mean_of_subjects (t, subjects − 1 degrees of freedom).",
         )
         .of(|g| g.over_subjects.interval.map(|i| i[0]).into()),
-        column(
-            "mean_high",
-            "column “unit”",
-            "Upper end of the 95 % confidence interval of mean_of_subjects (t distribution, \
-                subjects − 1 degrees of freedom).",
-        )
-        .of(|g| g.over_subjects.interval.map(|i| i[1]).into()),
+        column("mean_high", "column “unit”", "Upper end of that interval.")
+            .of(|g| g.over_subjects.interval.map(|i| i[1]).into()),
     ],
 };
 

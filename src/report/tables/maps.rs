@@ -32,43 +32,34 @@ fn per_mm2(density: Option<f64>, um_per_unit: Option<f64>) -> Option<f64> {
 pub static MAPS: Table<MapRow> = Table {
     file: "NAME.maps.csv",
     commands: "measure --maps, run --maps (images/NAME/maps.csv)",
-    about: "One row per cone. Values are taken over the bound Voronoi cells that lie entirely in a \
-        square local window around the cone; empty if there are none.",
+    about: "One row per cone. Values are taken over the bound Voronoi cells that lie wholly in a \
+            square window about it; empty where there are none.",
     columns: &[
-        column("x", "unit", "x coordinate of the cone.").of(|m| m.at.x.into()),
-        column("y", "unit", "y coordinate of the cone.").of(|m| m.at.y.into()),
-        column("side", "unit", "Side of the local window.").of(|m| m.local.side.into()),
-        column("bound", "count", "Number of bound cells in the local window.")
-            .edge(Bound)
-            .of(|m| m.local.bound.into()),
+        column("x", "unit", "x of the cone.").of(|m| m.at.x.into()),
+        column("y", "unit", "y of the cone.").of(|m| m.at.y.into()),
+        column("side", "unit", "Side of the window.").of(|m| m.local.side.into()),
+        column("bound", "count", "Bound cells in it.").edge(Bound).of(|m| m.local.bound.into()),
         column(
             "flag",
             "text",
-            "Flag of the local window: empty, edge (the window reaches beyond the mosaic) or few \
-                (the mosaic has fewer cells than were asked for).",
+            "Empty; edge: the window reaches beyond the mosaic; few: the mosaic has not the cells \
+                asked for.",
         )
         .of(|m| m.local.flag.name().into()),
-        column("density", "1/unit²", "Number of bound cells divided by their total area.")
+        column("density", "1/unit²", "Cells over their total area.")
             .edge(Bound)
             .of(|m| m.local.density.into()),
-        column("icd", "unit", "Mean inter-cell distance, that is, mean distance to the Delaunay neighbours.")
+        column("icd", "unit", "Mean distance to the Delaunay neighbours.")
             .edge(Bound)
             .of(|m| m.local.inter_cell.into()),
         column("nnd", "unit", "Mean distance to the nearest neighbour.")
             .edge(Bound)
             .of(|m| m.local.nearest.into()),
-        column(
-            "ri",
-            "ratio",
-            "Regularity index of the distances to the nearest neighbour: mean divided by standard \
-                deviation.",
-        )
-        .edge(Bound)
-        .of(|m| m.local.nearest_ri.into()),
-        column("psi6", "0–1", "Mean modulus of the bond-orientational order parameter ψ6.")
+        column("ri", "ratio", "Regularity index of these: mean over standard deviation.")
             .edge(Bound)
-            .of(|m| m.local.psi6.into()),
-        column("six_sided_percent", "%", "Percentage of the cells that have six sides.")
+            .of(|m| m.local.nearest_ri.into()),
+        column("psi6", "0–1", "Mean |ψ6|.").edge(Bound).of(|m| m.local.psi6.into()),
+        column("six_sided_percent", "%", "Cells with six sides.")
             .edge(Bound)
             .of(|m| m.local.six_sided_percent.into()),
         column("density_per_mm2", "1/mm²", "density in cones/mm²; empty without a scale.")
@@ -108,39 +99,21 @@ impl Row for DistanceRow {
 pub static PROFILES: Table<DistanceRow> = Table {
     file: "NAME.profiles.csv",
     commands: "measure --maps, run --maps (images/NAME/profiles.csv)",
-    about: "One row per distance from the cone density centroid, for rings (bound cells whose \
-        cones lie in the ring) and along four meridians (values of the map).",
+    about: "One row per distance from the cone density centroid, in rings (bound cells whose cones \
+            lie in them) and along four meridians (the maps).",
     columns: &[
-        column(
-            "along",
-            "text",
-            "Kind of profile: ring, or the direction of the meridian (right, down, left or up).",
-        )
-        .of(|d| d.profile.along.name().into()),
-        column(
-            "r",
-            "unit",
-            "Distance from the cone density centroid; for a ring, that of the middle of its \
-                width.",
-        )
-        .of(|d| d.profile.r.into()),
-        column("bound", "count", "Number of bound cells in the ring.")
-            .edge(Bound)
-            .of(|d| d.profile.bound.into()),
+        column("along", "text", "ring, or right, down, left, up.").of(|d| d.profile.along.name().into()),
+        column("r", "unit", "Distance; of a ring the middle of its width.").of(|d| d.profile.r.into()),
+        column("bound", "count", "Bound cells of the ring.").edge(Bound).of(|d| d.profile.bound.into()),
         column("share", "0–1", "Share of the circle through the middle of the ring that lies in the window.")
             .of(|d| d.profile.share.into()),
-        column(
-            "density",
-            "1/unit²",
-            "Cone density: for a ring, the number of its bound cells divided by their area; on a \
-                meridian, the value of the map.",
-        )
-        .edge(Bound)
-        .of(|d| d.profile.density.into()),
+        column("density", "1/unit²", "Of a ring its bound cells over their area; on a meridian the map.")
+            .edge(Bound)
+            .of(|d| d.profile.density.into()),
         column("spacing", "unit", "Hexagonal spacing of that density.")
             .edge(Bound)
             .of(|d| d.profile.spacing.into()),
-        column("icd", "unit", "Mean inter-cell distance, that is, mean distance to the Delaunay neighbours.")
+        column("icd", "unit", "Mean distance to the Delaunay neighbours.")
             .edge(Bound)
             .of(|d| d.profile.inter_cell.into()),
         column("nnd", "unit", "Mean distance to the nearest neighbour.")
@@ -183,15 +156,12 @@ impl Row for FourierRow {
 pub static FOURIER_MAP: Table<FourierRow> = Table {
     file: "fourier_map.csv",
     commands: "run --maps (images/NAME/fourier_map.csv)",
-    about: "One row per place in the image: spacing from the ring in the power spectrum of \
-        overlapping tiles (after Cooper et al. 2019); no rows if the image has no ring.",
+    about: "One row per place of the image: the ring of the spectrum of overlapping tiles (after \
+            Cooper et al. 2019); no rows where the image has none.",
     columns: &[
-        column("x_px", "px", "x coordinate, to the right from the centre of the first pixel.")
-            .of(|f| f.at.x.into()),
-        column("y_px", "px", "y coordinate, downwards from the centre of the first pixel.")
-            .of(|f| f.at.y.into()),
-        column("spacing_px", "px", "Spacing of neighbouring cones according to the ring.")
-            .of(|f| f.spacing.into()),
+        column("x_px", "px", "To the right from the centre of the first pixel.").of(|f| f.at.x.into()),
+        column("y_px", "px", "Down from the centre of the first pixel.").of(|f| f.at.y.into()),
+        column("spacing_px", "px", "Distance of neighbours by the ring.").of(|f| f.spacing.into()),
         column("spacing_um", "µm", "spacing_px in µm; empty without a scale.")
             .of(|f| length(Some(f.spacing), f.um_per_px).into()),
         column("confidence", "0–1", "Share of the variance of the spectrum that the ring explains.")

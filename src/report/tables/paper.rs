@@ -16,56 +16,30 @@ impl Row for MadeRow {
 pub static PAPER_TABLE_1: Table<MadeRow> = Table {
     file: "table1.csv",
     commands: "paper",
-    about: "One row for each row of Table 1 of Lanaro et al. 2020 that describes a sampler. \
-        Lengths are in units of the side of the unit square. The columns mean_sd, sd_sd and \
-        ri_sd are standard deviations over patterns.",
+    about: "One row per sampler row of Table 1 of Lanaro et al. 2020. Lengths in the unit square; standard \
+            deviations are those over patterns.",
     columns: &[
-        column("printed_as", "text", "Name of the sampler in the paper.")
-            .of(|r| r.printed.name.as_str().into()),
-        column("sampler", "text", "Name of the sampler in this program.").of(|r| r.sampler.as_str().into()),
-        column("n", "count", "Number of points that were asked for.").of(|r| r.n.into()),
-        column("patterns", "count", "Number of patterns that were made.").of(|r| r.patterns.into()),
+        column("printed_as", "text", "Name in the paper.").of(|r| r.printed.name.as_str().into()),
+        column("sampler", "text", "The sampler here.").of(|r| r.sampler.as_str().into()),
+        column("n", "count", "Points asked for.").of(|r| r.n.into()),
+        column("patterns", "count", "Patterns made.").of(|r| r.patterns.into()),
         column("mean_printed", "unit", "Mean nearest-neighbour distance, as printed.")
             .of(|r| r.printed.mean.into()),
-        column("mean", "unit", "Mean over patterns of the mean nearest-neighbour distance.")
-            .of(|r| r.mean.mean.into()),
-        column("mean_sd", "unit", "Standard deviation over patterns of the mean nearest-neighbour distance.")
-            .of(|r| r.mean.sd.into()),
-        column(
-            "sd_printed",
-            "unit",
-            "Standard deviation (divisor n) of the nearest-neighbour distances, as printed.",
-        )
-        .of(|r| r.printed.sd.into()),
-        column(
-            "sd",
-            "unit",
-            "Mean over patterns of the standard deviation (divisor n) of the nearest-neighbour \
-                distances.",
-        )
-        .of(|r| r.sd.mean.into()),
-        column("sd_sd", "unit", "Standard deviation over patterns of that standard deviation.")
-            .of(|r| r.sd.sd.into()),
+        column("mean", "unit", "Mean over patterns of the mean distance.").of(|r| r.mean.mean.into()),
+        column("mean_sd", "unit", "Standard deviation of that mean.").of(|r| r.mean.sd.into()),
+        column("sd_printed", "unit", "Standard deviation of the distances (n), as printed.")
+            .of(|r| r.printed.sd.into()),
+        column("sd", "unit", "Mean over patterns of the standard deviation (n).").of(|r| r.sd.mean.into()),
+        column("sd_sd", "unit", "Standard deviation of that deviation.").of(|r| r.sd.sd.into()),
         column("ri_printed", "ratio", "Regularity index, as printed.").of(|r| r.printed.ri.into()),
         column("ri", "ratio", "Mean over patterns of the regularity index.").of(|r| r.ri.mean.into()),
-        column("ri_sd", "ratio", "Standard deviation over patterns of the regularity index.")
-            .of(|r| r.ri.sd.into()),
-        column("deviations", "ratio", "Difference ri_printed − ri in units of ri_sd.")
+        column("ri_sd", "ratio", "Standard deviation of that index.").of(|r| r.ri.sd.into()),
+        column("deviations", "ratio", "ri_printed − ri in standard deviations ri_sd.")
             .of(|r| r.deviations().into()),
-        column(
-            "agrees",
-            "yes or no",
-            "Agreement of the printed and the reproduced index: yes if deviations is at most 2 in \
-                size.",
-        )
-        .of(|r| yes(r.agrees())),
-        column(
-            "points_by_printed_mean",
-            "count",
-            "Number of points for which mean_printed would be the mean distance in our patterns.",
-        )
-        .of(|r| r.points_by_mean_distance().map(|p| p.0).into()),
-        column("points_sd", "count", "Standard deviation over patterns of points_by_printed_mean.")
+        column("agrees", "yes or no", "yes where these are at most 2.").of(|r| yes(r.agrees())),
+        column("points_by_printed_mean", "count", "Points that mean_printed would belong to.")
+            .of(|r| r.points_by_mean_distance().map(|p| p.0).into()),
+        column("points_sd", "count", "Standard deviation of that number.")
             .of(|r| r.points_by_mean_distance().map(|p| p.1).into()),
     ],
 };
@@ -86,21 +60,16 @@ impl Row for PaperDistance {
 pub static PAPER_TABLE_2: Table<PaperDistance> = Table {
     file: "table2_samplers.csv",
     commands: "paper",
-    about: "One row for each pair of the samplers in Table 2 of Lanaro et al. 2020.",
+    about: "One row per pair of the samplers of Table 2 of Lanaro et al. 2020.",
     columns: &[
-        column("first", "text", "Name of the first sampler.").of(|d| d.between[0].into()),
-        column("second", "text", "Name of the second sampler.").of(|d| d.between[1].into()),
-        column(
-            "l_infinity",
-            "ratio",
-            "Largest absolute difference between the mean pair correlation functions of the two \
-                samplers.",
-        )
-        .of(|d| d.found.l_infinity.into()),
+        column("first", "text", "The first sampler.").of(|d| d.between[0].into()),
+        column("second", "text", "The second.").of(|d| d.between[1].into()),
+        column("l_infinity", "ratio", "Greatest difference of their mean pair correlation functions.")
+            .of(|d| d.found.l_infinity.into()),
         column("standard_error", "ratio", "Standard error of l_infinity.").of(|d| d.found.error.into()),
-        column("least_allowed_by_table_2", "ratio", "Smallest distance that all printed rows allow.")
+        column("least_allowed_by_table_2", "ratio", "The least distance that all printed rows allow.")
             .of(|d| d.allowed[0].into()),
-        column("most_allowed_by_table_2", "ratio", "Largest distance that all printed rows allow.")
+        column("most_allowed_by_table_2", "ratio", "The greatest distance that they allow.")
             .of(|d| d.allowed[1].into()),
     ],
 };
@@ -120,21 +89,20 @@ impl Row for TriangleRow<'static> {
 pub static PAPER_TRIANGLE: Table<TriangleRow> = Table {
     file: "triangle.csv",
     commands: "paper",
-    about: "One row per mosaic of Table 2 of Lanaro et al. 2020. Its printed distances to the \
-        samplers must satisfy the triangle inequality with the distances between the samplers.",
+    about: "One row per mosaic of Table 2 of Lanaro et al. 2020: its printed distances to samplers must \
+            satisfy the triangle inequality with the distances between the samplers.",
     columns: &[
-        column("mosaic", "text", "Name of the mosaic.").of(|t| t.printed.name.as_str().into()),
+        column("mosaic", "text", "The mosaic.").of(|t| t.printed.name.as_str().into()),
         column("bnot_1024", "ratio", "Printed distance to BNOT.").of(|t| t.printed.l_infinity[0].into()),
         column("dart_throwing_1024", "ratio", "Printed distance to dart throwing.")
             .of(|t| t.printed.l_infinity[1].into()),
         column("jitter_1024", "ratio", "Printed distance to jittered sampling.")
             .of(|t| t.printed.l_infinity[2].into()),
-        column("room", "ratio", "Smallest slack of the triangle inequalities; negative if one is violated.")
+        column("room", "ratio", "Least slack of the inequality; negative where it fails.")
             .of(|t| t.tightest.room.into()),
-        column("tightest_between", "text", "Pair of samplers in the inequality with the smallest slack.")
+        column("tightest_between", "text", "The pair of samplers of that inequality.")
             .of(|t| t.tightest.between.map(|c| TABLE_2_SAMPLERS[c]).join(" – ").as_str().into()),
-        column("holds", "yes or no", "Validity of the inequalities: yes if room is not negative.")
-            .of(|t| yes(t.tightest.room >= 0.)),
+        column("holds", "yes or no", "yes where room is not negative.").of(|t| yes(t.tightest.room >= 0.)),
     ],
 };
 
@@ -161,13 +129,13 @@ pub static PAPER_BANDWIDTHS: Table<BandwidthRow> = Table {
     columns: &[
         column("bandwidth_in_spacings", "spacings", "Standard deviation of the kernel.")
             .of(|b| b.bandwidth.into()),
-        column("bnot_dart_throwing", "ratio", "Distance between BNOT and dart throwing.")
+        column("bnot_dart_throwing", "ratio", "Distance of BNOT and dart throwing.")
             .of(|b| b.distances[0].into()),
-        column("bnot_jittered", "ratio", "Distance between BNOT and jittered sampling.")
+        column("bnot_jittered", "ratio", "Distance of BNOT and jittered sampling.")
             .of(|b| b.distances[1].into()),
-        column("dart_throwing_jittered", "ratio", "Distance between dart throwing and jittered sampling.")
+        column("dart_throwing_jittered", "ratio", "Distance of dart throwing and jittered sampling.")
             .of(|b| b.distances[2].into()),
-        column("rows_that_hold", "count", "Number of rows of Table 2 that satisfy the triangle inequality.")
+        column("rows_that_hold", "count", "Rows of Table 2 that satisfy the triangle inequality.")
             .of(|b| b.holds.into()),
     ],
 };
@@ -205,10 +173,10 @@ impl CurveRow<'_> {
 pub static PAPER_PCF: Table<CurveRow> = Table {
     file: "pcf.csv",
     commands: "paper",
-    about: "One row per distance, with one column per sampler in Figure 1 of Lanaro et al. 2020.",
+    about: "One row per distance, one column per sampler of Figure 1 of Lanaro et al. 2020.",
     columns: &[
-        column("r_in_hexagonal_spacings", "spacings", "Distance: left edge of the bin.").of(|c| c.x.into()),
-        column("SAMPLER", "ratio", "Mean pair correlation function of the sampler.")
+        column("r_in_hexagonal_spacings", "spacings", "Left edge of the bin.").of(|c| c.x.into()),
+        column("SAMPLER", "ratio", "Mean pair correlation function.")
             .per_sampler(|c, s| c.of_sampler(s).into()),
     ],
 };
@@ -217,12 +185,10 @@ pub static PAPER_PCF: Table<CurveRow> = Table {
 pub static PAPER_SPECTRA: Table<CurveRow> = Table {
     file: "spectra.csv",
     commands: "paper",
-    about: "One row per ring of frequencies, with one column per sampler in Figure 1 of Lanaro et \
-        al. 2020.",
+    about: "One row per ring of frequencies, one column per sampler of Figure 1 of Lanaro et al. 2020.",
     columns: &[
         column("frequency_in_sqrt_n", "√n", "Frequency of the ring.").of(|c| c.x.into()),
-        column("SAMPLER", "ratio", "Mean power of the sampler in the ring.")
-            .per_sampler(|c, s| c.of_sampler(s).into()),
+        column("SAMPLER", "ratio", "Mean power.").per_sampler(|c, s| c.of_sampler(s).into()),
     ],
 };
 

@@ -26,22 +26,16 @@ pub static DETECTIONS: Table<DetectedCone> = Table {
     file: "points.csv",
     commands: "run (images/NAME/points.csv), detect (NAME.csv; NAME.rejected.csv: candidates that \
         were rejected)",
-    about: "One row per cone, the highest score first.",
+    about: "One row per cone, the best score first.",
     columns: &[
-        column("x_px", "px", "x coordinate, to the right from the centre of the first pixel.")
-            .of(|d| d.centre.x.into()),
-        column("y_px", "px", "y coordinate, downwards from the centre of the first pixel.")
-            .of(|d| d.centre.y.into()),
-        column(
-            "score",
-            "0–1",
-            "Probability that a person would mark the cone (cross-validated calibration).",
-        )
-        .of(|d| d.score.into()),
-        column("x_um", "µm", "x_px in µm of retina; without a scale the column does not exist.")
+        column("x_px", "px", "To the right from the centre of the first pixel.").of(|d| d.centre.x.into()),
+        column("y_px", "px", "Down from the centre of the first pixel.").of(|d| d.centre.y.into()),
+        column("score", "0–1", "Probability that a person would mark it (cross-validated calibration).")
+            .of(|d| d.score.into()),
+        column("x_um", "µm", "x_px in µm of retina; without a scale there is no such column.")
             .only(Part::Scaled)
             .of(|d| d.um_per_px.map(|um| d.centre.x * um).into()),
-        column("y_um", "µm", "y_px in µm of retina; without a scale the column does not exist.")
+        column("y_um", "µm", "y_px in µm of retina; without a scale there is no such column.")
             .only(Part::Scaled)
             .of(|d| d.um_per_px.map(|um| d.centre.y * um).into()),
     ],
@@ -71,37 +65,30 @@ impl PointRow<'_> {
 pub static POINTS: Table<PointRow> = Table {
     file: "NAME.points.csv",
     commands: "measure --functions",
-    about: "One row per point in the window, in the order of the file. A cell is empty if its \
-        value is not defined: the point has no neighbour, its Voronoi cell is infinite, or it \
-        coincides with an earlier point.",
+    about: "One row per point of the window, in the order of the file. A cell is empty where it is \
+            not defined: no neighbour, an infinite Voronoi cell, a point that coincides with an \
+            earlier one.",
     columns: &[
-        column("x", "unit", "x coordinate of the point.").of(|p| p.point.x.into()),
-        column("y", "unit", "y coordinate of the point.").of(|p| p.point.y.into()),
+        column("x", "unit", "x of the point.").of(|p| p.point.x.into()),
+        column("y", "unit", "y of the point.").of(|p| p.point.y.into()),
         column("nndist", "unit", "Distance to the nearest neighbour.")
             .edge(All)
             .of(|p| p.of(&p.measures.neighbours.distances).into()),
-        column("nnwhich", "row", "Row of the nearest neighbour, counted from 1.")
+        column("nnwhich", "row", "The nearest neighbour, rows counted from 1.")
             .edge(All)
             .of(|p| p.of(&p.measures.neighbours.indices).map(|j| j + 1).into()),
         column("bdist", "unit", "Distance to the border of the window; infinite on a torus.")
             .of(|p| p.of(&p.measures.borders).into()),
-        column("dirichlet_area", "unit²", "Area of the part of the Voronoi cell that lies in the window.")
+        column("dirichlet_area", "unit²", "Area of the Voronoi cell within the window.")
             .of(|p| p.cell.clipped_area.into()),
-        column("cell_area", "unit²", "Area of the whole Voronoi cell; empty if it is infinite.")
+        column("cell_area", "unit²", "Area of the whole Voronoi cell; empty where it is infinite.")
             .edge(All)
             .of(|p| p.cell.area.into()),
-        column("sides", "count", "Number of sides of the Voronoi cell.")
-            .edge(All)
-            .of(|p| p.cell.sides.into()),
-        column(
-            "bound",
-            "0 or 1",
-            "Indicator of a bound cell: 1 if the Voronoi cell is finite and has every vertex \
-                strictly inside the window, otherwise 0.",
-        )
-        .source("Cooper et al. 2016")
-        .of(|p| usize::from(p.cell.bound).into()),
-        column("icd", "unit", "Inter-cell distance: mean distance to the Delaunay neighbours.")
+        column("sides", "count", "Sides of the Voronoi cell.").edge(All).of(|p| p.cell.sides.into()),
+        column("bound", "0 or 1", "1 where the cell is finite with every vertex strictly inside the window.")
+            .source("Cooper et al. 2016")
+            .of(|p| usize::from(p.cell.bound).into()),
+        column("icd", "unit", "Mean distance to the Delaunay neighbours.")
             .edge(All)
             .of(|p| p.cell.inter_cell.into()),
         column("furthest", "unit", "Distance to the furthest Delaunay neighbour.")
@@ -110,24 +97,23 @@ pub static POINTS: Table<PointRow> = Table {
         column(
             "psi6",
             "0–1",
-            "Modulus of the bond-orientational order parameter ψ6, the mean of exp(6iθ) over the \
-                Delaunay neighbours: 1 in a triangular lattice.",
+            "|ψ6|, modulus of the mean of exp(6iθ) over Delaunay neighbours: 1 in a triangular \
+                lattice.",
         )
         .edge(All)
         .of(|p| p.cell.psi6.map(|[re, im]| re.hypot(im)).into()),
         column(
             "nn_direction_deg",
             "degrees",
-            "Axis of the direction to the nearest neighbour, 0–180° counter-clockwise from the \
-                right, as seen in the image.",
+            "Direction of the nearest neighbour as an axis, 0–180°, counter-clockwise from the \
+                right as one sees the picture.",
         )
         .edge(All)
         .of(|p| p.of(&p.measures.orientation.nearest.degrees).flatten().into()),
         column(
             "hexagon_direction_deg",
             "degrees",
-            "Orientation of the hexagon of neighbours, 0–60° counter-clockwise from the right, as \
-                seen in the image: phase of ψ6 divided by 6.",
+            "Direction of the hexagon of neighbours, 0–60° likewise: phase of ψ6 over 6.",
         )
         .edge(Bound)
         .of(|p| p.of(&p.measures.orientation.hexagons).flatten().into()),

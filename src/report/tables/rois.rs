@@ -26,24 +26,21 @@ impl Row for RoiRow {
 pub static ROIS: Table<RoiRow> = Table {
     file: "rois.csv",
     commands: "measure --rois, measure --roi-side",
-    about: "One row per region of interest, which is measured as a mosaic of its own. After these \
-        columns come those of summary.csv for the points in the region. The Voronoi cells are \
-        those of these points alone, and a cell is bound if every vertex is strictly inside \
-        the region.",
+    about: "One row per region, measured as a mosaic of its own: behind these columns come those of \
+            summary.csv for the points in it, by their own Voronoi cells, bound by the region.",
     columns: &[
-        column("file", "text", "Path of the file, as given.").of(|r| r.file.as_str().into()),
-        column("roi", "text", "Name of the region; sliding regions are named rROWcCOLUMN.")
+        column("file", "text", "The file, as given.").of(|r| r.file.as_str().into()),
+        column("roi", "text", "Name of the region; rROWcCOLUMN of sliding ones.")
             .of(|r| r.roi.as_str().into()),
-        column("x0", "unit", "Left edge of the region, after any enlargement.").of(|r| r.frame.x0().into()),
-        column("y0", "unit", "Upper edge of the region, after any enlargement.").of(|r| r.frame.y0().into()),
-        column("x1", "unit", "Right edge of the region, after any enlargement.").of(|r| r.frame.x1().into()),
-        column("y1", "unit", "Lower edge of the region, after any enlargement.").of(|r| r.frame.y1().into()),
+        column("x0", "unit", "Left edge, after it has grown.").of(|r| r.frame.x0().into()),
+        column("y0", "unit", "Upper edge, after it has grown.").of(|r| r.frame.y0().into()),
+        column("x1", "unit", "Right edge, after it has grown.").of(|r| r.frame.x1().into()),
+        column("y1", "unit", "Lower edge, after it has grown.").of(|r| r.frame.y1().into()),
         column(
             "flag",
             "text",
-            "Flag of the region: empty, edge (the region reaches beyond the window and is cut \
-                off), few (it has too few bound cells) or outside (no part of it lies in the \
-                window).",
+            "Empty; edge: it reaches beyond the window and is cut; few: not enough bound cells; outside: \
+                none of the window.",
         )
         .of(|r| r.flag.as_str().into()),
     ],

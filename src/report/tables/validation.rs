@@ -48,91 +48,61 @@ fn versus(row: &ValidationRow, value: fn(&Score) -> f64) -> Cell {
 pub static VALIDATION: Table<ValidationRow> = Table {
     file: "validation.csv",
     commands: "validate",
-    about: "One row per image. Pairs, misses and false alarms are counted only outside a border \
-        along the edges of the image (Cunefare et al. 2017). The columns from versus_dice \
-        onwards exist only if two detectors or graders are compared.",
+    about: "One row per image. Pairs, misses and false alarms count outside a border of the image \
+            only (Cunefare et al. 2017); the columns from versus_dice on are there where two \
+            detectors or graders are compared.",
     columns: &[
-        column("file", "text", "Path of the detections or of the image, as given.")
-            .of(|r| r.file.as_str().into()),
+        column("file", "text", "The detections or image, as given.").of(|r| r.file.as_str().into()),
         column("name", "text", "Name of the image.").of(|r| r.name.as_str().into()),
-        column("group", "text", "Name of the group to which the image belongs; empty without groups.")
+        column("group", "text", "Group of the image; empty without groups.")
             .of(|r| r.group.as_deref().into()),
-        column("tp", "count", "Number of hits: marks with a detection.").of(|r| r.score.rates.tp.into()),
-        column("fn", "count", "Number of misses: marks without a detection.")
-            .of(|r| r.score.rates.fn_.into()),
-        column("fp", "count", "Number of false alarms: detections without a mark.")
-            .of(|r| r.score.rates.fp.into()),
-        column("sensitivity", "0–1", "Sensitivity: share of the marks that have a detection, tp/(tp + fn).")
-            .of(|r| r.score.rates.sensitivity.into()),
-        column(
-            "fdr",
-            "0–1",
-            "False discovery rate: share of the detections that have no mark, fp/(tp + fp).",
-        )
-        .of(|r| r.score.rates.fdr.into()),
-        column("precision", "0–1", "Precision: share of the detections that have a mark, tp/(tp + fp).")
-            .of(|r| r.score.rates.precision.into()),
-        column("dice", "0–1", "Dice coefficient (F1 score), 2 tp/(2 tp + fn + fp).")
+        column("tp", "count", "Hits: marks with a detection.").of(|r| r.score.rates.tp.into()),
+        column("fn", "count", "Misses: marks without.").of(|r| r.score.rates.fn_.into()),
+        column("fp", "count", "False alarms: detections without a mark.").of(|r| r.score.rates.fp.into()),
+        column("sensitivity", "0–1", "tp/(tp + fn).").of(|r| r.score.rates.sensitivity.into()),
+        column("fdr", "0–1", "False discovery rate, fp/(tp + fp).").of(|r| r.score.rates.fdr.into()),
+        column("precision", "0–1", "tp/(tp + fp).").of(|r| r.score.rates.precision.into()),
+        column("dice", "0–1", "Dice coefficient or F1, 2 tp/(2 tp + fn + fp).")
             .of(|r| r.score.rates.dice.into()),
-        column("localisation_px", "px", "Median distance between the mark and the detection of a pair.")
-            .of(|r| r.score.localisation_px.into()),
+        column("localisation_px", "px", "Median distance of pairs.").of(|r| r.score.localisation_px.into()),
         column("localisation_um", "µm", "localisation_px in µm; empty without a scale.")
             .of(|r| r.score.localisation_um().into()),
         column("localisation_s", "spacings", "localisation_px in hexagonal spacings of the marks.")
             .of(|r| r.score.localisation_s.into()),
-        column("offset_x_px", "px", "Mean displacement from mark to detection, positive to the right.")
+        column("offset_x_px", "px", "Mean displacement from mark to detection, to the right.")
             .of(|r| r.score.offset_px.map(|o| o[0]).into()),
-        column("offset_y_px", "px", "Mean displacement from mark to detection, positive downwards.")
+        column("offset_y_px", "px", "Mean displacement from mark to detection, down.")
             .of(|r| r.score.offset_px.map(|o| o[1]).into()),
-        column("marks_inside", "count", "Number of marks, without those in the border.")
-            .of(|r| r.score.marks_inside.into()),
-        column("detections_inside", "count", "Number of detections, without those in the border.")
+        column("marks_inside", "count", "Marks outside the border.").of(|r| r.score.marks_inside.into()),
+        column("detections_inside", "count", "Detections outside the border.")
             .of(|r| r.score.detections_inside.into()),
-        column("density_ratio", "ratio", "Ratio detections_inside / marks_inside.")
-            .of(|r| r.score.density_ratio.into()),
+        column("density_ratio", "ratio", "Detections over marks.").of(|r| r.score.density_ratio.into()),
         column("area_px2", "px²", "Area of the image without its border.").of(|r| r.score.area_px.into()),
-        column(
-            "um_per_px",
-            "µm/px",
-            "Scale in micrometres of retina per pixel of the image; empty if unknown.",
-        )
-        .of(|r| r.score.um_per_px.into()),
+        column("um_per_px", "µm/px", "Scale; empty if not known.").of(|r| r.score.um_per_px.into()),
         column(
             "expected_false_alarms",
             "count",
-            "Expected number of false alarms: sum of 1 − score over the detections that count; \
-                empty unless they have scores between 0 and 1.",
+            "Sum of 1 − score over the detections; empty where the program did not find them.",
         )
         .of(|r| r.expected_false_alarms.into()),
-        column("n_marks", "count", "Number of marks, including those in the border.")
-            .of(|r| r.score.n_marks.into()),
-        column("n_detections", "count", "Number of detections, including those in the border.")
-            .of(|r| r.score.n_detections.into()),
-        column("limit_px", "px", "Largest distance at which a mark and a detection can form a pair.")
-            .of(|r| r.score.limit_px.into()),
-        column(
-            "assignment",
-            "text",
-            "Rule by which marks and detections are paired if several are near each other.",
-        )
-        .of(|r| r.score.assignment.name().into()),
-        column("versus_dice", "0–1", "Dice coefficient of the second detector or grader.")
+        column("n_marks", "count", "Marks, border included.").of(|r| r.score.n_marks.into()),
+        column("n_detections", "count", "Detections, border included.").of(|r| r.score.n_detections.into()),
+        column("limit_px", "px", "Greatest distance of a pair.").of(|r| r.score.limit_px.into()),
+        column("assignment", "text", "Rule by which marks and detections are paired where several are near.")
+            .of(|r| r.score.assignment.name().into()),
+        column("versus_dice", "0–1", "Dice coefficient of the second.")
             .only(Part::Versus)
             .of(|r| versus(r, |s| s.rates.dice)),
-        column("versus_sensitivity", "0–1", "Sensitivity of the second detector or grader.")
+        column("versus_sensitivity", "0–1", "Sensitivity of the second.")
             .only(Part::Versus)
             .of(|r| versus(r, |s| s.rates.sensitivity)),
-        column("versus_fdr", "0–1", "False discovery rate of the second detector or grader.")
+        column("versus_fdr", "0–1", "False discovery rate of the second.")
             .only(Part::Versus)
             .of(|r| versus(r, |s| s.rates.fdr)),
-        column(
-            "versus_detections_inside",
-            "count",
-            "Number of detections of the second detector or grader, without those in the border.",
-        )
-        .only(Part::Versus)
-        .of(|r| r.versus.as_ref().map(|v| v.score.detections_inside).into()),
-        column("between_dice", "0–1", "Dice coefficient of the two detectors or graders against each other.")
+        column("versus_detections_inside", "count", "Detections of the second.")
+            .only(Part::Versus)
+            .of(|r| r.versus.as_ref().map(|v| v.score.detections_inside).into()),
+        column("between_dice", "0–1", "Dice coefficient of the two against each other.")
             .only(Part::Versus)
             .of(|r| r.versus.as_ref().map(|v| v.between.rates.dice).into()),
     ],
@@ -155,51 +125,32 @@ impl Row for GroupSummary {
 pub static SUBJECT_GROUPS: Table<GroupSummary> = Table {
     file: "groups.csv",
     commands: "validate --group-by",
-    about: "One row per group of images (for example, a subject).",
+    about: "One row per group (subject).",
     columns: &[
-        column("group", "text", "Name of the group.").of(|g| g.group.as_str().into()),
-        column("images", "count", "Number of images in the group.").of(|g| g.summary.images.into()),
-        column("tp", "count", "Number of hits in all images of the group.")
-            .of(|g| g.summary.pooled.tp.into()),
-        column("fn", "count", "Number of misses in all images of the group.")
-            .of(|g| g.summary.pooled.fn_.into()),
-        column("fp", "count", "Number of false alarms in all images of the group.")
-            .of(|g| g.summary.pooled.fp.into()),
-        column("sensitivity", "0–1", "Mean sensitivity over the images.")
-            .of(|g| g.summary.sensitivity.into()),
-        column("fdr", "0–1", "Mean false discovery rate over the images.").of(|g| g.summary.fdr.into()),
-        column("precision", "0–1", "Mean precision over the images.").of(|g| g.summary.precision.into()),
-        column("dice", "0–1", "Mean Dice coefficient over the images.").of(|g| g.summary.dice.into()),
-        column(
-            "dice_sd",
-            "0–1",
-            "Standard deviation (divisor n − 1) of the Dice coefficient over the images.",
-        )
-        .of(|g| g.dice_sd.into()),
-        column("pooled_dice", "0–1", "Dice coefficient of the counts of all images together.")
+        column("group", "text", "The group.").of(|g| g.group.as_str().into()),
+        column("images", "count", "Images.").of(|g| g.summary.images.into()),
+        column("tp", "count", "Hits of all images.").of(|g| g.summary.pooled.tp.into()),
+        column("fn", "count", "Misses of all images.").of(|g| g.summary.pooled.fn_.into()),
+        column("fp", "count", "False alarms of all images.").of(|g| g.summary.pooled.fp.into()),
+        column("sensitivity", "0–1", "Mean over images.").of(|g| g.summary.sensitivity.into()),
+        column("fdr", "0–1", "Mean over images.").of(|g| g.summary.fdr.into()),
+        column("precision", "0–1", "Mean over images.").of(|g| g.summary.precision.into()),
+        column("dice", "0–1", "Mean over images.").of(|g| g.summary.dice.into()),
+        column("dice_sd", "0–1", "Standard deviation (n − 1) over images.").of(|g| g.dice_sd.into()),
+        column("pooled_dice", "0–1", "Of the counts of all images together.")
             .of(|g| g.summary.pooled.dice.into()),
-        column(
-            "localisation_px",
-            "px",
-            "Mean over the images of the median distance between the mark and the detection of a \
-                pair.",
-        )
-        .of(|g| g.summary.localisation_px.into()),
+        column("localisation_px", "px", "Mean over images of the median distance of pairs.")
+            .of(|g| g.summary.localisation_px.into()),
         column("localisation_um", "µm", "localisation_px in µm; empty without a scale.")
             .of(|g| g.summary.localisation_um.into()),
         column("localisation_s", "spacings", "localisation_px in hexagonal spacings of the marks.")
             .of(|g| g.summary.localisation_s.into()),
-        column(
-            "count_bias",
-            "count",
-            "Mean over the images of the number of detections minus the number of marks.",
-        )
-        .of(|g| g.summary.count.map(|a| a.bias).into()),
+        column("count_bias", "count", "Mean over images of detections less marks.")
+            .of(|g| g.summary.count.map(|a| a.bias).into()),
         column(
             "density_percent_bias",
             "%",
-            "Mean over the images of the number of detections minus the number of marks, as a \
-                percentage of the mean of the two.",
+            "Mean over images of detections less marks, in per cent of the mean of the two.",
         )
         .of(|g| g.summary.density_percent.map(|a| a.bias).into()),
     ],
@@ -213,39 +164,19 @@ impl Row for FrocPoint {
 pub static FROC: Table<FrocPoint> = Table {
     file: "froc.csv",
     commands: "validate",
-    about: "One row per threshold of the score: the curve of the free-response receiver operating \
-        characteristic (Bunch et al. 1978).",
+    about: "One row per threshold of the score (Bunch et al. 1978).",
     columns: &[
-        column("threshold", "score", "Lowest score at which detections count.").of(|p| p.threshold.into()),
-        column(
-            "sensitivity",
-            "0–1",
-            "Number of hits divided by the number of marks, over all images together.",
-        )
-        .of(|p| p.sensitivity.into()),
-        column(
-            "precision",
-            "0–1",
-            "Number of hits divided by the number of detections, over all images together.",
-        )
-        .of(|p| p.precision.into()),
-        column("dice", "0–1", "Dice coefficient over all images together.").of(|p| p.dice.into()),
-        column("mean_dice", "0–1", "Mean of the Dice coefficients of the images.").of(|p| p.mean_dice.into()),
-        column("false_alarms_per_image", "count", "Mean number of false alarms over the images.")
+        column("threshold", "score", "Least score of the detections that count.").of(|p| p.threshold.into()),
+        column("sensitivity", "0–1", "Hits over marks, all images pooled.").of(|p| p.sensitivity.into()),
+        column("precision", "0–1", "Hits over detections, all images pooled.").of(|p| p.precision.into()),
+        column("dice", "0–1", "Dice coefficient, all images pooled.").of(|p| p.dice.into()),
+        column("mean_dice", "0–1", "Mean of the images' Dice coefficients.").of(|p| p.mean_dice.into()),
+        column("false_alarms_per_image", "count", "Mean over images.")
             .of(|p| p.false_alarms_per_image.into()),
-        column(
-            "false_alarms_per_mm2",
-            "1/mm²",
-            "Number of false alarms per area of retina; empty unless the scales of all images are \
-                known.",
-        )
-        .of(|p| p.false_alarms_per_mm2.into()),
-        column(
-            "false_alarms_per_100_marks",
-            "count",
-            "Number of false alarms per 100 marks, over all images together.",
-        )
-        .of(|p| p.false_alarms_per_100_marks.into()),
+        column("false_alarms_per_mm2", "1/mm²", "Per area of retina; empty unless all scales are known.")
+            .of(|p| p.false_alarms_per_mm2.into()),
+        column("false_alarms_per_100_marks", "count", "All images pooled.")
+            .of(|p| p.false_alarms_per_100_marks.into()),
     ],
 };
 
@@ -265,29 +196,19 @@ impl Row for ReliabilityBin {
 pub static RELIABILITY: Table<ReliabilityBin> = Table {
     file: "reliability.csv",
     commands: "validate",
-    about: "One row per bin of the score; each bin is a tenth of the range of scores.",
+    about: "One row per tenth of the range of scores.",
     columns: &[
-        column("score_from", "0–1", "Lower end of the bin.").of(|b| b.from.into()),
+        column("score_from", "0–1", "Least score of the bin.").of(|b| b.from.into()),
         column("score_to", "0–1", "Upper end of the bin.").of(|b| b.to.into()),
-        column("n", "count", "Number of detections in the bin.").of(|b| b.n.into()),
-        column("mean_score", "0–1", "Mean score of the detections in the bin.").of(|b| b.mean_score.into()),
-        column("hits", "0–1", "Share of the detections in the bin that are hits.").of(|b| b.hits.into()),
-        column(
-            "hits_low",
-            "0–1",
-            "Lower end of the 95 % confidence interval of hits, if the detections are \
-                independent.",
-        )
-        .source("Wilson 1927")
-        .of(|b| b.hits_interval.map(|i| i[0]).into()),
-        column(
-            "hits_high",
-            "0–1",
-            "Upper end of the 95 % confidence interval of hits, if the detections are \
-                independent.",
-        )
-        .source("Wilson 1927")
-        .of(|b| b.hits_interval.map(|i| i[1]).into()),
+        column("n", "count", "Detections in it.").of(|b| b.n.into()),
+        column("mean_score", "0–1", "Their mean score.").of(|b| b.mean_score.into()),
+        column("hits", "0–1", "Share of them that are hits.").of(|b| b.hits.into()),
+        column("hits_low", "0–1", "Lower end of the 95 % interval of hits, detections taken as independent.")
+            .source("Wilson 1927")
+            .of(|b| b.hits_interval.map(|i| i[0]).into()),
+        column("hits_high", "0–1", "Upper end of that interval.")
+            .source("Wilson 1927")
+            .of(|b| b.hits_interval.map(|i| i[1]).into()),
     ],
 };
 
@@ -299,37 +220,27 @@ impl Row for Difference {
 pub static COMPARISON: Table<Difference> = Table {
     file: "comparison.csv",
     commands: "validate --versus",
-    about: "One row per measure: comparison of two detectors or graders on the same images.",
+    about: "One row per measure: the same images by two detectors or graders.",
     columns: &[
-        column("measure", "text", "Name of the measure that is compared.").of(|d| d.measure.into()),
-        column("images", "count", "Number of images for which both have a value.").of(|d| d.images.into()),
-        column("first", "of the measure", "Mean over the images of the values of the first.")
-            .of(|d| d.first.into()),
-        column("second", "of the measure", "Mean over the images of the values of the second.")
-            .of(|d| d.second.into()),
-        column("difference", "of the measure", "Mean over the images of the difference first − second.")
+        column("measure", "text", "The measure compared.").of(|d| d.measure.into()),
+        column("images", "count", "Images for which both have a value.").of(|d| d.images.into()),
+        column("first", "of the measure", "Mean over images of the first.").of(|d| d.first.into()),
+        column("second", "of the measure", "Mean over images of the second.").of(|d| d.second.into()),
+        column("difference", "of the measure", "Mean of first − second of the same image.")
             .of(|d| d.difference.into()),
-        column(
-            "low",
-            "of the measure",
-            "Lower end of the 95 % confidence interval of difference (BCa bootstrap).",
-        )
-        .source("Efron 1987")
-        .of(|d| d.interval.map(|i| i[0]).into()),
-        column(
-            "high",
-            "of the measure",
-            "Upper end of the 95 % confidence interval of difference (BCa bootstrap).",
-        )
-        .source("Efron 1987")
-        .of(|d| d.interval.map(|i| i[1]).into()),
-        column("p", "0–1", "p-value of the paired sign-flip test of whether the mean difference is zero.")
+        column("low", "of the measure", "Lower end of the 95 % interval of difference (BCa bootstrap).")
+            .source("Efron 1987")
+            .of(|d| d.interval.map(|i| i[0]).into()),
+        column("high", "of the measure", "Upper end of that interval.")
+            .source("Efron 1987")
+            .of(|d| d.interval.map(|i| i[1]).into()),
+        column("p", "0–1", "p-value of the paired sign-flip test that the mean difference is zero.")
             .of(|d| d.p.into()),
         column(
             "p_least",
             "0–1",
-            "Smallest p-value that is possible with so few groups (or images): 2/2ⁿ if n of them \
-                differ, for example .0625 if 5 differ; 1/50,000 if more than 16 differ.",
+            "Least p-value that so few groups (or images) can have: 2/2ⁿ of n that differ, .0625 of 5; \
+             above 16 of them 1/50,000.",
         )
         .of(|d| d.least_p.into()),
     ],
