@@ -1,7 +1,7 @@
-//! Makes `CONEMOSAIC_BUILD_HASH`: SHA-256 of all that decides what the program computes.
+//! Sets `CONEMOSAIC_BUILD_HASH`, a SHA-256 of everything that decides what the program computes.
 //!
-//! A run that is resumed may keep an earlier result only if the same code and weights made it; the version does not tell, as it
-//! stays while the code changes.
+//! A resumed run may keep an earlier result only if the same code and weights made it. The version
+//! cannot tell, as it stays the same while the code changes.
 
 use sha2::{Digest, Sha256};
 use std::fs;
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 fn main() -> io::Result<()> {
     let mut files = Vec::new();
     collect(Path::new("src"), &mut files)?;
-    // without its lock file, as in a vendored copy, the crate must still build
+    // the crate must also build without its lock file, as in a vendored copy
     files.extend(Some(PathBuf::from("Cargo.lock")).filter(|lock| lock.is_file()));
     files.sort();
 
@@ -33,8 +33,8 @@ fn main() -> io::Result<()> {
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
-        // options decide what is computed, not the words of the command line that name them; without
-        // them an edit there compiles the binary only
+        // results depend on options, not on the words of the command line that set them; leaving
+        // the command line out of the hash lets an edit there recompile the binary only
         if path.ends_with("cli") || path.ends_with("main.rs") {
             continue;
         }

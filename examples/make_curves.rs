@@ -1,4 +1,5 @@
-//! Makes the table of samplers' curves that comes with the program; `scripts/make-curves` calls it.
+//! Makes the table of samplers' curves that is shipped with the program; `scripts/make-curves`
+//! calls it.
 //!
 //!     make_curves FILE
 

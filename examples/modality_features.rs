@@ -1,9 +1,10 @@
-//! What the modality and the polarity of images are decided by, for scripts/train-modality.
+//! Prints the features by which modality and polarity are decided, for `scripts/train-modality`.
 //!
 //!     cargo run --release --example modality_features < images.txt
 //!
-//! Each line of the input is the path of an image; each line of the output has its numbers, separated by commas: those of the modality,
-//! then those of the side on which a split detector shows cones dark.
+//! Each line of the input is the path of an image. Each line of the output has the features of one
+//! image, separated by commas: first those of the modality, then those of the side on which a split
+//! detector shows cones dark.
 
 use conemosaic::detect::modality_features;
 use conemosaic::image::{decode, read_bytes};

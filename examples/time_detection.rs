@@ -1,10 +1,13 @@
-//! How long detection takes without reading and writing: one core, every image of a list in turn.
+//! Times detection on one core, without reading and writing, for every image of a list in turn.
 //!
 //!     cargo run --release --example time_detection -- ROUNDS < LIST
 //!
-//! A line of LIST is `PATH<TAB>SPACING<TAB>MODALITY<TAB>POLARITY` (spacing in px). Prints `stage,round,seconds` for three
-//! stages: `filter` (the classical filter, its maxima and their suppression, at the spacing given), `classical` and
-//! `auto` (all of detection, nothing given; `auto` takes a network where it is better). scripts/bench-detect uses it.
+//! A line of LIST is `PATH<TAB>SPACING<TAB>MODALITY<TAB>POLARITY`, with the spacing in px. Prints
+//! `stage,round,seconds` for three stages, which `scripts/bench-detect` uses:
+//!
+//! - `filter`: the classical filter, its maxima and their suppression, at the given spacing;
+//! - `classical`: all of classical detection, with nothing given;
+//! - `auto`: all of detection, with nothing given and a network where that is better.
 
 use conemosaic::detect::{
     DetectOptions, Detector, Modality, Polarity, detect, local_maxima, response, suppress,

@@ -1,9 +1,10 @@
-//! Seconds that statistics of a point pattern take, without files: `scripts/bench-stats` holds them against other programs.
+//! Times statistics of a point pattern, without reading files; `scripts/bench-stats` compares the
+//! times with those of other programs.
 //!
 //!     time_statistics POINTS.csv ROUNDS THREADS R_MAX ROWS
 //!
-//! POINTS.csv has the columns x and y, in the unit square; K, g and the functions are taken at ROWS distances up to R_MAX.
-//! Prints CSV: statistic, round, seconds.
+//! POINTS.csv has the columns x and y, in the unit square. K, g and the other functions are
+//! computed at ROWS distances up to R_MAX. Prints CSV: statistic, round, seconds.
 
 use conemosaic::geometry::{Point, Window};
 use conemosaic::mosaic::{LengthUnit, Mosaic};

@@ -1,11 +1,17 @@
 #!/usr/bin/env python3
-"""Detection written a second time, with OpenCV, for tests/it/opencv_oracle.rs to hold the program against.
+"""Finds cones by a second implementation of the classical filters, written with OpenCV.
 
     scripts/opencv_oracle.py JOBS.csv OUT
 
-JOBS.csv has the columns name,path,modality,polarity,spacing (px). For every job OUT gets, as little-endian float32 row by
-row, NAME.image, NAME.flat, NAME.response, and as CSV NAME.maxima.csv (column,row,x,y,score) and NAME.detections.csv
-(x,y,score). All filters run on float32 with the border mirrored (BORDER_REFLECT) and Gaussians cut at ceil(4 sigma).
+tests/it/opencv_oracle.rs compares the program with it. JOBS.csv has the columns
+name,path,modality,polarity,spacing (px). For each job, the folder OUT gets
+
+- NAME.image, NAME.flat and NAME.response: the image, the flattened image and the response of the
+  filter, as little-endian float32, row by row;
+- NAME.maxima.csv (column,row,x,y,score) and NAME.detections.csv (x,y,score).
+
+All filters compute in float32. The border is reflected (BORDER_REFLECT), and Gaussians are cut at
+ceil(4 sigma). Needs numpy and OpenCV.
 """
 import csv
 import math
@@ -16,13 +22,14 @@ import cv2
 import numpy as np
 
 BORDER = cv2.BORDER_REFLECT
-# threshold of a maximum, radius of suppression in spacings
+# least response of a maximum; radius of suppression, in spacings
 CRITERIA = {'confocal': (0.0, 0.55), 'split': (0.6, 0.5), 'histology': (0.65, 0.45)}
-# slope and offset of the threshold that follows the upper quartile of the maxima
+# slope and offset of the threshold as a function of the upper quartile of the maxima
 RELATIVE = {'split': (0.75, -0.7)}
 
 
 def read_grey(path):
+    """Returns a grey image as float32, from 0 to 1."""
     pixels = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
     if pixels is None or pixels.ndim != 2:
         sys.exit(f'{path}: expected a grey image')
@@ -30,33 +37,40 @@ def read_grey(path):
 
 
 def gaussian(plane, sigma):
+    """Returns the plane blurred by a Gaussian."""
     kernel = cv2.getGaussianKernel(2 * math.ceil(4 * sigma) + 1, sigma, cv2.CV_32F)
     return cv2.sepFilter2D(plane, cv2.CV_32F, kernel, kernel, borderType=BORDER)
 
 
 def over_local_contrast(plane, sigma):
+    """Returns the plane divided by its local root mean square."""
     contrast = cv2.sqrt(cv2.max(gaussian(cv2.multiply(plane, plane), sigma), 0))
     return cv2.divide(plane, cv2.max(contrast, 1e-3 * float(contrast.max())))
 
 
 def flatten(image):
+    """Returns the image less its slow drift, divided by its local contrast."""
     sigma = max(image.shape) / 8
     return over_local_contrast(cv2.subtract(image, gaussian(image, sigma)), sigma)
 
 
 def negative_laplacian(plane):
+    """Returns the negative Laplacian, which is high at bright spots."""
     return -cv2.Laplacian(plane, cv2.CV_32F, ksize=1, borderType=BORDER)
 
 
 def confocal(image, s):
+    """Returns the response of the confocal filter; `s` is the spacing in px."""
     return negative_laplacian(gaussian(image, 0.13 * s))
 
 
 def histology(image, s):
+    """Returns the response of the histology filter; `s` is the spacing in px."""
     return over_local_contrast(negative_laplacian(gaussian(image, 0.22 * s)), 2 * s)
 
 
 def split(image, s):
+    """Returns the response of the split-detector filter; `s` is the spacing in px."""
     h, w = image.shape
     pad = math.floor(s + 0.5)
     height, width = (cv2.getOptimalDFTSize(n + 2 * pad) for n in (h, w))
@@ -64,7 +78,7 @@ def split(image, s):
     fx, fy = np.fft.fftfreq(width)[None], np.fft.fftfreq(height)[:, None]
     f2 = (fx ** 2 + fy ** 2) * s ** 2
     band = np.exp(-2 * np.pi ** 2 * 0.14 ** 2 * f2) * (1 - np.exp(-2 * np.pi ** 2 * 0.25 ** 2 * f2))
-    # times i: real and imaginary part change places, the new real part changes sign
+    # multiplied by i: real and imaginary part change places, the new real part changes sign
     gain = (np.sign(fx) * np.sqrt(np.abs(fx * s)) * band).astype(np.float32)
     spectrum = cv2.dft(framed, flags=cv2.DFT_COMPLEX_OUTPUT)
     turned = cv2.merge([-gain * spectrum[..., 1], gain * spectrum[..., 0]])
@@ -76,13 +90,17 @@ FILTERS = {'confocal': confocal, 'split': split, 'histology': histology}
 
 
 def parabola_top(before, middle, after):
+    """Returns the top of the parabola through three values, from −0.5 to 0.5."""
     before, middle, after = (np.float64(v) for v in (before, middle, after))
     curvature = before - 2 * middle + after
     return np.clip((before - after) / (2 * curvature), -0.5, 0.5) if curvature < 0 else 0.0
 
 
 def local_maxima(response, threshold):
-    """Every pixel as high as the highest of its 3 x 3 neighbourhood: (column, row, x, y, score)."""
+    """Returns the pixels that are the highest of their 3 × 3 neighbourhood.
+
+    Each has (column, row, x, y, score).
+    """
     h, w = response.shape
     top = (response == cv2.dilate(response, np.ones((3, 3), np.uint8))) & (response > threshold)
     found = []
@@ -97,6 +115,7 @@ def local_maxima(response, threshold):
 
 
 def suppress(maxima, radius):
+    """Returns the maxima that have no higher one, kept itself, within `radius` px."""
     kept = []
     for _, _, x, y, score in sorted(maxima, key=lambda m: (-m[4], m[3], m[2])):
         if not kept or np.min(np.hypot(*(np.array(kept)[:, :2] - (x, y)).T)) > radius:
@@ -105,6 +124,7 @@ def suppress(maxima, radius):
 
 
 def select(kept, modality):
+    """Returns the maxima above the threshold that follows the image."""
     if modality not in RELATIVE or not kept:
         return kept
     slope, offset = RELATIVE[modality]
@@ -113,6 +133,7 @@ def select(kept, modality):
 
 
 def write_rows(path, header, rows):
+    """Writes a CSV file; numbers keep all their digits."""
     with open(path, 'w', newline='') as file:
         writer = csv.writer(file)
         writer.writerow(header)
@@ -120,6 +141,7 @@ def write_rows(path, header, rows):
 
 
 def main(jobs, out):
+    """Runs all jobs."""
     out = Path(out)
     with open(jobs, newline='', encoding='utf-8') as file:
         for job in csv.DictReader(file):

@@ -1,27 +1,35 @@
 #!/usr/bin/env python3
-"""Simulated confocal images whose cones are known, for a judgement that does not depend on `conemosaic render`.
+"""Simulates confocal images whose cones are known, independently of `conemosaic render`.
 
     scripts/simulate_coherent.py OUT [--set NAME ...] [--count N]
 
-Writes N images of each set NAME (default: 12 of every set) as NAME_KK.png, 8 bit, and their cones as NAME_KK.csv: x,y in px, 0 at
-the centre of the top-left pixel, cones inside the image only. Needs numpy and OpenCV. The same name is always the same image.
+Writes N images of each set NAME (default: 12 of every set) as NAME_KK.png, 8 bit, and their cones
+as NAME_KK.csv: x,y in px, 0 at the centre of the top-left pixel, only cones inside the image. Needs
+numpy and OpenCV. The same name always gives the same image.
 
-No weights, thresholds or constants are fitted to these images, so that they judge. Nothing is shared with `render`, which adds up spots of
-light. Here light has a phase, as in a scanning ophthalmoscope whose source is coherent:
+The images serve to judge the program: no weights, thresholds or constants are fitted to them. They
+share nothing with `render`, which adds up spots of light. Here light has a phase, as in a scanning
+ophthalmoscope whose source is coherent:
 
-- The mosaic: random points, then Lloyd steps weighted so that spacing grows linearly from a place in the image outwards.
-- Each cone reflects from two layers (the ends of its outer segment), whose amplitudes scatter log-normally and whose difference in
-  phase wanders from frame to frame: cones differ in brightness, and some nearly vanish. Tissue everywhere reflects a little,
-  with a random phase (speckle).
-- Fields add up, not intensities: neighbours in phase run together, in opposite phase a dark line parts them. How much of that
-  is left after several frames is a matter of how far phases wander.
-- Light leaves a cone as a Gaussian mode. The eye's pupil passes amplitudes up to a cut-off (its spot has rings, as Airy's), and
-  defocus turns their phases. The intensity is blurred by the pinhole and by what registration of the frames leaves over.
-- Lines of a frame are shifted by residual movements of the eye.
-- A constant background, uneven illumination, sometimes a square root as compression, noise as of photons and of the camera, 8 bit.
+- Mosaic: random points, moved by weighted Lloyd steps so that the spacing grows linearly outwards
+  from a place in the image.
+- Cones: each reflects from two layers (the ends of its outer segment). The amplitudes scatter
+  log-normally, and the difference in phase changes from frame to frame. So cones differ in
+  brightness, and some nearly vanish. Tissue everywhere reflects a little, with a random phase
+  (speckle).
+- Interference: fields add up, not intensities. Neighbours in phase merge; a dark line separates
+  neighbours in opposite phase. The more the phases change between frames, the less of this is left
+  in the mean of several frames.
+- Optics: light leaves a cone as a Gaussian mode. The pupil of the eye passes amplitudes up to a
+  cut-off frequency (its spot has rings like Airy's), and defocus turns their phases. The intensity
+  is blurred by the pinhole and by errors in the registration of the frames.
+- Movement: residual eye movements shift the lines of a frame.
+- Recording: a constant background, uneven illumination, sometimes compression by a square root,
+  photon and camera noise, 8 bit.
 
-The sets: the centre of the fovea, where density falls 3:1 within the image, the parafovea, and cones well apart as in the
-periphery (without rods between them); clear, unless the name says how hard they are.
+The sets show the centre of the fovea, where the density falls 3:1 within the image; the parafovea;
+and cones far apart, as in the periphery (without rods between them). Images are clear unless the
+name of the set says how difficult they are.
 """
 import argparse
 import multiprocessing
@@ -33,15 +41,18 @@ import numpy as np
 
 
 class Conditions(NamedTuple):
-    """Ranges that an image's values are drawn from. Lengths are in spacings, at the median of the image's cones."""
-    spacing: tuple          # where it is least, px
-    ratio: float            # of the highest density to that in the farthest corner
-    pupil: tuple            # radius: the frequency that amplitudes are cut off at, cycles a spacing
+    """Ranges from which the properties of an image are drawn.
+
+    Lengths are in spacings, at the median of the image's cones.
+    """
+    spacing: tuple          # least spacing in the image, px
+    ratio: float            # highest density over that in the farthest corner
+    pupil: tuple            # cut-off frequency of amplitudes, cycles per spacing
     defocus: tuple          # wave-front error at the pupil's edge, waves
     scatter: tuple          # standard deviation of the logarithm of cones' amplitudes
     wander: float           # standard deviation of a cone's phase over the frames, rad
-    haze: float             # light of the tissue, as part of that of a median cone's first layer
-    noise: tuple            # standard deviation of photon noise at mean intensity, as part of it
+    haze: float             # light of the tissue over that of a median cone's first layer
+    noise: tuple            # standard deviation of photon noise over the mean intensity
 
 
 SETS = {
@@ -54,29 +65,33 @@ SETS = {
     'periphery':        Conditions((10.0, 10.7), 1.2, (1.6, 2.4), (0.0, 0.3), (.30, .60), 2.5, .05, (.10, .30)),
 }
 
-FINE = 3                 # light is computed on a grid of so many points a px
-MARGIN = 20              # so much more than the image is simulated on each side, px
+FINE = 3                 # points per px of the grid on which light is computed
+MARGIN = 20              # margin that is simulated on each side of the image, px
 LLOYD_STEPS = 15
 FRAMES = 6
-SECOND_LAYER = 0.5       # its median amplitude, as part of the first layer's
-LAYERS_WANDER = 0.6      # standard deviation of their difference in phase over the frames, rad
+SECOND_LAYER = 0.5       # median amplitude of the second layer over that of the first
+LAYERS_WANDER = 0.6      # standard deviation over the frames of the layers' phase difference, rad
 MODE = 0.11              # standard deviation of the amplitude that leaves a cone, spacings
 PINHOLE = 0.12           # standard deviation of the blur of the intensity, spacings
-PUPIL_EDGE = 0.06        # its softness, as part of the pupil's radius
-MOVEMENT_LINES = 13      # the eye's velocity changes after so many lines, px
-MOVEMENT = 0.06          # standard deviation of its shift within that time, px
-BACKGROUND = 0.25        # as part of the mean of the cones' light
+PUPIL_EDGE = 0.06        # softness of the pupil's edge over the pupil's radius
+MOVEMENT_LINES = 13      # lines after which the velocity of the eye changes, px
+MOVEMENT = 0.06          # standard deviation of the shift within that time, px
+BACKGROUND = 0.25        # background over the mean of the cones' light
 ILLUMINATION = 0.3       # standard deviation of the logarithm of the illumination
-COMPRESSED = 0.3         # so many of the images are square roots
+COMPRESSED = 0.3         # share of the images that are compressed by a square root
 
 
 def lloyd(spacing, rng):
-    """Cones on a grid that holds the spacing wanted at each of its points (grid steps): one (x, y) a row."""
+    """Returns cones on a grid, one (x, y) per row, in grid steps.
+
+    `spacing` holds the spacing that is wanted at each point of the grid, in grid steps.
+    """
     density = 2 / (np.sqrt(3) * spacing ** 2)
     start = rng.choice(density.size, round(density.sum()), replace=False, p=(density / density.sum()).ravel())
     y, x = np.divmod(start, density.shape[1])
     rows, columns = (axis.astype(float) for axis in np.indices(density.shape))
-    weight = density ** 2  # in the plane, points come to stand as the square root of the weight
+    # in the plane, Lloyd's points get a density that is the square root of the weight
+    weight = density ** 2
     for _ in range(LLOYD_STEPS):
         elsewhere = np.ones(density.shape, np.uint8)
         elsewhere[np.rint(y).astype(int), np.rint(x).astype(int)] = 0
@@ -87,11 +102,12 @@ def lloyd(spacing, rng):
 
 
 def random_phase(shape, spread, rng):
+    """Returns complex numbers of modulus 1 whose phases scatter by `spread`, in rad."""
     return np.exp(1j * rng.normal(0, spread, shape))
 
 
 def averaged_frames(cones, shape, spacing, conditions, rng):
-    """The intensity of all frames on the fine grid; `spacing` is the median, in steps of that grid."""
+    """Returns the sum of the frames' intensity; `spacing` is the median one, in grid steps."""
     pupil, defocus, scatter = (rng.uniform(*r) for r in (conditions.pupil, conditions.defocus, conditions.scatter))
     first = np.exp(scatter * rng.standard_normal(len(cones)))
     second = SECOND_LAYER * first * np.exp(0.5 * rng.standard_normal(len(cones)))
@@ -116,7 +132,7 @@ def averaged_frames(cones, shape, spacing, conditions, rng):
 
 
 def recorded(light, noise, rng):
-    """What the camera makes of it: 8 bit."""
+    """Returns the image that the camera records, with 8 bits."""
     drift = cv2.GaussianBlur(rng.standard_normal(light.shape), (0, 0), min(light.shape) / 5)
     image = (light / light.mean() + BACKGROUND) * np.exp(ILLUMINATION * drift / drift.std())
     if rng.random() < COMPRESSED:
@@ -127,19 +143,19 @@ def recorded(light, noise, rng):
 
 
 def distance_from_a_place(shape, rng):
-    """From 0 at some place in the middle to 1 in the corner farthest from it."""
+    """Returns the distance from a random place in the middle; the farthest corner has 1."""
     centre = shape * rng.uniform(0.2, 0.8, 2)
     distance = np.hypot(*(axis - c for axis, c in zip(np.indices(shape), centre)))
     return distance / distance.max()
 
 
 def inside(points, height, width):
-    """Those of the points x, y, px, that lie in the image."""
+    """Returns the points (x, y in px) that lie in the image."""
     return points[((points > -0.5) & (points < np.array([width, height]) - 0.5)).all(1)]
 
 
 def simulate(conditions, rng):
-    """Image, and the cones inside it, px."""
+    """Returns an image, and the cones inside it in px."""
     height, width = 8 * rng.integers(25, 41, 2)
     shape = FINE * (height + 2 * MARGIN), FINE * (width + 2 * MARGIN)
     outwards = distance_from_a_place(shape, rng)
@@ -153,8 +169,9 @@ def simulate(conditions, rng):
 
 
 def write(job):
+    """Simulates and writes one image and its cones."""
     out, simulate, conditions, name, number = job
-    cv2.setNumThreads(1)  # images are made side by side instead
+    cv2.setNumThreads(1)  # one thread each: images are made side by side
     image, cones = simulate(conditions, np.random.default_rng([number, *name.encode()]))
     stem = f'{out}/{name}_{number:02}'
     cv2.imwrite(f'{stem}.png', image)
@@ -162,10 +179,12 @@ def write(job):
 
 
 def main(description, sets, simulate):
+    """Writes the sets of images that the command line asks for."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument('out', metavar='OUT', type=Path)
-    parser.add_argument('--set', nargs='+', choices=sets, default=list(sets), metavar='NAME', help=', '.join(sets))
-    parser.add_argument('--count', type=int, default=12, metavar='N')
+    parser.add_argument('out', metavar='OUT', type=Path, help='folder for the images; made if it is missing')
+    parser.add_argument('--set', nargs='+', choices=sets, default=list(sets), metavar='NAME',
+                        help='sets to simulate [default: all]: ' + ', '.join(sets))
+    parser.add_argument('--count', type=int, default=12, metavar='N', help='images of each set [default: 12]')
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     jobs = [(options.out, simulate, sets[name], name, k) for name in options.set for k in range(options.count)]

@@ -1,23 +1,28 @@
 #!/usr/bin/env python3
-"""Simulated histology whose cones are known, for a judgement that does not depend on `conemosaic render`.
+"""Simulates histology whose cones are known, independently of `conemosaic render`.
 
     scripts/simulate_cut_cells.py OUT [--set NAME ...] [--count N]
 
-Writes N images of each set NAME (default: 12 of every set) as NAME_KK.png, 8 bit, and their cones as NAME_KK.csv: x,y in px, 0 at
-the centre of the top-left pixel, cones inside the image only. Needs numpy and OpenCV. The same name is always the same image.
+Writes N images of each set NAME (default: 12 of every set) as NAME_KK.png, 8 bit, and their cones
+as NAME_KK.csv: x,y in px, 0 at the centre of the top-left pixel, only cones inside the image. Needs
+numpy and OpenCV. The same name always gives the same image.
 
-No weights, thresholds or constants are fitted to these images, so that they judge; but they showed which kinds of image training lacked. Nothing is shared with `render`, which draws
-discs one by one. Here the plane is divided among cells:
+The images serve to judge the program: no weights, thresholds or constants are fitted to them. But
+they showed which kinds of image were missing from training. They share nothing with `render`, which
+draws discs one by one. Here the plane is divided among cells:
 
-- The mosaic: random points, then Lloyd steps weighted so that spacing grows slowly across the image, then jitter.
-- A cell is what is nearer to its centre than to any other (its Voronoi cell, with a gap along the walls) and no farther away than
-  its radius: where cells are packed they are polygons, where they are not, discs. Rods fill the room that cones leave.
-- Cells differ in grey, and have texture as the ground has. Their walls may be stained. Interference contrast adds the slope of their
-  relief in some direction.
-- Uneven staining and illumination, the blur of the lens, noise, 8 bit.
+- Mosaic: random points, moved by weighted Lloyd steps so that the spacing grows slowly across the
+  image, then by random jitter.
+- Cells: a cell is the region that is nearer to its centre than to any other (its Voronoi cell, with
+  a gap along the walls) and within its radius. So packed cells are polygons, and cells apart are
+  discs. Rods fill the space that cones leave.
+- Grey values: they differ from cell to cell. Cells and background have texture. The walls may be
+  stained. Interference contrast adds the slope of the cells' relief in some direction.
+- Recording: uneven staining and illumination, blur of the lens, noise, 8 bit.
 
-The sets: cells packed as at the foveal centre with dark walls between them; stained dark; outlined on a grey ground, darker or
-brighter than it; bright and outlined or dark among rods; in interference contrast.
+The sets show cells packed as at the foveal centre, with dark walls; dark cells; cells outlined on a
+grey background, darker or brighter than it; among rods, cells that are bright and outlined, or
+dark; and interference contrast.
 """
 from typing import NamedTuple
 
@@ -28,15 +33,18 @@ from simulate_coherent import distance_from_a_place, inside, lloyd, main
 
 
 class Look(NamedTuple):
-    """Ranges that an image's values are drawn from. Lengths are in spacings; greys in the scale in which cells are 0 and the
-    ground lies between −1 and 1."""
-    spacing: tuple          # where it is least, px
-    radius: tuple           # of cells
-    size: float             # standard deviation of the logarithm of cells' radii
-    ground: float           # grey between cells
-    wall: float = 0         # grey of stained walls less that of the cell
-    rods: bool = False
-    relief: float = 0       # slope of the relief, as part of the image's standard deviation
+    """Ranges from which the properties of an image are drawn.
+
+    Lengths are in spacings. In the scale of grey values, cells are 0, and the background lies
+    between −1 and 1.
+    """
+    spacing: tuple          # least spacing in the image, px
+    radius: tuple           # radius of the cells
+    size: float             # standard deviation of the logarithm of the cells' radii
+    ground: float           # grey value between cells
+    wall: float = 0         # grey value of stained walls less that of the cell
+    rods: bool = False      # whether rods fill the space between cones
+    relief: float = 0       # slope of the relief over the image's standard deviation
 
 
 SETS = {
@@ -49,25 +57,28 @@ SETS = {
     'interference':  Look((10, 18), (.38, .48), .06, -1, relief=.6),
 }
 
-FINE = 2                 # cells are drawn on a grid of so many points a px
-MARGIN = 24              # so much more than the image is simulated on each side, px
-JITTER = 0.06            # of cones, standard deviation in x and y, spacings
-RATIO = (1, 1.5)         # of the highest density to that in the farthest corner
-GAP = (.08, .15)         # between cells, spacings
-ROD = (.08, .11)         # radius, spacings
-CELL_GREY = 0.04         # standard deviation
+FINE = 2                 # points per px of the grid on which cells are drawn
+MARGIN = 24              # margin that is simulated on each side of the image, px
+JITTER = 0.06            # standard deviation of the cones' jitter in x and y, spacings
+RATIO = (1, 1.5)         # highest density over that in the farthest corner
+GAP = (.08, .15)         # gap between cells, spacings
+ROD = (.08, .11)         # radius of a rod, spacings
+CELL_GREY = 0.04         # standard deviation of the cells' grey values
 WALL = (.05, .08)        # standard deviation of a wall's profile, spacings
 EDGE = (.015, .04)       # softness of a cell's edge, spacings
-TEXTURE = (.1, .33)      # standard deviation
-GRAIN = (.03, .08)       # its width, spacings
-STAINING = 0.2           # standard deviation of the contrast, relative
-ILLUMINATION = 0.5       # standard deviation of the ground over that of the cells' pattern
-BLUR = (.03, .09)        # spacings
-NOISE = (.05, .2)        # of the pattern's standard deviation
+TEXTURE = (.1, .33)      # standard deviation of the texture
+GRAIN = (.03, .08)       # width of the texture's grain, spacings
+STAINING = 0.2           # relative standard deviation of the contrast
+ILLUMINATION = 0.5       # standard deviation of the illumination over that of the cells' pattern
+BLUR = (.03, .09)        # width of the lens's blur, spacings
+NOISE = (.05, .2)        # standard deviation of the noise over that of the pattern
 
 
 def with_rods(cones, radii, spacing, shape, rng):
-    """All cells, the cones first, and their radii: rods are a jittered lattice in what room there is."""
+    """Returns all cells, the cones first, and their radii.
+
+    Rods are points of a jittered lattice that have enough space between the cones.
+    """
     radius = rng.uniform(*ROD) * spacing
     pitch = 2.1 * radius
     y, x = np.mgrid[0:shape[0]:0.87 * pitch, 0:shape[1]:pitch]
@@ -80,10 +91,10 @@ def with_rods(cones, radii, spacing, shape, rng):
 
 
 def depths(cells, radii, gap, shape):
-    """Whose cell each point of the grid is, and how far inside its edge it lies, in steps of the grid."""
+    """Returns for each point of the grid its cell, and its depth inside the edge, in grid steps."""
     nearest, second = np.full(shape, np.inf, np.float32), np.full(shape, np.inf, np.float32)
     owner = np.zeros(shape, int)
-    # distances from discs of a common size: small cells are not overgrown by large ones
+    # measured from discs of a common size, so that small cells do not lose area to large ones
     common = radii.min()
     for k, ((x, y), radius) in enumerate(zip(cells, radii)):
         reach = 4 * radius
@@ -100,15 +111,17 @@ def depths(cells, radii, gap, shape):
 
 
 def blurred(plane, width):
+    """Returns the plane blurred by a Gaussian."""
     return cv2.GaussianBlur(plane, (0, 0), width)
 
 
 def unit(plane):
+    """Returns the plane divided by its standard deviation."""
     return plane / plane.std()
 
 
 def simulate(look, rng):
-    """Image, and the cones inside it, px."""
+    """Returns an image, and the cones inside it in px."""
     height, width = 8 * rng.integers(25, 45, 2)
     shape = FINE * (height + 2 * MARGIN), FINE * (width + 2 * MARGIN)
     outwards = distance_from_a_place(shape, rng)
@@ -118,7 +131,7 @@ def simulate(look, rng):
     radii = rng.uniform(*look.radius) * spacing[cones[:, 1], cones[:, 0]] * np.exp(look.size * rng.standard_normal(len(cones)))
     cones = cones + rng.normal(0, JITTER * s, cones.shape)
     cells, radii = with_rods(cones, radii, s, shape, rng) if look.rods else (cones, radii)
-    gap = 0 if look.rods else rng.uniform(*GAP) * s  # rods are set apart as they are
+    gap = 0 if look.rods else rng.uniform(*GAP) * s  # rods are already apart
     owner, depth = depths(cells, radii, gap, shape)
 
     cell = (1 + np.tanh(depth / (rng.uniform(*EDGE) * s))) / 2

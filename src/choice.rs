@@ -1,9 +1,17 @@
-//! The error of a word that names none of the variants of an enum.
+//! Error for a word that names no variant of an enum.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::image::Modality;
+//!
+//! let error = "infrared".parse::<Modality>().unwrap_err();
+//! assert_eq!(error.choices(), ["confocal", "split", "histology"]);
+//! ```
 
 use strum::VariantNames;
 use thiserror::Error;
 
-/// A word that is none of those that may be chosen.
+/// Word that is none of those that may be chosen.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("“{given}” is none of {}", .choices.join(", "))]
 pub struct UnknownChoice {
@@ -12,7 +20,7 @@ pub struct UnknownChoice {
 }
 
 impl UnknownChoice {
-    /// Returns the error of `given`, which names no variant of `T`.
+    /// Returns the error for `given`, which names no variant of `T`.
     pub fn among<T: VariantNames>(given: &str) -> Self {
         Self { given: given.to_owned(), choices: T::VARIANTS }
     }

@@ -1,16 +1,30 @@
-//! Files that appear whole or not at all.
+//! Atomic writing of files: a file appears whole or not at all.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::files::write_atomically;
+//! use std::io::Write;
+//!
+//! let folder = tempfile::tempdir()?;
+//! let path = folder.path().join("points.csv");
+//! write_atomically(&path, |file| file.write_all(b"x_px,y_px\n"))?;
+//! assert_eq!(std::fs::read(&path)?, b"x_px,y_px\n");
+//! # Ok::<(), std::io::Error>(())
+//! ```
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Writes a file whole or not at all: into a temporary file of the same folder, which is synced to
-/// the disk and then takes the name. A failure, a panic, an interruption or a loss of power leaves
-/// what was there before. Devices and pipes are written directly.
+/// Writes a file whole or not at all.
+///
+/// The content goes into a temporary file in the same folder, which is synced to the disk and then
+/// renamed. A failure, a panic, an interruption or a loss of power leaves the earlier file as it
+/// was. Devices and pipes are written directly.
 ///
 /// # Errors
-/// If the operating system or `write` refuses; then nothing remains of the attempt.
+/// Fails if the operating system or `write` refuses. Nothing then remains of the attempt.
 pub fn write_atomically(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
@@ -20,30 +34,31 @@ pub fn write_atomically(
         write(&mut writer)?;
         return writer.flush();
     }
-    // A link keeps pointing where it pointed.
+    // A symbolic link must keep pointing where it pointed, so its target is replaced.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let (temporary, file) = Temporary::beside(&target)?;
     let mut writer = BufWriter::new(file);
     write(&mut writer)?;
-    // without the sync a loss of power could leave the new name on an empty file
+    // without the sync, a loss of power could leave the new name on an empty file
     writer.into_inner()?.sync_all()?;
     fs::rename(&temporary.0, &target)
 }
 
-/// Syncs a folder's list of names to the disk, where the operating system can: renames in it then
-/// survive a loss of power.
+/// Syncs a folder's list of names to the disk, where the operating system can, so that renames in
+/// it survive a loss of power.
 pub fn sync_folder(path: &Path) {
-    // Windows opens no folders as files and needs no such call; elsewhere a refusal changes nothing
-    // that the program could mend
+    // Windows opens no folders as files and needs no such call; elsewhere the program could do
+    // nothing about a refusal
     if let Ok(folder) = File::open(path) {
         let _ = folder.sync_all();
     }
 }
 
-/// A file that vanishes when dropped, unless it was renamed before.
+/// Temporary file that is removed when dropped, unless it was renamed before.
 struct Temporary(PathBuf);
 
 impl Temporary {
+    /// Creates a temporary file with a new name in the folder of `target`.
     fn beside(target: &Path) -> io::Result<(Self, File)> {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         loop {
@@ -51,7 +66,7 @@ impl Temporary {
             let path = target.with_file_name(format!(".conemosaic-{}-{count}.tmp", std::process::id()));
             match OpenOptions::new().write(true).create_new(true).open(&path) {
                 Ok(file) => return Ok((Self(path), file)),
-                // Left behind by a killed process of the same number.
+                // left behind by a killed process with the same process number
                 Err(e) if e.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(e) => return Err(e),
             }
@@ -61,7 +76,7 @@ impl Temporary {
 
 impl Drop for Temporary {
     fn drop(&mut self) {
-        // After a rename there is nothing to remove.
+        // after a rename there is nothing to remove
         let _ = fs::remove_file(&self.0);
     }
 }

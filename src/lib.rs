@@ -1,31 +1,56 @@
-//! conemosaic: cones of the human retina, found, measured and compared with point samplers.
-//!
-//! An image becomes a mosaic, a mosaic becomes numbers, numbers are compared with models, and all of it
-//! becomes a report. Data flows one way: [`image`] → [`detect`] → [`mosaic`] → [`stats`] → [`compare`] →
-//! [`report`]; [`batch`] does that for a folder. [`sample`] makes the models, [`render`] makes images of
-//! known truth, [`geometry`] is the ground they all stand on.
+//! Finds the cones in images of the human retina, measures their mosaic and compares it with point
+//! samplers.
 //!
 //! # Examples
-//! An image, simulated here, becomes cones, and the cones become numbers:
+//! An image becomes cones, and the cones become numbers:
 //! ```
 //! use conemosaic::prelude::*;
-//! use rand::SeedableRng;
 //!
-//! let options = RenderOptions { width: 128, height: 128, ..RenderOptions::new(Modality::Confocal) };
-//! let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
-//! let image = simulate(&MosaicOptions::default(), &options, &mut rng)?.image;
-//!
+//! let image = read("fixtures/images/confocal_dense.png".as_ref())?;
 //! let found = detect(&image, &DetectOptions::default())?;
-//! let scale = Scale::new(0.5, 288.)?; // µm per px, µm per degree
+//! let scale = Scale::new(0.5, 288.)?; // µm per px, µm per degree of visual angle
 //! let mosaic = found.mosaic(&image, Some(scale))?;
 //! let measures = measure(&mosaic, &MeasureOptions::default());
 //!
-//! let regularity = measures.summary.nearest.ri.ok_or("all distances are equal")?;
-//! let cones_per_px2 = mosaic.density();
-//! let g = measures.pcf?.g;
-//! assert!(regularity > 3. && cones_per_px2 > 0.005 && g.len() == PcfOptions::default().bins);
+//! println!("{} cones, {:.4} per px²", mosaic.len(), mosaic.density());
+//! println!("regularity index {:.2}", measures.summary.nearest.ri.ok_or("no neighbours")?);
+//! println!("g(r) in {} bins", measures.pcf?.g.len());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # Where to find what
+//!
+//! | to … | use |
+//! |---|---|
+//! | begin, with the usual names in scope | [`prelude`] |
+//! | read an image, filter it, find what was imaged | [`image`] |
+//! | find cones | [`detect::detect`], or its stages in [`detect`] |
+//! | read coordinates of any program; state window, unit and scale | [`mosaic::io`], [`mosaic`] |
+//! | compute statistics of a mosaic, all at once or one by one | [`stats::measure()`], [`stats`] |
+//! | compare a mosaic with samplers | [`compare::References`], [`compare::l_infinity`], [`compare::verdict`] |
+//! | score detections against marks | [`compare::validate`], [`compare::match_points`] |
+//! | compare graders or sessions | [`compare::agreement()`], [`compare::intraclass`] |
+//! | draw points, or write a sampler | [`sample::sampler()`], [`sample::Sampler`] |
+//! | simulate images whose cones are known | [`render::simulate`] |
+//! | write tables, figures and pages | [`report`] |
+//! | process whole folders, as the program does | [`batch`] |
+//! | handle points, windows and neighbours | [`geometry`] |
+//!
+//! Data flows one way: `image` → `detect` → `mosaic` → `stats` → `compare` → `report` → `batch`.
+//!
+//! # Conventions
+//!
+//! - Coordinates count from (0, 0) at the centre of the top-left pixel, x to the right, y down.
+//! - Images are planes of `f32` indexed as [row, column], but sizes are given as width, height.
+//! - Lengths are in the unit of the coordinates unless a name ends in `_px`, `_um` or `_s` (hexagonal
+//!   spacings).
+//! - Everything random takes a seed or a generator; the same seed gives the same bytes for any number
+//!   of threads.
+//!
+//! # Features
+//!
+//! `cli` (the program), `report` (the modules [`report`] and [`batch`]) and `archives` (coordinates in
+//! `.zip` and `.tar`) are on by default; `onnx` runs networks in ONNX format.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 

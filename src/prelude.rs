@@ -1,4 +1,14 @@
-//! The names that most uses of this library begin with: `use conemosaic::prelude::*;`.
+//! Names that most programs using this library need: `use conemosaic::prelude::*;`.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::prelude::*;
+//!
+//! let image = read("fixtures/images/confocal_parafovea.png".as_ref())?;
+//! let mosaic = detect(&image, &DetectOptions::default())?.mosaic(&image, None)?;
+//! println!("{} cones, {:.5} per px²", mosaic.len(), mosaic.density());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub use crate::compare::{MatchOptions, match_points};
 pub use crate::detect::{DetectError, DetectOptions, Detection, Detections, Detector, detect};

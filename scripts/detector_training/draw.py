@@ -1,4 +1,8 @@
-"""Marked images, and what is drawn from them for training."""
+"""Marked images, and the random drawings of them that a network is trained on.
+
+`Sample` reads an image and its marks. `draw` makes one drawing: the image altered at random and
+resampled to about the network's spacing, with its target.
+"""
 import math
 import os
 
@@ -10,31 +14,35 @@ from PIL import Image
 from .marks import density_spacing, read_marks, subject
 from .plane import SPACING, gaussian, normalise, resample
 
-KNOWN = 3    # so far around the marks, in px of the network, it is known what is a cone and what is not
-GRID = 24    # steps an octave that spacings are rounded to, so that few matrices have to be made
+KNOWN = 3    # margin around the marks, in px of the network, in which the target is known
+GRID = 24    # steps per octave to which factors are rounded, so that few matrices are needed
 
 
 class Sample:
+    """A marked image, with its subject and its cone spacing in px."""
+
     def __init__(self, path, origin):
+        """Reads the image `path` and its marks; `origin` is the coordinate of the first pixel."""
         self.name = os.path.basename(path)[:-4]
         self.subject = subject(path)
         self.image = np.asarray(Image.open(path).convert('L'), np.float32) / 255
         self.marks = read_marks(path, origin)
         self.true = density_spacing(self.marks, self.image.shape)
-        self.start = self.true  # until the program has said where it would start
+        self.start = self.true  # replaced by the spacing that the program finds
         self.classical = self.marks[:0]
 
 
 def rounded(step):
+    """Returns the factor `step` rounded to the nearest of `GRID` steps per octave."""
     return 2 ** (round(GRID * math.log2(step)) / GRID)
 
 
 def disturbed(image, spacing, recipe, rng):
-    """Another camera's view of the image, and by how much it is smaller."""
+    """Returns the image as another camera might show it, and the factor by which it is smaller."""
     factor = 1.0
     if rng.random() < 0.7:
         image = np.clip(image, 0, 1) ** math.exp(rng.uniform(-0.9, 0.9))
-    if rng.random() < recipe.soft:  # fewer pixels
+    if rng.random() < recipe.soft:  # as by a camera with fewer pixels
         factor = rounded(max(1.0, spacing / rng.uniform(4.5, 8)))
         image = resample(image, factor)
     if rng.random() < 0.5:
@@ -43,7 +51,7 @@ def disturbed(image, spacing, recipe, rng):
         if kind < 0.2:
             noise = gaussian(noise, round(rng.uniform(0.4, 1), 1))
             noise /= noise.std()
-        elif kind < 0.45:  # of counted photons
+        elif kind < 0.45:  # Poisson-like noise: counted photons
             noise *= np.sqrt(np.maximum(image, 0) / max(image.mean(), 1e-6))
         image = image + rng.uniform(0, recipe.noise) * image.std() * noise
     if rng.random() < 0.15:  # uneven illumination
@@ -53,7 +61,10 @@ def disturbed(image, spacing, recipe, rng):
 
 
 def resampled(image, marks, step, recipe, rng):
-    """The image at about every `step` px, its marks there, and where they are known; now and then bent, or turned and sheared."""
+    """Returns the image sampled about every `step` px, its marks, and where the target is known.
+
+    At random, the image is bent, or rotated and sheared, or only stretched a little.
+    """
     stretch = math.exp(rng.uniform(-0.06, 0.06))
     if rng.random() < recipe.gradient:
         return bent(image, marks, step, rng)
@@ -75,8 +86,11 @@ def resampled(image, marks, step, recipe, rng):
 
 
 def bent(image, marks, step, rng):
-    """The same with a spacing that grows steadily from one side to the other, by 5–40 % on either side of the middle: the
-    conformal map (exp(b·z) − 1)/b keeps neighbourhoods as they are."""
+    """Returns the same as `resampled`, with a spacing that grows from one side to the other.
+
+    It changes by 5–40 % between the middle and either side. The map (exp(b·z) − 1)/b is conformal,
+    so that the neighbourhood of a cone keeps its shape.
+    """
     h, w = image.shape
     size = max(1, round(w / step)), max(1, round(h / step))
     middle, image_middle = (np.array(size) - 1) / 2, np.array([w - 1, h - 1]) / 2
@@ -92,24 +106,24 @@ def bent(image, marks, step, rng):
 
 
 def inside(places, marks, around):
-    """1 at the places in the rectangle of the marks, 0 elsewhere."""
+    """Returns 1 at places in the rectangle of the marks, widened by `around`, and 0 elsewhere."""
     return ((places >= marks.min(0) - around) & (places <= marks.max(0) + around)).all(-1).astype(np.float32)
 
 
 def cubic(image, places):
-    """The image at places x, y by cubics, reflected at the border."""
+    """Returns the image at places x, y by cubic interpolation, reflected at the border."""
     h, w = image.shape
     grid = torch.from_numpy(((places + 0.5) * (2 / w, 2 / h) - 1).astype(np.float32))
     return F.grid_sample(torch.from_numpy(image)[None, None], grid[None], 'bicubic', 'reflection', False)[0, 0].numpy()
 
 
 def enlarged(image, shape, how):
-    """Of another shape, the outer edges of the pixels staying where they are."""
+    """Returns the image in another shape; the outer edges of the image stay in place."""
     return F.interpolate(torch.from_numpy(image)[None, None], shape, mode=how)[0, 0].numpy()
 
 
 def bumps(marks, shape):
-    """The maximum of unit Gaussians at the marks."""
+    """Returns the target: at each pixel the highest of the Gaussians (1 px wide) at the marks."""
     h, w = shape
     target = np.zeros((h + 16, w + 16), np.float32)
     near = marks[((marks > -5) & (marks < [w + 5, h + 5])).all(1)]
@@ -122,8 +136,10 @@ def bumps(marks, shape):
 
 
 def draw(sample, recipe, rng):
-    """Four planes: what the network sees, what it should say, where that is known, and where there is an image. The image
-    lies anywhere on the canvas, its borders in sight as they are in use."""
+    """Returns one drawing as four planes: input, target, where it is known, where the image is.
+
+    The image lies anywhere on the canvas. Its borders are visible, as they are in use.
+    """
     image, factor = disturbed(sample.image, sample.true, recipe, rng)
     step = sample.true / factor * math.exp(rng.uniform(-0.15, 0.15)) / SPACING
     plane, marks, known = resampled(image, (sample.marks + 0.5) / factor - 0.5, step, recipe, rng)
@@ -148,6 +164,7 @@ def draw(sample, recipe, rng):
         out = out[:, ::-1]
     if recipe.modality != 'split' and rng.random() < 0.5:
         out = out.transpose(0, 2, 1)
-    if recipe.modality == 'histology' and rng.random() < 0.5:  # stains make cells darker than the ground, or brighter
+    # stains make cells darker or brighter than the background
+    if recipe.modality == 'histology' and rng.random() < 0.5:
         out[0] *= -1
     return np.ascontiguousarray(out)

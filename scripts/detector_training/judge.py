@@ -1,4 +1,8 @@
-"""Detection as src/detect/learned does it, and how well it agrees with marks."""
+"""Detection as src/detect/learned does it, and its agreement with marks.
+
+`look` finds the maxima of a network's output in an image. `judge` scores them for many thresholds.
+`summary` chooses the constants, and writes the scores and the header of the weights.
+"""
 import math
 from typing import NamedTuple
 
@@ -10,25 +14,30 @@ from .network import see
 from .plane import SPACING
 from .ring import CLEAR, clarity, profiles
 
-CANDIDATE = -4.5       # logits below are never cones
-RELATIVE_FLOOR, RELATIVE_RADIUS = -2.5, 0.45  # candidates that the image-relative threshold is counted from
-RADII = (0.45, 0.5, 0.55)
+CANDIDATE = -4.5       # logit below which a maximum is never a cone
+# least logit, and radius of suppression in spacings, of the maxima from whose upper quartile the
+# image-relative threshold is counted
+RELATIVE_FLOOR, RELATIVE_RADIUS = -2.5, 0.45
+RADII = (0.45, 0.5, 0.55)  # radii of suppression that are tried, in spacings
+# thresholds that are tried
 GRIDS = {'absolute': np.arange(-2.4, 1.01, 0.1), 'relative': np.arange(0.8, 2.41, 0.1)}
 
 
 class Rule(NamedTuple):
-    """From which logit on a maximum is a cone."""
-    kind: str          # absolute; relative: so far below the upper quartile of the image's stronger maxima
-    in_noise: float    # by how much the threshold rises per unit of clarity that is missing
+    """Rule for the logit above which a maximum is a cone."""
+    # absolute: a logit; relative: a distance below the upper quartile of the stronger maxima
+    kind: str
+    in_noise: float    # rise of the threshold per unit of clarity that is missing
 
 
 RULES = {'confocal': Rule('absolute', 0.2), 'split': Rule('relative', 0), 'histology': Rule('absolute', 0)}
-START = {'absolute': -1.2, 'relative': 1.6}  # while the constants are not yet chosen
-TIED = 0.0001  # of constants whose mean Dice coefficients differ by less, those that serve disturbed images best are taken
+START = {'absolute': -1.2, 'relative': 1.6}  # constants until they are chosen
+# of constants whose mean Dice coefficients differ by less, those best on altered images are taken
+TIED = 0.0001
 
 
 def candidates(z, lowest):
-    """Maxima of 3 × 3 px moved to the top of a parabola: x, y, logit, best first."""
+    """Returns the maxima of 3 × 3 px, moved to the top of a parabola: x, y, logit, best first."""
     h, w = z.shape
     padded = np.pad(z.astype(np.float64), 1, constant_values=-np.inf)
     around = [padded[1 + j:1 + j + h, 1 + i:1 + i + w] for j in (-1, 0, 1) for i in (-1, 0, 1)]
@@ -36,6 +45,7 @@ def candidates(z, lowest):
     y, x = np.nonzero(top)
 
     def offset(a, b, c, inside):
+        """Returns the place of the top of the parabola through three values, in −0.5 to 0.5."""
         with np.errstate(invalid='ignore'):
             curvature = a - 2 * b + c
             good = inside & (curvature < 0)
@@ -48,6 +58,7 @@ def candidates(z, lowest):
 
 
 def suppress(found, radius):
+    """Returns the maxima that have no higher one, which is kept itself, within `radius` px."""
     if len(found) == 0:
         return found
     keep = np.ones(len(found), bool)
@@ -59,6 +70,7 @@ def suppress(found, radius):
 
 
 def threshold_of(found, rule, constant):
+    """Returns the logit above which a maximum of this image is a cone."""
     if rule.kind == 'absolute':
         return constant
     strong = suppress(found[found[:, 2] > RELATIVE_FLOOR], RELATIVE_RADIUS * SPACING)
@@ -66,13 +78,17 @@ def threshold_of(found, rule, constant):
 
 
 def places(found, spacing):
-    """Px of the network → px of the image."""
+    """Returns the places x, y in px of the image, given maxima in px of the network."""
     return (found[:, :2] + 0.5) * spacing / SPACING - 0.5
 
 
 def look(image, start, network, rule, sign, passes=3):
-    """All maxima, at the spacing that the network arrives at from `start`. In noise the threshold rises: here the logits
-    fall instead, so that one threshold serves all images."""
+    """Returns all maxima, and the spacing in px at which they were found.
+
+    From `start`, the spacing follows from the density of the cones found, in at most `passes`
+    passes. In noise the threshold should rise; here the logits are lowered instead, so that one
+    threshold serves all images.
+    """
     following = start
     profile = profiles(image)[0] if rule.in_noise else None
     for _ in range(passes):
@@ -90,7 +106,10 @@ def look(image, start, network, rule, sign, passes=3):
 
 
 def matched(found, marks, shape):
-    """Which marks and which cones have a partner, and which are counted at all: a pair only if neither is in the frame."""
+    """Returns which marks and cones have a partner, and which marks and cones are counted.
+
+    A pair is counted only if neither of the two is near the border.
+    """
     at = partners(marks, found, reach(marks))
     got, hit = at >= 0, np.zeros(len(found), bool)
     hit[at[got]] = True
@@ -102,13 +121,18 @@ def matched(found, marks, shape):
 
 
 def dice(found, marks, shape):
+    """Returns the Dice coefficient of the cones by the rule of Cunefare et al. (2017)."""
     got, hit, marks_counted, found_counted = matched(found, marks, shape)
     tp, fn, fp = (hit & found_counted).sum(), (~got & marks_counted).sum(), (~hit & found_counted).sum()
     return 2 * tp / max(1, 2 * tp + fn + fp)
 
 
 def judge(seen, samples, rule, constants, radius):
-    """Dice coefficients: constants × samples. What a threshold takes away would not have suppressed anything that stays."""
+    """Returns the Dice coefficients, constants × samples.
+
+    Suppression comes before the threshold: a maximum below the threshold is lower than any above
+    it, so it would not have suppressed one that stays.
+    """
     out = np.zeros((len(constants), len(samples)))
     for column, sample in enumerate(samples):
         found, spacing = seen[sample.name]
@@ -122,8 +146,12 @@ def judge(seen, samples, rule, constants, radius):
 
 
 def calibration(seen, samples, rule, constant, radius):
-    """P(a maximum is a marked cone) = 1/(1 + exp(−(offset + slope · x))), x = logit − the image's threshold, of maxima left
-    out of training that are at most 1 below the threshold; and how reliable the accepted ones' probabilities are."""
+    """Returns the constants of the calibration for the header, and how reliable it is.
+
+    The probability that a maximum is a marked cone is 1/(1 + exp(−(offset + slope · x))), where x
+    is the logit less the image's threshold. The fit is to maxima in images left out of training
+    that are at most 1 below the threshold. Reliability is in ten bins of equal count.
+    """
     x, hit = [], []
     for sample in samples:
         found, spacing = seen[sample.name]
@@ -148,9 +176,12 @@ def calibration(seen, samples, rule, constant, radius):
 
 
 def summary(seen, disturbed, samples, folds, rule):
-    """Scores of all seeds, and the words of the weights' header: the constants best over all seeds (where that hardly matters, best
-    for disturbed images), the best seed.
-    `disturbed`: of the first seed, by the name of an image and of a disturbance."""
+    """Returns the scores of all seeds, and the header of the weights.
+
+    The header has the constants that are best over all seeds, and the best seed. Among constants
+    that are equally good, those best on altered images are taken. `disturbed` holds the results of
+    the first seed on altered images, by the names of image and alteration.
+    """
     choices = [(round(float(c), 3), r) for r in RADII for c in GRIDS[rule.kind]]
     scores = np.array([np.concatenate([judge(part, samples, rule, GRIDS[rule.kind], r) for r in RADII]) for part in seen])
     member = np.array([[s.subject in fold for s in samples] for fold in folds])
@@ -160,12 +191,12 @@ def summary(seen, disturbed, samples, folds, rule):
     by_name = {s.name: s for s in samples}
 
     def score(sample, found, spacing, constant, radius, shape=None, factor=1):
-        """Dice coefficient; of an image of another shape, `factor` times as large, if given."""
+        """Returns the Dice coefficient; a scaled image has its own `shape` and `factor`."""
         kept = suppress(found[found[:, 2] > threshold_of(found, rule, constant)], radius * SPACING)
         return dice(places(kept, spacing), (sample.marks + 0.5) * factor - 0.5, shape or sample.image.shape)
 
     def chosen(kept):
-        """The constants that are best on these folds."""
+        """Returns the index of the constants that are best on the folds `kept`."""
         means = mean[:, kept].mean(1)
         subjects = {subject for k in kept for subject in folds[k]}
         shown = [(by_name[name], *look) for (name, _), look in disturbed.items() if by_name[name].subject in subjects]

@@ -1,4 +1,5 @@
-"""The network, its training, and the file of weights that the program reads."""
+"""The network, its training, and the file of weights that the program reads.
+"""
 import json
 import math
 import struct
@@ -11,14 +12,15 @@ import torch.nn.functional as F
 from .draw import draw
 from .plane import SPACING, framed, gaussian, normalise, resample
 
-TAUGHT = 0.7  # part of the target that is the teachers' word
-UNIT = 4  # sides of what the network sees are multiples of this
+TAUGHT = 0.7  # weight of the teachers' probability in the target
+UNIT = 4  # width and height of the network's input are multiples of this
 
 
 class UNet(torch.nn.Module):
-    """Two halvings and back. `mask` is 0 outside the image: there is nothing there for any layer to see."""
+    """U-Net that halves the resolution twice."""
 
     def __init__(self, top, middle, bottom):
+        """Makes the layers; the arguments are channels at full, half and quarter resolution."""
         super().__init__()
         layer = lambda inputs, outputs, side=3: torch.nn.Conv2d(inputs, outputs, side, padding=side // 2)
         self.first, self.top = layer(1, top, 5), layer(top, top)
@@ -33,6 +35,10 @@ class UNet(torch.nn.Module):
         torch.nn.init.constant_(self.last.bias, -2)
 
     def forward(self, seen, mask):
+        """Returns the logit of every pixel.
+
+        `mask` is 0 outside the image; every layer's output is multiplied by it.
+        """
         half, quarter = mask[:, :, ::2, ::2], mask[:, :, ::4, ::4]
         double = lambda maps: F.interpolate(maps, scale_factor=2, mode='nearest')
         halved = lambda maps: F.avg_pool2d(maps, 2)
@@ -45,8 +51,12 @@ class UNet(torch.nn.Module):
 
 
 def train(samples, recipe, seed, epochs, teacher=None):
-    """AdamW, one-cycle learning rate, cross-entropy; the weights' exponential mean. bf16 in the convolutions. A teacher's
-    probabilities stand for most of the target, and for all of it where nobody marked."""
+    """Returns a network trained on random drawings of the samples.
+
+    AdamW with a one-cycle learning rate minimises the cross-entropy; the weights returned are an
+    exponential moving average. Convolutions are in bf16. The probability by `teacher`, if given,
+    makes up most of the target, and all of it where nobody marked.
+    """
     rng = np.random.default_rng(seed)
     torch.manual_seed(seed)
     network, averaged = (UNet(*recipe.widths).to(memory_format=torch.channels_last) for _ in range(2))
@@ -83,8 +93,11 @@ def train(samples, recipe, seed, epochs, teacher=None):
 
 
 def see(image, spacing, network, sign):
-    """The logits of an image whose cones are `spacing` px apart; with a sign, their mean over the four mirrored views (the
-    image mirrored along x is multiplied by it)."""
+    """Returns the logits of an image whose cones are `spacing` px apart.
+
+    Unless `sign` is None, they are means over the four mirrored views. The image mirrored along x
+    is multiplied by `sign`.
+    """
     seen = normalise(resample(image, spacing / SPACING))
     h, w = seen.shape
     seen = torch.from_numpy(np.ascontiguousarray(framed(seen, UNIT)))[None, None]
@@ -100,25 +113,31 @@ def see(image, spacing, network, sign):
 
 
 class Mean(torch.nn.Module):
-    """The mean logit of networks that differ in the seed of their training."""
+    """Mean logit of networks that differ in the seed of their training."""
 
     def __init__(self, members):
+        """Takes the networks whose logits are averaged."""
         super().__init__()
         self.members = torch.nn.ModuleList(members)
 
     def forward(self, seen, mask):
+        """Returns the mean logit of every pixel."""
         return sum(member(seen, mask) for member in self.members) / len(self.members)
 
 
 def write(path, network, metadata, sign):
-    """Safetensors: weights as out, in, height, width; and beside them, as .example.safetensors, a small image with 10 px between
-    cones and the logits it gives, for the program's tests to make again."""
+    """Writes the weights as a safetensors file, and an example for the program's tests.
+
+    Weights are in the order out, in, height, width. The example, .example.safetensors beside them,
+    holds a small image with 10 px between cones and its logits.
+    """
     image = gaussian(np.random.default_rng(1).random((44, 40), np.float32), 1.5)
     safetensors(path, {name: value.numpy() for name, value in network.state_dict().items()}, metadata)
     safetensors(Path(path).with_suffix('.example.safetensors'), {'image': image, 'logits': see(image, 10.0, network, sign)}, {})
 
 
 def safetensors(path, tensors, metadata):
+    """Writes tensors and metadata as a safetensors file of 32-bit floats."""
     header, blob = {'__metadata__': {k: str(v) for k, v in metadata.items()}}, b''
     for name, value in tensors.items():
         value = np.ascontiguousarray(value, '<f4')

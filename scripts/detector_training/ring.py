@@ -1,18 +1,22 @@
-"""The spectrum in which Yellott's ring is looked for, as src/detect/spacing/ring.rs has it."""
+"""The spectrum in which Yellott's ring is looked for, as in src/detect/spacing/ring.rs.
+"""
 import functools
 
 import numpy as np
 from scipy import ndimage
 
-PER_OCTAVE, BINS, SIZE = 24, 121, 512  # log-frequency bins from a period of 64 px on; px of the transform
-CLEAR = 6.2                            # clarity from which on an image has no noise to speak of
+# bins of log-frequency, from a period of 64 px on; px of the Fourier transform
+PER_OCTAVE, BINS, SIZE = 24, 121, 512
+CLEAR = 6.2  # clarity above which an image has hardly any noise
 
 
 def gaussian(plane, sigma):
+    """Returns the plane blurred by a Gaussian, reflected at the border."""
     return ndimage.gaussian_filter(plane, sigma, mode='reflect', truncate=4.0)
 
 
 def flatten(image):
+    """Returns the image less its slow drift, divided by its local contrast."""
     sigma = max(image.shape) / 8
     centred = image - gaussian(image, sigma)
     deviation = np.sqrt(gaussian(centred ** 2, sigma))
@@ -21,8 +25,11 @@ def flatten(image):
 
 @functools.cache
 def terms():
-    """Of the transform: which terms count, and for each of three directions (all, fx²/f², 1 − fx²/f²) the bins that share a
-    term, with what weight, and the sum of the weights in a bin."""
+    """Returns which terms of the transform count, and how they are shared among bins.
+
+    For each of three weightings by direction (all, fx²/f², 1 − fx²/f²), each term is shared by two
+    bins. Returned are the terms, the bins, the weights, and the sum of the weights in each bin.
+    """
     fy, fx = np.fft.fftfreq(SIZE)[:, None], np.fft.rfftfreq(SIZE)[None]
     f = np.hypot(fx, fy)
     inside = (f > 1 / 64 / 1.05) & (f < 0.5 * 1.03)
@@ -39,11 +46,16 @@ def terms():
 
 
 def binned(bins, shares, power):
+    """Returns the sum of the weighted power in each bin."""
     return sum(np.bincount(bin, share * power, BINS + 3) for bin, share in zip(bins, shares))
 
 
 def profiles(image):
-    """Log power over log-frequency: all, weighted by fx²/f², weighted by 1 − fx²/f². Of a large image, of its upper left."""
+    """Returns three profiles of log power over log-frequency.
+
+    They are of all directions, weighted by fx²/f², and weighted by 1 − fx²/f². Of a large image,
+    only the upper left part counts.
+    """
     image = image[:SIZE, :SIZE]
     h, w = image.shape
     tapered = flatten(image) * np.outer(np.hanning(h + 2)[1:-1], np.hanning(w + 2)[1:-1])
@@ -54,7 +66,7 @@ def profiles(image):
 
 
 def clarity(profile, spacing):
-    """Log power around the ring of that spacing, px, above that of detail finer than any cone."""
+    """Returns the log power around the ring of a spacing in px over that of finer detail."""
     cycles = spacing * 2 ** (np.arange(BINS) / PER_OCTAVE) / 64
     finest = min(2.6, 0.5 * spacing / 1.15)
     mean = lambda low, high: profile[(cycles >= low) & (cycles <= high)].mean()

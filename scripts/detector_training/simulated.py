@@ -1,5 +1,8 @@
-"""Simulated images whose looks are drawn anew for every image: of blur, noise and rods that marked images do not show, and of
-histology, of which there is no public set with marks."""
+"""Simulated images for training, made by the program's `render`.
+
+Their properties are drawn anew for every image. They show blur, noise and rods that marked images
+do not show, and histology, of which no public set has marks.
+"""
 import csv
 import glob
 import os
@@ -17,7 +20,7 @@ OUTLINED = ('--spacing 7..20 --diameter 0.55..0.95 --size-scatter 0.03..0.15 --o
 AMONG_RODS = ('--spacing 14..32 --diameter 0.4..0.75 --rods 4..14 --rod-contrast 0.3..1.1 --outline 0..2 --granules 0..0.4 --contrast 0.1..0.4 '
               '--texture 0.05..0.3 --noise 0.005..0.05 --width 360 --height 360 --section 0..0.4')
 
-# how many of which kind; A..B is drawn for every image
+# number of images and options of `render` for each kind; A..B is drawn anew for every image
 KINDS = {
     'confocal': (
         (60, '--modality confocal --spacing 5..12 --width 220 --height 200 --noise 0.01..0.1 --blur 0..0.28 --scatter 0.3..1 --drift 0..0.4 '
@@ -54,12 +57,15 @@ KINDS = {
         (60, f'--modality histology --polarity negative {AMONG_RODS}'),
     ),
 }
-GROUPS = 6  # stand for subjects
+GROUPS = 6  # groups of images, in place of subjects
 MODALITIES = tuple(KINDS)
 
 
 def simulate(folder, modality):
-    """As GROUP_KIND_NUMBER.png and GROUP_KIND_NUMBER_coords.csv: x, y of the cones that can be seen, from 0."""
+    """Simulates all images of a modality as GROUP_KIND_NUMBER.png.
+
+    GROUP_KIND_NUMBER_coords.csv has the cones that can be seen: x, y in px, counted from 0.
+    """
     for kind, (count, options) in enumerate(KINDS[modality]):
         with tempfile.TemporaryDirectory() as made:
             subprocess.run([PROGRAM, 'render', '--quiet', *options.split(), '--count', str(count),
@@ -75,10 +81,14 @@ def simulate(folder, modality):
 
 
 def images(marked, made):
-    """Modality, source and paths: of the images in the folders confocal and split of `marked`, and of all that are simulated, into `made`."""
+    """Returns the modality, the source and the paths of each set of images.
+
+    The sets are the folders confocal and split of the folder `marked`, and one set of simulated
+    images for each modality, which are made in the folder `made`.
+    """
     folders = [(modality, 'marked', os.path.join(marked, modality)) for modality in ('confocal', 'split')]
     if not any(glob.glob(f'{folder}/*.png') for _, _, folder in folders):
-        sys.exit(f'{marked}/confocal and {marked}/split hold no .png')
+        sys.exit(f'{marked}/confocal, {marked}/split: expected NAME.png in at least one of them, found none')
     for modality in MODALITIES:
         folders.append((modality, 'simulated', f'{made}/{modality}'))
         os.mkdir(folders[-1][2])
@@ -87,7 +97,7 @@ def images(marked, made):
 
 
 def noise(folder, count):
-    """White noise, as NUMBER.png: no cones at all."""
+    """Writes images of white noise, in which there are no cones, as NUMBER.png."""
     for number in range(count):
         rng = np.random.default_rng(number)
         grey = 128 + 40 * rng.standard_normal(rng.integers(100, 400, 2))

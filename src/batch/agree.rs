@@ -7,12 +7,13 @@ use crate::report::{AgreementLine, AgreementPanel, FigureFormat, agreement_figur
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Options of a comparison of graders, sessions or programs.
+/// Options of comparing graders, sessions or programs.
 #[derive(Clone, Debug, Default)]
 pub struct AgreementOptions {
     /// Columns to compare; empty: all that hold numbers in every table.
     pub columns: Vec<String>,
-    /// Images of a group (those of a subject) do not count as independent.
+    /// Rule by which images form groups, such as those of a subject; images of a group do not count
+    /// as independent.
     pub grouping: Option<Grouping>,
     /// Formats of the figure besides SVG.
     pub figures: Vec<FigureFormat>,
@@ -21,11 +22,11 @@ pub struct AgreementOptions {
 /// Agreement of two graders in one column.
 #[derive(Clone, Debug)]
 pub struct ColumnAgreement {
-    /// The column.
+    /// Name of the column.
     pub column: String,
-    /// Who is held against whom.
+    /// Names of the two graders: differences are the first minus the second.
     pub graders: [String; 2],
-    /// Name and both values of every image that both have.
+    /// Name of every image that both graders have, with their two values.
     pub pairs: Vec<(String, [f64; 2])>,
     /// Bias and limits of agreement.
     pub agreement: ClusteredAgreement,
@@ -33,21 +34,22 @@ pub struct ColumnAgreement {
     pub intraclass: Option<Intraclass>,
 }
 
-/// Results of a comparison of graders.
+/// Results of comparing graders.
 #[derive(Clone, Debug)]
 pub struct AgreementOutcome {
-    /// One per column and pair of graders.
+    /// Agreements, one per column and pair of graders.
     pub columns: Vec<ColumnAgreement>,
-    /// Correlations over all graders, where there are more than two, by column.
+    /// Correlation over all graders by column, where there are more than two graders.
     pub overall: Vec<(String, Intraclass)>,
-    /// Images that not all graders have, and those who lack them.
+    /// Images that some graders lack, with the names of those graders.
     pub unpaired: Vec<(String, String)>,
-    /// Tells that images were grouped, so that those of a group do not count as independent.
+    /// The state of grouping: `true` if images were grouped, so that those of a group do not count
+    /// as independent.
     pub grouped: bool,
 }
 
 impl AgreementOutcome {
-    /// Returns what a reader of the numbers must know of their intervals, in words.
+    /// Returns in words what a reader must know about the intervals.
     pub fn method(&self) -> String {
         let Some(first) = self.columns.first() else { return String::new() };
         let (images, groups) = (first.agreement.agreement.n, first.agreement.clusters);
@@ -63,21 +65,22 @@ impl AgreementOutcome {
     }
 }
 
-/// Columns that figures show: the first of each row that there is.
+/// Columns that the figure shows: from each row the first that was compared.
 const SHOWN: [&[&str]; 2] =
     [&["density_per_mm2", "density_per_px2", "density", "n"], &["nn_mean_um", "nn_mean_px", "nn_mean", "ri"]];
 
-/// Holds the numbers of graders, sessions or programs against each other, image by image: paired
-/// differences, limits of agreement and intraclass correlation of every column of numbers that all
-/// of them have, or of those asked for.
+/// Compares the numbers of graders, sessions or programs image by image.
 ///
-/// Writes `agreement.csv` (one row per column and pair of graders; with more than two a row over
-/// all), `differences.csv` (one row an image), `unpaired.csv` (images that somebody lacks) and
-/// `agreement.svg`.
+/// Paired differences, limits of agreement and intraclass correlations are computed for every
+/// column of numbers that all of them have, or for the columns asked for.
+///
+/// Writes `agreement.csv` (one row per column and pair of graders; with more than two graders also
+/// one row per column over all of them), `differences.csv` (one row per column, pair of graders and
+/// image), `unpaired.csv` (images that a grader lacks) and `agreement.svg`.
 ///
 /// # Errors
-/// If an image has no group, or there are fewer than two tables, one cannot be read or has no
-/// column that names images, an image stands in it twice, a column asked for is missing, nothing
+/// If there are fewer than two tables, a table cannot be read or has no column that names images,
+/// an image stands in a table twice, an image has no group, a column asked for is missing, nothing
 /// can be paired, or `out` cannot be written to.
 pub fn agree_files(
     files: &[PathBuf],
@@ -156,7 +159,7 @@ pub fn agree_files(
     Ok(outcome)
 }
 
-/// Returns the group of every image, by its name; empty without a rule.
+/// Returns the group of every image by its name; empty without a rule.
 fn groups_of<'a>(
     items: &[&'a String],
     grouping: Option<&Grouping>,
@@ -166,6 +169,7 @@ fn groups_of<'a>(
     items.iter().map(group).collect()
 }
 
+/// Writes the tables and the figure of a comparison.
 fn write(out: &OutputFolder, outcome: &AgreementOutcome, figures: &[FigureFormat]) -> Result<(), BatchError> {
     let means = |c: &ColumnAgreement| -> [f64; 2] {
         [0, 1].map(|k| c.pairs.iter().map(|(_, v)| v[k]).sum::<f64>() / c.pairs.len() as f64)
@@ -203,7 +207,7 @@ fn write(out: &OutputFolder, outcome: &AgreementOutcome, figures: &[FigureFormat
     write_figure(out, "agreement", &figure(outcome), figures)
 }
 
-/// Bland–Altman plots of the first two graders.
+/// Draws Bland–Altman plots of the first two graders.
 fn figure(outcome: &AgreementOutcome) -> String {
     let Some(first) = outcome.columns.first() else { return agreement_figure("", &[]) };
     let of_pair: Vec<&ColumnAgreement> =

@@ -9,37 +9,40 @@ use crate::mosaic::io::format_points;
 use crate::report::{MarkKind, OverlayMark, counted, encode_png, overlay};
 use std::path::Path;
 
-/// Radius of the rings of an overlay, in cone spacings: inside the cone, so that neighbours' rings stay apart.
+/// Radius of the rings of an overlay, in cone spacings; inside the cone, so that rings of
+/// neighbours stay apart.
 const RING: f64 = 0.3;
 
-/// What came of detecting cones in a folder.
+/// Results of detecting cones in a batch of images.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DetectionOutcome {
-    /// Images with results.
+    /// Number of images with results.
     pub images: usize,
-    /// Cones found in all of them.
+    /// Number of cones found in all of them.
     pub cones: usize,
-    /// Images without.
+    /// Images without results, with the reasons.
     pub failures: Vec<Failure>,
-    /// How the batch ended.
+    /// The end of the batch: complete or stopped.
     pub ending: Ending,
 }
 
-/// What is written beside the cones of an image.
+/// Files that are written beside the cones of an image, and whether corrections may be replaced.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DetectionExtras {
-    /// `NAME.overlay.png`: the image with its cones marked.
+    /// Writes `NAME.overlay.png`: the image with its cones marked.
     pub overlay: bool,
-    /// `NAME.rejected.csv`: candidates that were not taken for cones.
+    /// Writes `NAME.rejected.csv`: candidates that were not taken for cones.
     pub rejected: bool,
-    /// Replace coordinates that a person has made or corrected; the earlier files are put away.
+    /// Replaces coordinates that a person has made or corrected; the earlier files are put away.
     pub replace_corrections: bool,
 }
 
-/// Writes `NAME.csv` (x_px, y_px, score) for every image, and what `extras` says.
+/// Detects cones in every image and writes `NAME.csv` and the files of `extras` into `out`.
+///
+/// `NAME.csv` has the columns x_px, y_px and score, and x_um and y_um where the scale is known.
 ///
 /// # Errors
-/// If `out` cannot be written to. Images that fail are in the outcome and in `failures.csv`.
+/// If `out` cannot be written to. Images that fail are listed in the outcome and in `failures.csv`.
 pub fn detect_files(
     inputs: &[Input],
     options: &DetectOptions,
@@ -79,8 +82,8 @@ pub fn detect_files(
     Ok(DetectionOutcome { images: worked.done.len(), cones, failures: worked.failures, ending })
 }
 
-/// Refuses to replace hand marks, which may be called as detections are, and corrections: they are
-/// hours of work.
+/// Refuses to replace a file that a person made or changed. Hand marks may have the name of
+/// detections, and like corrections they are hours of work.
 fn refuse_foreign(out: &ResultFolder, name: &str) -> Result<(), BatchError> {
     match out.standing(name) {
         Standing::Missing | Standing::Own => Ok(()),
@@ -88,13 +91,14 @@ fn refuse_foreign(out: &ResultFolder, name: &str) -> Result<(), BatchError> {
     }
 }
 
-/// The bytes of the file and the image in them.
+/// Reads an image file and returns its bytes and its image.
 pub(super) fn read_image(input: &Input) -> Result<(Vec<u8>, Plane), BatchError> {
     let bytes = read_bytes(&input.path)?;
     let image = decode(&bytes, &input.path.display().to_string())?;
     Ok((bytes, image))
 }
 
+/// Detects cones in an image; an error names its file.
 pub(super) fn detect_in(
     input: &Input,
     image: &Plane,
@@ -103,26 +107,28 @@ pub(super) fn detect_in(
     detect(image, options).map_err(|source| BatchError::Detect { file: input.path.clone(), source })
 }
 
-/// Returns the file of detections: x_px, y_px, score.
+/// Returns the content of a file of detections: x_px, y_px and score, and x_um and y_um where the
+/// scale is known.
 pub(super) fn formatted(found: &[Detection], scale: Option<Scale>) -> Vec<u8> {
     let centres: Vec<Point> = found.iter().map(|d| d.centre).collect();
     let scores: Vec<f64> = found.iter().map(|d| d.score).collect();
     format_points(&centres, Some(&scores), scale).into_bytes()
 }
 
-/// Draws given cones on the image; `spacing` is theirs, px.
+/// Draws given cones on the image. `spacing` is theirs in px, `None` without neighbours.
 pub(super) fn mark_cones(
     image: &Plane,
     points: &[Point],
     spacing: Option<f64>,
 ) -> Result<Vec<u8>, BatchError> {
-    // without a neighbour there is no spacing: a ring that can be seen
+    // a single cone has no spacing: 10 px make a ring that can be seen
     let spacing = spacing.unwrap_or(10.);
     let mark = |p: &Point| OverlayMark { x: p.x, y: p.y, radius: RING * spacing, kind: MarkKind::Detection };
     let marks: Vec<OverlayMark> = points.iter().map(mark).collect();
     Ok(encode_png(&overlay(image, &marks, spacing))?)
 }
 
+/// Draws detected cones on the image.
 pub(super) fn overlay_of(image: &Plane, found: &Detections) -> Result<Vec<u8>, BatchError> {
     let marks: Vec<OverlayMark> = found
         .cones
@@ -137,7 +143,7 @@ pub(super) fn overlay_of(image: &Plane, found: &Detections) -> Result<Vec<u8>, B
     Ok(encode_png(&overlay(image, &marks, found.spacing))?)
 }
 
-/// One line about what was found.
+/// Returns the line that tells a person what was found.
 pub(super) fn describe(found: &Detections) -> String {
     let cones = counted(found.cones.len(), "cone");
     let doubt = |confidence: f64| if confidence < CONFIDENT { " (uncertain)" } else { "" };

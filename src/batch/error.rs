@@ -10,136 +10,137 @@ use std::io;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Why a batch, or one file of it, could not be worked on.
+/// A reason why a batch, or one file of it, could not be worked on.
 #[derive(Debug, Error)]
 pub enum BatchError {
     /// A path that does not exist or cannot be listed.
     #[error("{path}: {source}: give an existing file or folder", path = path.display())]
     Unreadable {
-        /// The path as given.
+        /// Path as it was given.
         path: PathBuf,
-        /// What the operating system said.
+        /// Message of the operating system.
         source: io::Error,
     },
-    /// Nothing to work on.
+    /// Nothing to work on among the paths.
     #[error("no {what} in {paths}: expected {expected}")]
     Nothing {
-        /// What was looked for.
+        /// Kind of file that was looked for.
         what: &'static str,
-        /// Where.
+        /// Paths that were searched.
         paths: String,
-        /// How such files are recognised.
+        /// Names by which such files are recognised.
         expected: Cow<'static, str>,
     },
-    /// Results cannot be written.
+    /// A result that cannot be written.
     #[error("cannot write to {path}: {source}: choose another folder for the results", path = path.display())]
     Output {
-        /// The file or folder.
+        /// File or folder that was to be written.
         path: PathBuf,
-        /// What the operating system said.
+        /// Message of the operating system.
         source: io::Error,
     },
-    /// The window of coordinates is not known.
+    /// Coordinates without the image that their window was to be taken from.
     #[error(
         "{file}: no image of that name beside it to take the window from: give the folder of the images, or the window itself: its size WxH, its edges X0,Y0,X1,Y1, the unit square or a file of corners"
     )]
     NoImage {
-        /// The coordinate file.
+        /// Path of the coordinate file.
         file: PathBuf,
     },
-    /// The window or crop does not fit.
+    /// A window or crop that lies outside the image.
     #[error("{file}: the {window} leaves nothing of the image of {width} × {height} px: choose a part of it")]
     Nowhere {
-        /// The image.
+        /// Path of the image.
         file: PathBuf,
-        /// “crop” or “window”, and as given.
+        /// The word “crop” or “window”, and the text that was given for it.
         window: String,
         /// Width of the image in px.
         width: usize,
         /// Height of the image in px.
         height: usize,
     },
-    /// A crop leaves nothing of the window of coordinates.
+    /// A crop that leaves nothing of the window of coordinates.
     #[error("{file}: the crop {crop} leaves nothing of the window: choose a part of it")]
     NothingCropped {
-        /// The coordinate file.
+        /// Path of the coordinate file.
         file: PathBuf,
-        /// As given.
+        /// Crop as it was given.
         crop: String,
     },
-    /// A crop in px or µm of coordinates in the unit square.
+    /// A crop in px or µm for coordinates in the unit square.
     #[error(
         "{file}: the crop {crop} names a unit, but the coordinates are in the unit square: give it without"
     )]
     CropUnit {
-        /// The coordinate file.
+        /// Path of the coordinate file.
         file: PathBuf,
-        /// As given.
+        /// Crop as it was given.
         crop: String,
     },
-    /// Opposite edges of a window that has none.
+    /// A torus that was asked for where the window is a polygon, which has no opposite edges to
+    /// join.
     #[error(
         "{file}: opposite edges can be the same place in a rectangle only, and its window is a polygon: give a window WxH, or do without"
     )]
     NoTorus {
-        /// The coordinate file.
+        /// Path of the coordinate file.
         file: PathBuf,
     },
     /// A length in micrometres where no scale is known.
     #[error("{file}: {what} is in µm, but the scale is not known: give one")]
     NoScale {
-        /// The option.
+        /// Name of the length, or of the files that differ in unit.
         what: &'static str,
-        /// The file.
+        /// Path of the file that has no scale.
         file: PathBuf,
     },
     /// A shrinkage without a scale to apply it to.
     #[error("{file}: shrinkage changes micrometres, but no scale is known: give one", file = file.display())]
     ShrinkageWithoutScale {
-        /// The file.
+        /// Path of the file that has no scale.
         file: PathBuf,
     },
-    /// An input lies where results take the place of what is there.
+    /// An input that results would overwrite.
     #[error("{file} lies in {folder}, which results are written to: choose another folder for the results", folder = folder.display())]
     Overlap {
-        /// The image.
+        /// Path of the input: an image or the table of regions.
         file: PathBuf,
-        /// The folder of results.
+        /// Path of the folder of results.
         folder: PathBuf,
     },
-    /// Coordinates of somebody else stand where detections would be written.
+    /// Coordinates of a person where detections would be written.
     #[error(
         "{path}: holds coordinates that a person has made or corrected: give up the corrections explicitly, or choose \
          another folder for the results",
         path = path.display()
     )]
     Foreign {
-        /// The file.
+        /// Path of the file of coordinates.
         path: PathBuf,
     },
-    /// A folder that holds more than results stands where results would be written.
+    /// A folder with other files than results where results would be written.
     #[error(
         "{path}: holds {file}, which is no result of this program: move it away, or choose another folder for the results",
         path = path.display()
     )]
     ForeignFolder {
-        /// The folder.
+        /// Path of the folder.
         path: PathBuf,
-        /// The first such file in it.
+        /// Name of the first such file in it.
         file: String,
     },
     /// An image that fails now and whose earlier results stay.
     #[error("{source}; its earlier results stay in {folder}")]
     Outdated {
-        /// Why it fails.
+        /// The reason why it fails.
         source: Box<BatchError>,
-        /// Where its earlier results are.
+        /// Path of its earlier results in the result folder.
         folder: String,
     },
-    /// Another command is writing into the folder.
+    /// A result folder that another command is writing into.
     #[error("{path}: another run is writing into this folder: wait for its end, or choose another folder", path = path.display())]
     Busy {
-        /// The folder.
+        /// Path of the result folder.
         path: PathBuf,
     },
     /// Cones that a person has corrected and that a run from the start would replace.
@@ -149,7 +150,7 @@ pub enum BatchError {
         path = path.display()
     )]
     Corrected {
-        /// The file of cones.
+        /// Path of the file of cones.
         path: PathBuf,
     },
     /// An image whose results would be called like the list of failures.
@@ -157,95 +158,96 @@ pub enum BatchError {
         "{file}: its results would be failures.csv, which lists the images that failed: rename the image"
     )]
     Reserved {
-        /// The image.
+        /// Path of the image.
         file: PathBuf,
     },
-    /// Coordinates in another unit than pixels where pixels are needed.
+    /// Coordinates in another unit where pixels are needed.
     #[error("{file}: the coordinates are in {unit}, expected px", unit = unit.symbol())]
     NotPixels {
-        /// The file.
+        /// Path of the coordinate file.
         file: PathBuf,
-        /// Its unit.
+        /// Unit of its coordinates.
         unit: LengthUnit,
     },
-    /// Reference marks without anything to hold against them.
+    /// A file without the file that must accompany it, such as marks without an image or
+    /// detections.
     #[error("{file}: {problem}")]
     Pairing {
-        /// The file of marks.
+        /// Path of the file.
         file: PathBuf,
-        /// What is missing, and the remedy.
+        /// The missing file and the remedy, in words.
         problem: String,
     },
-    /// See [`ImageError`].
+    /// An image that cannot be read or written.
     #[error(transparent)]
     Image(#[from] ImageError),
-    /// See [`DetectError`].
+    /// An image in which cones cannot be detected.
     #[error("{file}: {source}", file = file.display())]
     Detect {
-        /// The image.
+        /// Path of the image.
         file: PathBuf,
-        /// Why nothing can be found in it.
+        /// The reason why nothing can be found in it.
         source: DetectError,
     },
-    /// See [`ReadError`].
+    /// A coordinate file, outline or table that cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// See [`WriteError`].
+    /// A file that cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// See [`RoiTableError`].
+    /// A table of regions that gives a file no boxes, or boxes of several identifiers.
     #[error(transparent)]
     RoiTable(#[from] RoiTableError),
     /// A window that is smaller than the regions that are to slide over it.
     #[error("{file}: no square of side {side} fits into the window: give a smaller side", file = file.display())]
     NoRoi {
-        /// The coordinate file.
+        /// Path of the coordinate file.
         file: PathBuf,
-        /// In the unit of the coordinates.
+        /// Side of the regions, in the unit of the coordinates.
         side: f64,
     },
-    /// See [`ScaleTableError`].
+    /// A table of scales that gives an image no scale, or several.
     #[error(transparent)]
     ScaleTable(#[from] ScaleTableError),
-    /// See [`AmbiguousRow`].
+    /// An image that several rows of the manifest fit.
     #[error(transparent)]
     Manifest(#[from] AmbiguousRow),
-    /// Tables that cannot be held against each other.
+    /// Tables that cannot be compared with each other.
     #[error("{0}")]
     Tables(String),
     /// Images that cannot be grouped as asked.
     #[error("{0}")]
     Group(String),
-    /// See [`crate::mosaic::ScaleError`].
+    /// A scale that is not a positive number.
     #[error(transparent)]
     Scale(#[from] crate::mosaic::ScaleError),
-    /// See [`MosaicError`].
+    /// Points that form no mosaic.
     #[error("{file}: {source}", file = file.display())]
     Mosaic {
-        /// The coordinate file.
+        /// Path of the coordinate file.
         file: PathBuf,
-        /// What is wrong with its points.
+        /// The reason why the points form none.
         source: MosaicError,
     },
-    /// See [`WindowError`].
+    /// A window without area.
     #[error(transparent)]
     Window(#[from] WindowError),
-    /// See [`PolygonError`].
+    /// An outline that is no polygon.
     #[error(transparent)]
     Polygon(#[from] PolygonError),
-    /// See [`CompareError`].
+    /// A comparison with samplers that cannot be made.
     #[error(transparent)]
     Compare(#[from] CompareError),
-    /// Functions of distance cannot be computed as asked.
+    /// Statistics that cannot be computed as asked.
     #[error(transparent)]
     Stats(#[from] crate::stats::StatsError),
-    /// See [`MatchError`].
+    /// Options of matching, or points to be matched, that are out of range.
     #[error(transparent)]
     Match(#[from] MatchError),
-    /// See [`ReportError`].
+    /// A table or figure that cannot be made.
     #[error(transparent)]
     Report(#[from] ReportError),
-    /// Records that cannot be put into JSON.
+    /// A record that cannot be written as JSON.
     #[error("cannot write JSON: {0}")]
     Json(#[from] serde_json::Error),
 }

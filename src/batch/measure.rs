@@ -11,54 +11,54 @@ use crate::report::tables::{self, RoiRow};
 use crate::report::{CoordinatesRecord, FindingRecord, LandmarkRecord, Subject, SummaryKind, counted};
 use std::path::{Path, PathBuf};
 
-/// Options of reading coordinate files and of what is made of them.
+/// Options of reading and analysing coordinate files.
 #[derive(Clone)]
 pub struct CoordinatesOptions {
-    /// Everything that is computed and written of every mosaic.
+    /// The plan: everything that is computed and written for each mosaic.
     pub plan: Plan,
     /// Options of reading the files.
     pub read: ReadOptions,
-    /// The window that points could have been seen in.
+    /// The window in which points could have been seen.
     pub region: Region,
     /// Folder of the images that windows are taken from; `None`: they lie beside the files.
     pub images: Option<PathBuf>,
-    /// The rectangle of that window that counts; `None`: all of it.
+    /// The rectangle of the window that counts; `None`: all of it.
     pub crop: Option<Crop>,
-    /// Opposite edges of the window are the same place; not with a crop.
+    /// Treats opposite edges of the window as the same place; not to be combined with a crop.
     pub torus: bool,
 }
 
 /// Results of measuring or comparing coordinate files.
 #[derive(Clone, Debug)]
 pub struct CoordinatesOutcome {
-    /// One record per file, in the order of the inputs.
+    /// Records of the files, one per file, in the order of the inputs.
     pub records: Vec<CoordinatesRecord>,
-    /// Files without results.
+    /// Files without results, with the reasons.
     pub failures: Vec<Failure>,
-    /// Correlation of regularity with the distance to each sampler; empty where it was not asked
-    /// for.
+    /// Correlation of regularity with the distance to each sampler; empty after [`measure_files`].
     pub findings: Vec<FindingRecord>,
     /// The end of the batch: complete or stopped.
     pub ending: Ending,
 }
 
-/// Parts of a file's results that are kept in memory when they are written.
+/// Parts of a file's results that stay in memory after they are written.
 struct Done {
     record: CoordinatesRecord,
     landmarks: Option<LandmarkRecord>,
     regions: Vec<RoiRow>,
 }
 
-/// Measures coordinate files into `out`.
+/// Measures coordinate files and writes the results into `out`.
 ///
 /// Writes `summary.csv` (one row per file) and the same as `summary.json`, `NAME.pcf.csv`, and what
-/// the plan asks for: `groups.csv`, `verdicts.csv`, `landmarks.csv`, `rois.csv`, and of each file
-/// `NAME.functions.csv`, `.density_recovery.csv`, `.points.csv`, `.spectrum.csv`, `.spectrum.png`,
-/// `.maps.csv`, `.maps.svg`, `.profiles.csv`, `.envelope.csv`, `.verdict.svg`.
+/// the plan asks for. That is `groups.csv`, `verdicts.csv`, `landmarks.csv` and `rois.csv` for the
+/// batch; and for each file `NAME.functions.csv`, `.density_recovery.csv`, `.points.csv`,
+/// `.spectrum.csv`, `.spectrum.png`, `.maps.csv`, `.maps.svg`, `.profiles.csv`, `.envelope.csv` and
+/// `.verdict.svg`.
 ///
 /// # Errors
 /// If an option is out of range, the file of a window cannot be read or `out` cannot be written to.
-/// Files that fail are in the outcome and in `failures.csv`.
+/// Files that fail are listed in the outcome and in `failures.csv`.
 pub fn measure_files(
     inputs: &[Input],
     options: &CoordinatesOptions,
@@ -68,14 +68,14 @@ pub fn measure_files(
     work_through(inputs, options, out, progress, |_, _| Ok(Vec::new()))
 }
 
-/// Measures coordinate files and compares them with samplers, into `out`.
+/// Measures coordinate files, compares them with samplers and writes the results into `out`.
 ///
-/// Writes what [`measure_files`] does, and `regularity.csv` and `l_infinity.csv` (Tables 1 and 2 of
-/// Lanaro et al. 2020: one row per file) and `finding.csv` (one row per sampler: rank correlation of
-/// the two).
+/// Writes the files of [`measure_files`], and `regularity.csv` and `l_infinity.csv` (Tables 1 and 2
+/// of Lanaro et al. 2020, <https://doi.org/10.1088/2399-6528/ab8064>: one row per file) and
+/// `finding.csv` (one row per sampler: rank correlation of regularity index and l-infinity).
 ///
 /// # Errors
-/// As [`measure_files`].
+/// Fails as [`measure_files`] does.
 pub fn compare_files(
     inputs: &[Input],
     options: &CoordinatesOptions,
@@ -94,6 +94,7 @@ pub fn compare_files(
     })
 }
 
+/// Runs the pipeline on every file; `more` writes what only one of the two commands writes.
 fn work_through(
     inputs: &[Input],
     options: &CoordinatesOptions,
@@ -126,7 +127,7 @@ fn work_through(
     Ok(CoordinatesOutcome { records, failures: worked.failures, findings, ending })
 }
 
-/// Writes the tables of all files.
+/// Writes the tables that cover all files.
 fn write_tables(
     out: &ResultFolder,
     options: &CoordinatesOptions,
@@ -155,7 +156,7 @@ fn write_tables(
     out.write_json("options.json", &options_json(options))
 }
 
-/// Records how coordinates were read and measured, and what they were compared with.
+/// Returns the record of how coordinates were read, measured and compared.
 fn options_json(options: &CoordinatesOptions) -> serde_json::Value {
     let mut record = serde_json::json!({
         "program": "conemosaic",
@@ -173,14 +174,15 @@ fn options_json(options: &CoordinatesOptions) -> serde_json::Value {
     record
 }
 
+/// Returns the line that tells a person the result of one file.
 fn line_about(record: &CoordinatesRecord) -> String {
     let ri = record.mosaic.stats.nearest.ri.map(|ri| format!(", RI {ri:.2}")).unwrap_or_default();
     let closest = record.mosaic.closest_sampler().map(|s| format!(", closest to {s}")).unwrap_or_default();
     format!("{}{ri}{closest}", counted(record.mosaic.n, "point"))
 }
 
-/// Correlates regularity with the distance to each sampler: the paper's main finding, on these
-/// mosaics.
+/// Correlates regularity with the distance to each sampler: the main finding of Lanaro et al.,
+/// tested on these mosaics.
 fn findings(done: &[Done], samplers: &[String], seed: u64) -> Vec<FindingRecord> {
     let of = |sampler: &String| {
         let both = |d: &Done| {
@@ -193,8 +195,10 @@ fn findings(done: &[Done], samplers: &[String], seed: u64) -> Vec<FindingRecord>
     samplers.iter().map(of).collect()
 }
 
-/// Reads the mosaic in a coordinate file, and counts its points outside the window; those cut off by
-/// a crop are not counted: to leave them out is its purpose.
+/// Reads the mosaic in a coordinate file, and counts its points outside the window.
+///
+/// Points that only a crop cuts off are not counted, since it is the purpose of a crop to leave
+/// them out.
 fn load(
     input: &Input,
     options: &CoordinatesOptions,

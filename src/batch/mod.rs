@@ -1,9 +1,28 @@
-//! Batches of files: finds them, names them, gives them their scale, works through them on all cores,
-//! keeps failures apart and results whole. Knows nothing of mathematics.
+//! Work on whole batches of files: finding them, naming their results, giving them scales,
+//! analysing them on all cores and writing the results.
 //!
-//! Every command that measures mosaics is the same pipeline: [`run_files`] gets cones from images,
-//! [`measure_files`] and [`compare_files`] from coordinate files; what is computed of them and
-//! written is one [`Plan`].
+//! A file that fails is reported and stops no other; result files appear whole or not at all. The
+//! module holds no mathematics: that lies in the modules it calls.
+//!
+//! Every command that measures mosaics runs the same pipeline: [`run_files`] takes its cones from
+//! images, [`measure_files`] and [`compare_files`] from coordinate files. A [`Plan`] states what is
+//! computed from them and written.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::batch::{Plan, RunOptions, Silent, image_files, run_files};
+//! use conemosaic::sample::sampler;
+//!
+//! let images = image_files(&["fixtures/images/split_sparse.png".into()], None)?;
+//! let plan = Plan { samplers: vec![sampler("uniform")?], ..Plan::default() };
+//! let options = RunOptions { plan, ..RunOptions::default() };
+//! let out = tempfile::tempdir()?;
+//! let outcome = run_files(&images, &options, out.path(), &Silent)?;
+//!
+//! assert_eq!((outcome.records.len(), outcome.failures.len()), (1, 0));
+//! assert!(out.path().join("summary.csv").exists() && out.path().join("index.html").exists());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod agree;
 mod analysis;

@@ -1,3 +1,12 @@
+//! The tables and figures of Lanaro et al. (2020, <https://doi.org/10.1088/2399-6528/ab8064>) that
+//! concern samplers, made again.
+//!
+//! 1. Draw every pattern and every spectrum that is needed, on all cores.
+//! 2. Measure the patterns for the samplers' rows of Table 1.
+//! 3. Average the pair correlation functions for Figure 1, and take the l-infinity distances
+//!    between the samplers of Table 2, at several bandwidths.
+//! 4. Hold the printed rows of Table 2 against these distances by the triangle inequality.
+
 use super::output::{OutputFolder, ResultFolder};
 use super::{BatchError, Progress};
 use crate::compare::paper::{
@@ -18,39 +27,44 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Points of the mean curves and of the patterns of Figure 1, and of its spectra.
+/// Number of points of the patterns behind the mean curves and Figure 1.
 const POINTS: usize = 1024;
+/// Number of points of the patterns behind the spectra of Figure 1.
 const SPECTRUM_POINTS: usize = 4096;
-/// How far the spectra go, in √n.
+/// Highest frequency of the spectra, in units of √n (n points in the unit square).
 const MAX_FREQUENCY: f64 = 2.5;
 
-/// Bandwidths, in spacings, at which Table 2 is held against our samplers.
+/// Bandwidths, in spacings, at which the printed rows of Table 2 are tested against the samplers
+/// made here.
 const BANDWIDTHS: [f64; 7] = [0.05, 0.07, 0.09, 0.1, 0.12, 0.15, 0.2];
 
-/// A piece of work.
+/// One piece of work for one core.
 #[derive(Clone, Copy)]
 enum Task {
-    /// Pattern number `k` of about `n` points of a sampler.
+    /// The pattern with index `k`, of about `n` points of a sampler.
     Pattern { sampler: &'static dyn Sampler, n: usize, k: usize },
-    /// The spectrum of one pattern on the torus.
+    /// The spectrum of one pattern of a sampler on the unit torus.
     Spectrum { sampler: &'static dyn Sampler },
 }
 
+/// The result of a [`Task`].
 enum Made {
     Pattern(Pattern),
     Spectrum(PowerSpectrum),
 }
 
-/// Patterns by sampler and number of points, and spectra by sampler.
+/// All patterns by sampler and number of points, and all spectra by sampler.
 #[derive(Default)]
 struct Everything {
     patterns: BTreeMap<(&'static str, usize), Vec<Pattern>>,
     spectra: BTreeMap<&'static str, PowerSpectrum>,
 }
 
-/// Re-makes the samplers' rows of Table 1, Figure 1 and the distances between the samplers of Table
-/// 2 of Lanaro et al., from `patterns` patterns each (at least 2), into `out`: `index.html`,
-/// `paper.md`, `figure1.svg` and tables as CSV.
+/// Makes again the samplers' rows of Table 1, Figure 1 and the distances between the samplers of
+/// Table 2 of Lanaro et al.
+///
+/// `patterns` is the number of patterns drawn per sampler and number of points, at least 2. Writes
+/// `index.html`, `paper.md`, `figure1.svg` and tables as CSV into `out`.
 ///
 /// # Errors
 /// If a sampler is missing or makes no pattern, or `out` cannot be written to.
@@ -84,7 +98,8 @@ pub fn remake_paper(
     Ok(results)
 }
 
-/// The longest first, so that no core waits for one at the end.
+/// Lists all the work, the longest pieces first, so that no core is left waiting for one at the
+/// end.
 fn tasks(patterns: usize) -> Result<Vec<Task>, BatchError> {
     let named = |name: &str| {
         sampler(name)
@@ -106,6 +121,7 @@ fn tasks(patterns: usize) -> Result<Vec<Task>, BatchError> {
     Ok(tasks)
 }
 
+/// Does one piece of work and reports it to `progress`.
 fn work(task: &Task, seed: u64, progress: &dyn Progress) -> Result<Made, CompareError> {
     match *task {
         Task::Pattern { sampler, n, k } => {
@@ -126,15 +142,18 @@ fn work(task: &Task, seed: u64, progress: &dyn Progress) -> Result<Made, Compare
 }
 
 impl Everything {
+    /// Returns the patterns of a sampler with about `n` points; empty if there are none.
     fn of(&self, sampler: &'static str, n: usize) -> &[Pattern] {
         self.patterns.get(&(sampler, n)).map_or(&[], Vec::as_slice)
     }
 
+    /// Returns the pair correlation functions of a sampler's patterns of [`POINTS`] points.
     fn curves(&self, sampler: &'static str) -> Vec<&Pcf> {
         self.of(sampler, POINTS).iter().map(|p| &p.pcf).collect()
     }
 }
 
+/// Computes everything that the page and the tables show.
 fn results(all: &Everything, patterns: usize, seed: u64) -> Result<PaperResults, BatchError> {
     let regularity = printed_regularity();
     let rows = TABLE_1_SAMPLERS.iter().filter_map(|&(name, sampler, n)| {
@@ -173,7 +192,8 @@ fn results(all: &Everything, patterns: usize, seed: u64) -> Result<PaperResults,
     })
 }
 
-/// Of each bandwidth the distances between the samplers of Table 2, and how many of its rows hold with them.
+/// Returns one row per bandwidth: the distances between the samplers of Table 2, and how many of
+/// its printed rows satisfy the triangle inequality with them.
 fn bandwidths(all: &Everything, printed: &[PrintedDistances]) -> Result<Vec<BandwidthRow>, BatchError> {
     let at = |&width: &f64| -> Result<_, CompareError> {
         let mut means = Vec::new();
@@ -190,6 +210,7 @@ fn bandwidths(all: &Everything, printed: &[PrintedDistances]) -> Result<Vec<Band
     Ok(BANDWIDTHS.par_iter().map(at).collect::<Result<Vec<_>, _>>()?)
 }
 
+/// Writes the tables, the figure and both forms of the page.
 fn write(all: &Everything, results: &PaperResults, out: &OutputFolder) -> Result<(), BatchError> {
     for (file, bytes) in results.tables()? {
         out.write(file, &bytes)?;
@@ -212,10 +233,12 @@ fn write(all: &Everything, results: &PaperResults, out: &OutputFolder) -> Result
     out.write("index.html", document.to_html().as_bytes())
 }
 
+/// Pairs each curve with the name of its sampler as tables spell it, with `_` for `-`.
 fn named<'a>(curves: impl Iterator<Item = (&'a str, &'a Vec<f64>, &'a Vec<f64>)>) -> Vec<SamplerCurve<'a>> {
     curves.map(|(name, x, y)| SamplerCurve { sampler: name.replace('-', "_"), x, y }).collect()
 }
 
+/// Draws Figure 1: one panel per sampler with its points, spectrum, g(r) and radial power.
 fn figure(all: &Everything, results: &PaperResults) -> Result<String, BatchError> {
     let mut pictures = BTreeMap::new();
     for (name, spectrum) in &all.spectra {

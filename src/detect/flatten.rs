@@ -1,10 +1,16 @@
+//! Flattening of an image: its slow drift is subtracted and its contrast made even.
+
 use crate::image::{Plane, gaussian, values};
 
-/// Local standard deviations below this part of the largest one count as this part: empty margins must not be blown up.
+/// Smallest local standard deviation that is divided by, as a fraction of the largest one.
+///
+/// Without it, the noise of empty margins would be blown up.
 const FLOOR: f32 = 1e-3;
 
-/// The image less its slow drift, divided by its local contrast: g = I − G(σ)∗I over √(G(σ)∗g²), σ = longer side / 8.
-/// The result has mean about 0 and standard deviation about 1 everywhere.
+/// Returns the image less its slow drift, divided by its local contrast.
+///
+/// With I the image and G(σ) a Gaussian of σ = longer side / 8, that is g / √(G(σ)∗g²), g = I −
+/// G(σ)∗I. The result has mean about 0 and standard deviation about 1 everywhere.
 pub fn flatten(image: &Plane) -> Plane {
     let (h, w) = image.dim();
     let sigma = h.max(w) as f64 / 8.;
@@ -13,7 +19,7 @@ pub fn flatten(image: &Plane) -> Plane {
     normalise(&level, sigma)
 }
 
-/// `plane` divided by its local root mean square √(G(σ)∗plane²).
+/// Returns `plane` divided by its local root mean square √(G(σ)∗plane²), with `sigma` in px.
 pub(super) fn normalise(plane: &Plane, sigma: f64) -> Plane {
     let mut variance = gaussian(&plane.mapv(|v| v * v), sigma);
     let floor = (FLOOR * FLOOR * highest(&variance)).max(f32::MIN_POSITIVE);
@@ -21,7 +27,10 @@ pub(super) fn normalise(plane: &Plane, sigma: f64) -> Plane {
     variance
 }
 
-/// The highest value of a plane that has none below zero. Sixteen at a time, as one maximum would wait for the other.
+/// Returns the highest value of a plane that has none below zero.
+///
+/// Sixteen maxima are kept side by side, because each comparison with a single one would wait for
+/// the one before.
 fn highest(plane: &Plane) -> f32 {
     let values = values(plane);
     let (blocks, rest) = values.as_chunks::<16>();

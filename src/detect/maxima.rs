@@ -1,11 +1,19 @@
+//! Local maxima of a filter's response, located to a fraction of a pixel.
+//!
+//! 1. A test without branches skips blocks of 16 px that hold no maximum, as most blocks do.
+//! 2. Every pixel of the other blocks is compared with its eight neighbours.
+//! 3. A maximum is moved to the top of a parabola through its neighbours along x and along y.
+
 use super::Detection;
 use crate::geometry::Point;
 use crate::image::{PARALLEL_PIXELS, Plane, values};
 use rayon::prelude::*;
 
-/// Local maxima of `response` over 3 × 3 px that exceed `threshold`, moved to the top of a parabola through their
-/// neighbours along x and along y (at most half a pixel), score = response at the pixel. A plateau counts once: its
-/// first pixel in reading order.
+/// Returns the local maxima of `response` over 3 × 3 px that exceed `threshold`, in reading order.
+///
+/// Each is moved by at most half a pixel, to the top of a parabola through its neighbours along x
+/// and along y; its score is the response at the pixel. A plateau counts once, at its first pixel
+/// in reading order.
 pub fn local_maxima(response: &Plane, threshold: f32) -> Vec<Detection> {
     let (h, w) = response.dim();
     let data = values(response);
@@ -14,7 +22,8 @@ pub fn local_maxima(response: &Plane, threshold: f32) -> Vec<Detection> {
         let (above, here, below) = ((y > 0).then(|| row(y - 1)), row(y), (y + 1 < h).then(|| row(y + 1)));
         let maximum = |x: usize| {
             let value = here[x];
-            // above all earlier neighbours, not below any later one; along the row first, where most pixels fail
+            // a maximum is above all earlier neighbours and not below any later one, so that a
+            // plateau counts once; the row itself is checked first because most pixels fail there
             if !(value > threshold && (x == 0 || here[x - 1] < value) && (x + 1 == w || here[x + 1] <= value))
             {
                 return None;
@@ -44,11 +53,14 @@ pub fn local_maxima(response: &Plane, threshold: f32) -> Vec<Detection> {
     }
 }
 
-/// Pixels that are compared with their neighbours together.
+/// Number of pixels that are compared with their neighbours together.
 const BLOCK: usize = 16;
 
-/// Whether any of a block's pixels from `x` on is above the earlier of its four nearest neighbours, and not below the later: without
-/// branches, as most blocks have none. Blocks at either end of a row may always have one.
+/// Returns whether a pixel of the block from `x` on may be a maximum.
+///
+/// It may if it is above its upper and its left neighbour and not below its right and its lower
+/// one. There are no branches, so that all pixels of a block are compared at once. Blocks at either
+/// end of a row are not examined and may always hold one.
 fn any_on_top(x: usize, above: &[f32], here: &[f32], below: &[f32]) -> bool {
     fn block(row: &[f32], from: usize) -> Option<&[f32; BLOCK]> {
         row.get(from..from + BLOCK)?.try_into().ok()
@@ -68,7 +80,9 @@ fn any_on_top(x: usize, above: &[f32], here: &[f32], below: &[f32]) -> bool {
     })
 }
 
-/// Where the parabola through (−1, a), (0, b), (1, c) has its top, within half a sample.
+/// Returns the place of the top of the parabola through (−1, a), (0, b), (1, c), within ½ of 0.
+///
+/// The place is 0 if the parabola has no top.
 fn parabola_top(a: f32, b: f32, c: f32) -> f64 {
     let curvature = f64::from(a) - 2. * f64::from(b) + f64::from(c);
     if curvature < 0. { (0.5 * f64::from(a - c) / curvature).clamp(-0.5, 0.5) } else { 0. }
@@ -100,7 +114,7 @@ mod tests {
 
     #[test]
     fn maxima_are_those_of_a_plain_search() {
-        // few levels: plateaus
+        // so few levels that there are plateaus
         let plane =
             Plane::from_shape_fn((37, 53), |(y, x)| ((x * 7919 + y * 104_729 + x * y * 31) % 7) as f32);
         let at = |y: isize, x: isize| plane.get((y as usize, x as usize)).copied();

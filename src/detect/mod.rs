@@ -1,5 +1,30 @@
-//! From an image to cone centres: flatten → spacing → filter → maxima → suppress → select → refine. Every stage can be called
-//! alone; [`detect`] is their composition. Knows nothing of files or statistics.
+//! Detection of cones in an image: flatten → spacing → filter → maxima → suppress → select →
+//! refine.
+//!
+//! Every stage can be called alone; [`detect`] is their composition. The module knows nothing of
+//! files or statistics.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::detect::{local_maxima, response, suppress};
+//! use conemosaic::prelude::*;
+//!
+//! let image = read("fixtures/images/confocal_dense.png".as_ref())?;
+//!
+//! // everything decided by the program
+//! let found = detect(&image, &DetectOptions::default())?;
+//! assert_eq!(found.modality, Modality::Confocal);
+//! println!("{} cones, {:.1} px apart", found.cones.len(), found.spacing);
+//!
+//! // or stage by stage, with a spacing of one's own, in px
+//! let (modality, polarity) = (Modality::Confocal, Polarity::Positive);
+//! let clear = f64::INFINITY; // filters widen only in images of low clarity
+//! let (filtered, criterion) = response(&image, modality, polarity, 7.5, clear);
+//! let maxima = local_maxima(&filtered, criterion.threshold);
+//! let cones = criterion.select(suppress(maxima, criterion.suppression * 7.5));
+//! assert!(cones.len() > 300);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod calibration;
 mod filter;
@@ -42,112 +67,135 @@ use strum::VariantArray;
 use thiserror::Error;
 use view::View;
 
-/// Shortest side of an image in px: below, there is no room for even a handful of cones at the closest spacing.
+/// Shortest side of an image in px; a smaller one has no room for even a handful of cones at the
+/// closest spacing.
 pub const MIN_SIDE: usize = 24;
 
-/// Number of files of weights: of a network per modality, of the spacing and of the modality.
+/// Number of files of weights: one network per modality, that of the spacing and that of the
+/// modality.
 const FILES: usize = Modality::VARIANTS.len() + 2;
 
-/// Returns the weights compiled into the program: results depend on them.
+/// Returns the files of weights that are compiled into the program and on which its results depend.
+///
+/// First come the networks of the modalities in the order of [`Modality`], then that of the spacing
+/// and that of the modality.
 pub fn weights() -> [&'static [u8]; FILES] {
     let others = [spacing::ring_weights(), modality::weights()];
     let mut all = SPECS.iter().map(|spec| spec.network.weights()).chain(others);
     std::array::from_fn(|_| all.next().unwrap_or_default())
 }
 
-/// Images whose largest grey value is at most 2 to this power, or as far below 1, are filtered as they are.
+/// Largest binary exponent of grey values that need no rescaling.
+///
+/// Images whose largest grey value is about 2^−20 to 2^20 are filtered as they are.
 const USUAL_EXPONENT: f64 = 20.;
 
-/// A spacing of more confidence than this is not doubted.
+/// Confidence in a spacing from which on it is not doubted.
 const SURE: f64 = 0.9;
-/// Nothing speaks for a spacing of less confidence than this.
+/// Confidence in a spacing below which nothing speaks for it.
 const HOPELESS: f64 = 0.1;
 
-/// Why an image has no cones to find.
+/// Reasons why cones cannot be looked for in an image.
 #[derive(Debug, Error, PartialEq)]
 pub enum DetectError {
-    /// Too few pixels.
+    /// The image is too small.
     #[error("the image is {width} × {height} px: both sides must be at least {MIN_SIDE} px")]
     TooSmall {
-        /// Width in px.
+        /// Width of the image in px.
         width: usize,
-        /// Height in px.
+        /// Height of the image in px.
         height: usize,
     },
-    /// Too few pixels that are not a black margin.
+    /// The part of the image that is not a black margin is too small.
     #[error(
         "only {imaged_width} × {imaged_height} px of the {width} × {height} px of the image are not black: at least {MIN_SIDE} × {MIN_SIDE} px must be imaged"
     )]
     TooLittleImaged {
-        /// Width in px.
+        /// Width of the image in px.
         width: usize,
-        /// Height in px.
+        /// Height of the image in px.
         height: usize,
-        /// Width in px of what is not a margin.
+        /// Width in px of the part that is not a margin.
         imaged_width: usize,
-        /// Height in px of what is not a margin.
+        /// Height in px of the part that is not a margin.
         imaged_height: usize,
     },
-    /// Every pixel is the same.
+    /// All pixels have the same value.
     #[error("every pixel of the image is {value}: there is nothing to find")]
     Constant {
-        /// Their common value.
+        /// Value of every pixel.
         value: f32,
     },
     /// A pixel is infinite or not a number.
     #[error("pixel ({x}, {y}) is {value}: pixels must be finite numbers")]
     NotFinite {
-        /// Column of the pixel.
+        /// Column of the pixel, from 0.
         x: usize,
-        /// Row of the pixel.
+        /// Row of the pixel, from 0.
         y: usize,
-        /// Its value.
+        /// Value of the pixel.
         value: f32,
     },
-    /// A spacing outside the range.
+    /// A spacing, in px, is outside its range.
     #[error("a spacing of {0} px is outside {low}–{high} px", low = SPACING_RANGE.0, high = WIDEST_SPACING)]
     Spacing(f64),
-    /// A side of tiles outside its range.
+    /// A side of tiles, in spacings, is outside its range.
     #[error("tiles of {0} spacings cannot be mapped: give a side of 6 to 60 spacings")]
     TileSide(f64),
     /// The spectrum shows no ring.
     #[error("the spectrum of the image has no ring between {low} and {high} px: it shows no regular mosaic", low = SPACING_RANGE.0, high = SPACING_RANGE.1)]
     NoRing,
-    /// A model that would not be used.
+    /// A model is given together with the classical detector, which uses none.
     #[error("the classical detector uses no model: leave out the one or the other")]
     Unused,
-    /// A model for other images than these.
+    /// A model is given that was made for images of another modality.
     #[error("{name} is a model of {own} images: it is not used on {given} ones")]
     OtherModality {
-        /// The model, as it was given.
+        /// Name of the model, as it was given.
         name: String,
-        /// What it was made for.
+        /// Modality that the model was made for.
         own: Modality,
-        /// What the images are said to be.
+        /// Modality that the options give to the images.
         given: Modality,
     },
-    /// The user's model fails.
+    /// The user's model cannot be run.
     #[error("{name}: {source}")]
     Model {
-        /// As it was given.
+        /// Name of the model, as it was given.
         name: String,
-        /// What is wrong with it.
+        /// Fault of the model.
         source: WeightsError,
     },
-    /// The weights in the program are damaged.
+    /// The weights compiled into the program are damaged.
     #[error("the learned detector of {modality} images cannot be read: {source}")]
     Weights {
-        /// Which weights.
+        /// Modality whose weights are damaged.
         modality: Modality,
-        /// What is wrong with them.
+        /// Fault of the weights.
         source: WeightsError,
     },
 }
 
-/// The cones of an image, by the method that `options` leaves open decided from the image.
+/// Detects the cones in `image`.
+///
+/// Whatever `options` leaves as `None` is estimated from the image. Positions and spacings are in
+/// px of `image`.
 ///
 /// # Errors
-/// If the image is too small, constant, or has pixels that are not numbers, or an option is out of range.
+/// If the image is too small, constant, or has pixels that are not numbers, if an option is out of
+/// range, or if a model cannot be run.
+///
+/// # Examples
+/// ```
+/// use conemosaic::prelude::*;
+///
+/// let image = read("fixtures/images/split_sparse.png".as_ref())?;
+/// let options = DetectOptions { modality: Some(Modality::Split), ..DetectOptions::default() };
+/// let found = detect(&image, &options)?;
+/// let first = &found.cones[0];
+/// println!("x {:.1} px, y {:.1} px, score {:.2}", first.centre.x, first.centre.y, first.score);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn detect(image: &Plane, options: &DetectOptions) -> Result<Detections, DetectError> {
     options.validate()?;
     let (imaged, left, top) = without_margin(image)?;
@@ -156,8 +204,10 @@ pub fn detect(image: &Plane, options: &DetectOptions) -> Result<Detections, Dete
     Ok(found)
 }
 
-/// Returns the image without a straight black margin, whose edges look like cones and which has a spectrum of its own; and where
-/// what is left begins, px.
+/// Returns the image without its straight black margin, and the column and row where that part
+/// begins.
+///
+/// The edges of a margin look like cones, and its spectrum would be added to that of the mosaic.
 fn without_margin(image: &Plane) -> Result<(Cow<'_, Plane>, usize, usize), DetectError> {
     check(image)?;
     let part = imaged_part(image);
@@ -174,8 +224,10 @@ fn without_margin(image: &Plane) -> Result<(Cow<'_, Plane>, usize, usize), Detec
     Ok((in_range(Cow::Owned(imaged)), part.left, part.top))
 }
 
-/// Brings grey values whose squares or sums single precision cannot hold into its range, by a power of two, which changes nothing
-/// else. Integers of 64 bits that use but a few of them are that small.
+/// Multiplies grey values by a power of two if single precision cannot hold their squares or sums.
+///
+/// That changes nothing else. Integers of 64 bits of which only the lowest few are used lead to
+/// values that small.
 fn in_range(image: Cow<'_, Plane>) -> Cow<'_, Plane> {
     let largest = f64::from(image.iter().fold(0f32, |top, v| top.max(v.abs())));
     let exponent = largest.log2().floor();
@@ -188,17 +240,17 @@ fn in_range(image: Cow<'_, Plane>) -> Cow<'_, Plane> {
     Cow::Owned(image)
 }
 
-/// What the modality and the polarity of an image are decided by.
-///
-/// # Errors
-/// If the image is too small, constant, or has pixels that are not numbers.
+/// Returns the numbers by which the modality and the polarity of an image are decided.
 pub fn modality_features(image: &Plane) -> Result<ModalityFeatures, DetectError> {
     let (imaged, ..) = without_margin(image)?;
     let rings = View::suitable(&imaged, None).rings;
     Ok(modality::features(rings.sample(), rings.whole()))
 }
 
-/// The cones of an image without a straight margin.
+/// Detects the cones in an image that has no straight margin.
+///
+/// In doubt about the spacing, it also searches means of pixels for cones farther apart, and keeps
+/// the better of both results.
 fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, DetectError> {
     let view = View::suitable(image, options.spacing);
     let mut found = detect_in(&view, options)?;
@@ -207,7 +259,8 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
         && let Some(wider) = view.wider(found.spacing_confidence)
     {
         let other = detect_in(&wider, options)?;
-        // two spacings are in doubt: the more regular mosaic is right, unless nothing speaks for the closer one
+        // both spacings are in doubt: the more regular mosaic is right, unless nothing speaks for
+        // the closer one and the wider one is surer
         let regularity = |found: &Detections| regularity(&found.centres(), image.dim());
         let surer = other.spacing_confidence > found.spacing_confidence;
         if found.spacing_confidence < HOPELESS && surer || regularity(&other) > regularity(&found) {
@@ -217,12 +270,13 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
     Ok(found)
 }
 
-/// The cones of a view, in px of the image.
+/// Detects the cones in a view; the result is in px of the image.
 fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, DetectError> {
     let (field, rings) = (view.field(), &view.rings);
     let (modality, modality_confidence, mut polarity) =
         modality::decide(rings.sample(), rings.whole(), options.modality, options.polarity);
     let ring = rings.whole().spacing();
+    // until `enlarge` at the end, lengths are in px of the view
     let given = options.spacing.map(|s| s / view.block as f64);
     let mut start = match given {
         None => Start { map: rings.map(), least: ring.least },
@@ -247,7 +301,8 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
     if given.is_none()
         && let Some(other) = start.contradicted_by(&found.centres(), field.image.dim(), field.empty)
     {
-        // ring and density cannot both be right: the more regular mosaic is
+        // the density of the detections contradicts the ring: of the two starts, the one that leads
+        // to the more regular mosaic is right
         let searched = search(&other, first)?;
         let dim = field.image.dim();
         if regularity(&searched.0.centres(), dim) > regularity(&found.centres(), dim) {
@@ -259,7 +314,8 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
         (found, map) = search(&Start { map, ..start }, network)?;
     }
     let spacing = map.typical();
-    // a network that runs first finds dark cells as well as bright ones, and cells tell their polarity more surely than the image
+    // a network that runs first detects both polarities, and the detected cells show their polarity
+    // more reliably than the whole image does
     if at_once.is_some() && options.polarity.is_none() && !found.cones.is_empty() {
         polarity = modality::of_cells(field.image, &found.centres(), spacing);
     }
@@ -285,7 +341,10 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
     Ok(detections)
 }
 
-/// Returns the network to use, the user's `own` before that of the program, or none for the classical filter.
+/// Returns the network to use, or `None` for the classical filter.
+///
+/// The user's `own` network comes before that of the program, which is used if it was asked for or
+/// measured to be better than the filter.
 fn network_for<'a>(
     options: &DetectOptions,
     spec: &'a ModalitySpec,
@@ -299,10 +358,12 @@ fn network_for<'a>(
     Ok((options.detector == Detector::Learned || model.better).then_some(model))
 }
 
+/// Returns whether a side is shorter than [`MIN_SIDE`].
 const fn is_too_small(width: usize, height: usize) -> bool {
     width < MIN_SIDE || height < MIN_SIDE
 }
 
+/// Refuses images that are too small, are constant or have a pixel that is not a finite number.
 fn check(image: &Plane) -> Result<(), DetectError> {
     let (height, width) = image.dim();
     if is_too_small(width, height) {

@@ -3,7 +3,7 @@ use crate::choice::UnknownChoice;
 use serde::{Deserialize, Serialize};
 use strum::{Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
 
-/// Which family of filters finds the cones.
+/// Family of filters that finds the cones.
 #[derive(
     Clone,
     Copy,
@@ -26,38 +26,41 @@ use strum::{Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
     parse_err_fn = UnknownChoice::among::<Detector>
 )]
 pub enum Detector {
-    /// The one that measured best on hand-marked images of the modality.
+    /// Whichever family scored higher on hand-marked images of the modality.
     #[default]
     Auto,
-    /// Hand-designed band-pass filters (one a modality).
+    /// Hand-designed band-pass filters, one per modality.
     Classical,
-    /// Small convolutional networks, one a modality.
+    /// Small convolutional networks, one per modality.
     Learned,
 }
 
 impl Detector {
-    /// Returns the word for it in options and tables.
+    /// Returns the name that options and tables use.
     pub fn name(self) -> &'static str {
         self.into()
     }
 }
 
-/// What a user may fix about detection; by default everything is decided from the image.
+/// Options of detection; by default everything is decided from the image.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct DetectOptions {
-    /// How the image was taken; `None`: decided from the image.
+    /// Modality of the image; `None` to decide it from the image.
     pub modality: Option<Modality>,
-    /// Which way round the contrast runs; `None`: decided from the image.
+    /// Sign of the contrast; `None` to decide it from the image.
     pub polarity: Option<Polarity>,
-    /// Which filters find the cones.
+    /// Family of filters that finds the cones.
     pub detector: Detector,
-    /// Cone spacing in px (4–160) to start from instead of Yellott's ring; `None`: the ring.
+    /// Cone spacing in px (4–160) to start from; `None` to take that of Yellott's ring.
     pub spacing: Option<f64>,
-    /// A network of the user's own, in place of the program's for the modality it was made for.
+    /// Network of the user's own, used on images of the modality it was made for instead of the
+    /// built-in one.
     pub model: Option<UserModel>,
 }
 
 impl DetectOptions {
+    /// Checks that the options are in range and do not contradict each other.
+    ///
     /// # Errors
     /// If the spacing is out of its range, or a model is given that these options do not use.
     pub fn validate(&self) -> Result<(), DetectError> {

@@ -1,4 +1,8 @@
-//! Searches an image at a spacing that may vary from place to place, and again at the spacing that its own detections show.
+//! Search for cones at a spacing that may vary from place to place.
+//!
+//! 1. Cut the image into tiles, over each of which one spacing serves.
+//! 2. Run a finder on every tile and merge the results, each cone once.
+//! 3. Derive the spacing from the density of the detections, and search again until it settles.
 
 use super::finder::Found;
 use super::spacing::{SpacingMap, Start, refined_map};
@@ -10,17 +14,27 @@ use crate::image::{EmptyPixels, Plane, crop};
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// At most this often an image is searched again at the spacing that its own detections show.
+/// Largest number of searches of one image, the first one included.
 const PASSES: usize = 5;
-/// A map settles when no node changes by more than this part: a local count scatters more than that of a whole image.
+/// Relative change of every node below which a spacing that varies has settled.
+///
+/// It is larger than that of a constant spacing, because a local count scatters more than that of a
+/// whole image.
 const MAP_SETTLED: f64 = 0.08;
-/// A tile also answers for what lies so far beyond it, in spacings: a cone on the cut must not fall between two tiles.
+/// Distance, in spacings, up to which a tile also reports cones beyond its edges.
+///
+/// Without it, a cone on the cut could be missed by both tiles.
 const OVERLAP: f64 = 0.5;
-/// Of two detections of neighbouring tiles nearer to each other than this, in spacings, the lower one goes.
+/// Distance, in spacings, below which detections of neighbouring tiles are the same cone.
+///
+/// The one with the lower score is dropped.
 const SAME: f64 = 0.5;
 
-/// Regularity index of cones, mean over standard deviation of the distances to the nearest neighbour, less its standard error: of few
-/// points it is high by chance. 0 where it is not defined.
+/// Returns the regularity index of cones in an image of `height` × `width` px, less its standard
+/// error.
+///
+/// The index is the mean over the standard deviation of the distances to the nearest neighbour.
+/// With few points it is high by chance, hence the deduction. 0 where it is not defined.
 pub(super) fn regularity(centres: &[Point], (height, width): (usize, usize)) -> f64 {
     let Ok(window) = Window::of_image(width, height) else { return 0. };
     let distances = nearest_neighbours(centres, &window).distances;
@@ -30,24 +44,29 @@ pub(super) fn regularity(centres: &[Point], (height, width): (usize, usize)) -> 
     if deviation > 0. { mean / deviation * (1. - 1. / (2. * n).sqrt()) } else { 0. }
 }
 
-/// Finds cones in a part of an image at a spacing, px.
+/// Function that finds cones in a part of an image at a spacing in px.
 pub(super) trait Find: Fn(&Plane, f64) -> Result<Found, DetectError> {}
 
 impl<F: Fn(&Plane, f64) -> Result<Found, DetectError>> Find for F {}
 
-/// At which spacing parts of an image were searched, and what was found there.
+/// Areas that were searched, each with the spacing it was searched at and the detections in it.
 type Searched = HashMap<Area, (f64, Found)>;
 
-/// An image whose empty pixels are filled, and which those are.
+/// An image whose empty pixels are filled in, and a record of which pixels those are.
 #[derive(Clone, Copy)]
 pub(super) struct Field<'a> {
+    /// Image with its empty pixels filled in.
     pub image: &'a Plane,
+    /// Pixels that were not imaged; `None` if all were.
     pub empty: Option<&'a EmptyPixels>,
 }
 
 impl Field<'_> {
-    /// What `find(part, spacing)` finds in all tiles over which one spacing serves. Nothing lies where nothing was imaged. A tile that
-    /// was searched before at a spacing that differs by less than the part `settled` is not searched again.
+    /// Runs `find` on every tile and merges the results.
+    ///
+    /// Detections on pixels that were not imaged are dropped. A tile is reused from `searched` if
+    /// its spacing changed by less than the fraction `settled` since then. An image of one tile is
+    /// always searched anew.
     fn search(
         &self,
         map: &SpacingMap,
@@ -78,6 +97,7 @@ impl Field<'_> {
         Ok(found)
     }
 
+    /// Runs `find` on what a tile sees, and keeps the detections that the tile answers for.
     fn search_tile(&self, tile: &Tile, find: &impl Find) -> Result<Found, DetectError> {
         let seen = tile.seen;
         let core = tile.core;
@@ -90,8 +110,11 @@ impl Field<'_> {
         Ok(found)
     }
 
-    /// What is found at the spacing `start`, and again at the spacing that the density of what was found shows, until that changes
-    /// by less than the part `settled`. The last spacing with it.
+    /// Searches at the spacing `start`, then again at the spacing that the density of the
+    /// detections shows, until that changes by less than the fraction `settled`.
+    ///
+    /// Returns the last detections and the spacing that their density shows. A spacing that varies
+    /// has settled already below [`MAP_SETTLED`].
     pub(super) fn until_settled(
         &self,
         start: &Start,
@@ -116,7 +139,9 @@ impl Field<'_> {
     }
 }
 
-/// What tiles found, each cone once: a cone on a cut is seen from both sides.
+/// Merges the detections of tiles so that each cone counts once.
+///
+/// A cone on a cut is seen from both sides. Any cone ranks above all rejected candidates.
 fn merged<'a>(parts: impl Iterator<Item = &'a Found>, map: &SpacingMap) -> Found {
     let (mut cones, mut rejected) = (Vec::new(), Vec::new());
     for part in parts {

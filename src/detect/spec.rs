@@ -1,4 +1,5 @@
-//! The table of modalities: everything that detection does differently from one to the next.
+//! The table of modalities, which holds everything that detection does differently for each of
+//! them.
 
 use super::calibration::{Logistic, Reference};
 use super::filter::{Filter, confocal, histology, split};
@@ -9,27 +10,32 @@ use strum::VariantArray;
 
 const COUNT: usize = Modality::VARIANTS.len();
 
-/// A modality's parts in detection.
+/// Filter, network and constants of one modality.
 pub(super) struct ModalitySpec {
-    /// The modality that this is about.
+    /// Modality that the entry belongs to.
     pub modality: Modality,
-    /// Its classical filter.
+    /// Classical filter of the modality.
     pub filter: Filter,
-    /// Its network.
+    /// Network of the modality that is compiled into the program.
     pub network: BuiltIn,
-    /// Whether the network runs from the start, and not only at the spacing that the filter has settled on. The filters of confocal
-    /// and of split-detector images count cones well enough for that; that of histology fires on rods and gaps, too.
+    /// `true` if the network runs first, instead of only at the spacing that the filter has settled
+    /// on.
+    ///
+    /// For confocal and split-detector images the classical filter gives a good first spacing, so
+    /// the network runs second. On histology the classical filter also fires on rods and gaps, so
+    /// there the built-in network runs first.
     pub starts_with_network: bool,
-    /// Sign of the contrast: what decides about it.
+    /// Evidence that decides the sign of the contrast.
     pub polarity: PolarityCue,
 }
 
 /// The evidence by which the polarity of an image is decided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PolarityCue {
-    /// The side on which inner segments are dark.
+    /// Side of the inner segments that is dark.
     DarkSide,
-    /// Skewness of the response to blobs: cones make high maxima, what lies between them shallow minima.
+    /// Skewness of the response to blobs: cones make high maxima, the places between them shallow
+    /// minima.
     Blobs,
 }
 
@@ -44,24 +50,22 @@ impl BuiltIn {
         Self { weights, model: OnceLock::new() }
     }
 
-    /// Returns the network, read once.
-    ///
-    /// # Errors
-    /// If the weights cannot be read.
+    /// Returns the network, which is read on first use and kept.
     pub(super) fn model(&self) -> Result<&Model, WeightsError> {
         self.model.get_or_init(|| Model::read(self.weights)).as_ref().map_err(Clone::clone)
     }
 
-    /// The file of its weights.
+    /// Returns the bytes of the file of weights.
     pub(super) const fn weights(&self) -> &'static [u8] {
         self.weights
     }
 }
 
-/// The modalities, in the order of [`Modality::VARIANTS`].
+/// Entries of the modalities, in the order of [`Modality::VARIANTS`].
 ///
-/// Constants of probabilities by scripts/fit-calibration from hand-marked images (histology: simulated ones); on subjects left
-/// out, the expected calibration error is .0014 (confocal), .009 (split), .008 (histology).
+/// The constants of the probabilities were fitted by `scripts/fit-calibration` to hand-marked
+/// images (for histology, to simulated ones). On subjects left out of the fit, the expected
+/// calibration error is .0014 (confocal), .009 (split), .008 (histology).
 pub(super) static SPECS: [ModalitySpec; COUNT] = [
     ModalitySpec {
         modality: Modality::Confocal,
@@ -98,9 +102,9 @@ pub(super) static SPECS: [ModalitySpec; COUNT] = [
     },
 ];
 
-/// Returns the parts of a modality.
+/// Returns the entry of a modality.
 pub(super) fn spec(modality: Modality) -> &'static ModalitySpec {
-    // as many entries as variants: the index is in range
+    // the table has one entry per variant, so the index is in range
     &SPECS[modality as usize]
 }
 

@@ -1,22 +1,32 @@
+//! Greedy non-maximum suppression: of detections close to each other only the highest stays.
+//!
+//! A grid of buckets holds those that stayed, so that a detection is compared only with those near
+//! it.
+
 use super::Detection;
 use crate::geometry::Point;
 use crate::geometry::index::BucketGrid;
 
-/// Greedy non-maximum suppression: from the highest score down, a detection stays unless one that stayed lies within
-/// `radius` (px). Equal scores go by reading order. The result runs from the highest score to the lowest.
+/// Drops every detection that lies within `radius` (px) of a kept one of higher rank.
+///
+/// The rank runs from the highest score to the lowest, equal scores in reading order; the result is
+/// in that order. Only kept detections suppress others. A radius of 0 keeps all.
 pub fn suppress(mut detections: Vec<Detection>, radius: f64) -> Vec<Detection> {
     detections.sort_by(by_score);
     suppress_sorted(detections, |d| d.centre, radius, |_| radius)
 }
 
-/// From the highest score down; equal scores by reading order.
+/// Compares detections for an order from the highest score to the lowest; equal scores in reading
+/// order.
 pub(super) fn by_score(a: &Detection, b: &Detection) -> std::cmp::Ordering {
     let reading = || a.centre.y.total_cmp(&b.centre.y).then(a.centre.x.total_cmp(&b.centre.x));
     b.score.total_cmp(&a.score).then_with(reading)
 }
 
-/// Of items in order of precedence, those that have none before them that stayed within the `radius` (px, at most `widest`) at
-/// their own place.
+/// Keeps each item unless a kept item of higher rank lies within `radius(its position)`.
+///
+/// `items` must be sorted by rank, the highest first. `widest` is the largest radius that occurs,
+/// in px; if it is 0, all items stay.
 pub(super) fn suppress_sorted<T>(
     items: Vec<T>,
     place: impl Fn(&T) -> Point,
@@ -38,7 +48,8 @@ pub(super) fn suppress_sorted<T>(
     kept.into_things()
 }
 
-/// Cells of one radius over all places; `None` if there is nothing to lay them over.
+/// Returns an empty grid over all places, with cells about as wide as `radius`; `None` if there are
+/// no places.
 fn grid_over<T>(places: impl ExactSizeIterator<Item = Point> + Clone, radius: f64) -> Option<BucketGrid<T>> {
     let range = |value: fn(Point) -> f64| {
         let values = places.clone().map(value);
@@ -48,7 +59,8 @@ fn grid_over<T>(places: impl ExactSizeIterator<Item = Point> + Clone, radius: f6
     if !(right >= left && bottom >= top) {
         return None;
     }
-    // never many more cells than places, however small the radius
+    // at most a few cells per place, however small the radius: otherwise the grid would outgrow
+    // memory
     let least = ((right - left) * (bottom - top) / (4 * places.len()) as f64).sqrt();
     let side = radius.max(least).max((right - left).max(bottom - top) / 1e6);
     let count = |length: f64| (length / side) as usize + 1;

@@ -1,22 +1,28 @@
-//! Cuts an image into tiles over which one spacing serves, so that filters made for one follow a spacing that varies and memory
-//! stays bounded.
+//! Tiles of an image, over each of which one spacing serves.
+//!
+//! They let a filter that is made for one spacing follow a spacing that varies, and bound the
+//! memory.
 
 use super::spacing::SpacingMap;
 use crate::geometry::Point;
 
-/// Largest over smallest spacing within a tile: filters work that far off theirs.
+/// Largest ratio of spacings within a tile; filters tolerate a spacing that far off their own.
 const EVEN: f64 = 1.15;
-/// Longest side of a tile, px: what bounds memory.
+/// Longest side of a tile in px, which bounds the memory.
 const LONGEST: usize = 1024;
-/// A tile is not cut below this many spacings.
+/// Shortest side, in spacings, that cutting for an even spacing may leave.
 const SHORTEST: f64 = 10.;
-/// What is looked at beyond a tile, in spacings: as far as filters and their normalisation reach.
+/// Width, in spacings, of the margin that is searched around a tile.
+///
+/// Filters and their normalisation reach that far.
 const MARGIN: f64 = 5.;
 
-/// A stretch of rows and columns of an image, px.
+/// A rectangle of whole pixels of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Area {
+    /// Index of the first column.
     pub left: usize,
+    /// Index of the first row.
     pub top: usize,
     /// One past the last column.
     pub right: usize,
@@ -25,15 +31,17 @@ pub(super) struct Area {
 }
 
 impl Area {
+    /// Returns the number of columns.
     pub(super) const fn width(&self) -> usize {
         self.right - self.left
     }
 
+    /// Returns the number of rows.
     pub(super) const fn height(&self) -> usize {
         self.bottom - self.top
     }
 
-    /// Within `reach` px of its outer edges.
+    /// Returns whether `p` lies in the area or less than `reach` px outside its outer edges.
     pub(super) fn contains(&self, p: Point, reach: f64) -> bool {
         let within =
             |v: f64, from: usize, to: usize| v >= from as f64 - 0.5 - reach && v < to as f64 - 0.5 + reach;
@@ -44,15 +52,17 @@ impl Area {
 /// A part of an image that is searched with one spacing.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tile {
-    /// The part that it answers for.
+    /// Area whose cones the tile reports.
     pub core: Area,
-    /// The part that is looked at.
+    /// Area that is searched: the core and a margin around it.
     pub seen: Area,
-    /// Spacing, px.
+    /// Spacing to search at, in px.
     pub spacing: f64,
 }
 
-/// Tiles whose cores cover an image of `width` × `height` px without overlap: all of it in one if the spacing allows.
+/// Returns tiles whose cores cover an image of `width` × `height` px without overlap.
+///
+/// There is only one if the spacing and the size allow it.
 pub(super) fn tiles(width: usize, height: usize, map: &SpacingMap) -> Vec<Tile> {
     let mut done = Vec::new();
     let mut open = vec![Area { left: 0, top: 0, right: width, bottom: height }];
@@ -65,7 +75,7 @@ pub(super) fn tiles(width: usize, height: usize, map: &SpacingMap) -> Vec<Tile> 
     done
 }
 
-/// Spacings at 5 × 5 places of an area, row by row.
+/// Returns the spacings at 5 × 5 places of an area, row by row, from edge to edge.
 fn samples(area: Area, map: &SpacingMap) -> [[f64; 5]; 5] {
     let place = |k: usize, from: usize, to: usize| from as f64 - 0.5 + (to - from) as f64 * k as f64 / 4.;
     std::array::from_fn(|j| {
@@ -74,6 +84,7 @@ fn samples(area: Area, map: &SpacingMap) -> [[f64; 5]; 5] {
     })
 }
 
+/// Returns the tile with this core, its spacing the geometric mean over the core.
 fn tile(core: Area, width: usize, height: usize, map: &SpacingMap) -> Tile {
     let spacings = samples(core, map);
     let spacing = (spacings.iter().flatten().map(|s| s.ln()).sum::<f64>() / 25.).exp();
@@ -87,7 +98,11 @@ fn tile(core: Area, width: usize, height: usize, map: &SpacingMap) -> Tile {
     Tile { core, seen, spacing }
 }
 
-/// Both halves of an area that is too large or too uneven for one spacing, cut across the stronger change.
+/// Returns both halves of an area that is too large or too uneven for one spacing; `None` if it is
+/// neither.
+///
+/// A large area is cut across its longer side, an uneven one across the direction in which the
+/// spacing changes more.
 fn cut(area: Area, map: &SpacingMap) -> Option<(Area, Area)> {
     let s = samples(area, map);
     let (low, high) =

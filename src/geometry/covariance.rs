@@ -1,31 +1,43 @@
+//! Set covariance of a polygon, |W ∩ (W + h)|: the area that a window and its copy shifted by h
+//! have in common.
+//!
+//! 1. Cut the polygon into rows and find its chords in each, exact along x.
+//! 2. Sum the overlap of chords over the rows, for a table of shifts h.
+//! 3. Interpolate bilinearly between shifts, and average over directions for the isotropised set
+//!    covariance (Ohser & Stoyan 1981, <https://doi.org/10.1002/bimj.4710230602>).
+
 use super::Polygon;
 use std::f64::consts::PI;
 
-/// Shifts tabulated on either side of none, along x and y.
+/// Number of tabulated shifts on either side of 0 along x, and above 0 along y.
 const SHIFTS: usize = 48;
-/// Rows of a polygon in one shift along y.
+/// Number of rows into which a polygon is cut per tabulated shift along y.
 const ROWS_PER_SHIFT: usize = 20;
-/// Directions in half a turn over which the covariance is averaged, and radii at which it is.
+/// Number of directions in half a turn over which the covariance is averaged.
 const DIRECTIONS: usize = 360;
+/// Number of steps of the radius at which that average is tabulated.
 const RADII: usize = 512;
 
-/// How much of a window stays in sight when it is moved: the area |W ∩ (W + h)| of the window and itself moved by h.
+/// Set covariance of a window: the area |W ∩ (W + h)| that the window has in common with itself
+/// shifted by h.
 ///
-/// Tabulated at 97 × 49 shifts (the rest follows from symmetry) up to the sides of the window's bounds and bilinear between
-/// them. Every entry is summed over 960 rows, exact along x. Relative to the area of the window it is exact for upright
-/// rectangles and within 10⁻³ for others; the tests measure that.
+/// It is tabulated at 97 × 49 shifts up to the sides of the window's bounds (the rest follows from
+/// symmetry) and bilinear between them. Every entry is summed over up to 960 rows, exact along x.
+/// Relative to the area of the window the result is exact for upright rectangles and within 10⁻³
+/// for other windows; the tests measure that.
 #[derive(Clone, Debug)]
 pub struct SetCovariance {
     area: f64,
-    /// The unit of shifts along x and y.
+    /// Tabulated step of the shift along x and y.
     step: (f64, f64),
-    /// Row by row; the shifts along x of a row begin at −[`SHIFTS`], those along y at 0.
+    /// Areas row by row. Shifts along x begin at −[`SHIFTS`] in each row, those along y at 0.
     table: Vec<f64>,
     /// Means over directions, at radii from 0 to the diagonal of the bounds.
     means: Vec<f64>,
     diagonal: f64,
 }
 
+/// Number of tabulated shifts along x.
 const COLUMNS: usize = 2 * SHIFTS + 1;
 
 impl SetCovariance {
@@ -49,7 +61,8 @@ impl SetCovariance {
                 table.push(height * pairs.map(|(below, above)| common(below, above, dx)).sum::<f64>());
             }
         }
-        // The rows miss up to half of theirs at horizontal edges; the area is known.
+        // A row that a horizontal edge cuts is off by up to half its height there, so the table is
+        // scaled to the known area.
         let area = polygon.area();
         let correction = area / table[SHIFTS];
         table.iter_mut().for_each(|entry| *entry *= correction);
@@ -60,7 +73,8 @@ impl SetCovariance {
         covariance
     }
 
-    /// Share of the window's area that is left when it is moved by (dx, dy): 1 for no shift, 0 beyond the window's size.
+    /// Returns the fraction of the window's area that remains when the window is shifted by (dx,
+    /// dy): 1 for no shift, 0 beyond the window's size.
     pub fn share(&self, dx: f64, dy: f64) -> f64 {
         let (dx, dy) = if dy < 0. { (-dx, -dy) } else { (dx, dy) };
         let (u, v) = (dx / self.step.0 + SHIFTS as f64, dy / self.step.1);
@@ -75,8 +89,8 @@ impl SetCovariance {
         ((1. - t) * upper + t * lower) / self.area
     }
 
-    /// The isotropised set covariance as a share of the area: [`Self::share`] averaged over all directions of a shift by
-    /// `r` (Ohser & Stoyan 1981).
+    /// Returns the isotropised set covariance as a fraction of the area: [`Self::share`] averaged
+    /// over all directions of a shift by `r` (Ohser & Stoyan 1981).
     pub fn isotropised(&self, r: f64) -> f64 {
         let at = r / self.diagonal * RADII as f64;
         if !(at >= 0. && at <= RADII as f64) {
@@ -86,13 +100,16 @@ impl SetCovariance {
         self.means[k] + (at - k as f64) * (self.means[k + 1] - self.means[k])
     }
 
+    /// Averages the covariance over all directions of a shift by `r`. Half a turn is enough, as
+    /// opposite shifts have equal overlap.
     fn mean_of_directions(&self, r: f64) -> f64 {
         let directions = (0..DIRECTIONS).map(|k| (k as f64 + 0.5) / DIRECTIONS as f64 * PI);
         directions.map(|angle| self.share(r * angle.cos(), r * angle.sin())).sum::<f64>() / DIRECTIONS as f64
     }
 }
 
-/// Length in common of the intervals `a` and of `b` moved by `shift`; both rise.
+/// Returns the length that the intervals `a` and the intervals `b` shifted by `shift` have in
+/// common; both lists rise.
 fn common(a: &[(f64, f64)], b: &[(f64, f64)], shift: f64) -> f64 {
     let (mut i, mut j, mut length) = (0, 0, 0.);
     while i < a.len() && j < b.len() {
@@ -132,7 +149,8 @@ mod tests {
     fn of_a_triangle_and_of_a_frame_it_is_within_a_thousandth() {
         let triangle = polygon(&[&[(0., 0.), (1., 0.), (0., 1.)]]);
         for (dx, dy) in [(0.013, 0.021), (0.2, 0.3), (0.31, -0.17), (-0.05, 0.4), (0.6, 0.5)] {
-            // the moved triangle is the smaller one that is left at its corner
+            // a triangle and its shifted copy share a smaller triangle of the same shape, with this
+            // side
             let side =
                 if dx * dy >= 0. { 1. - f64::abs(dx + dy) } else { 1. - f64::abs(dx).max(f64::abs(dy)) };
             let expected = side.max(0.).powi(2);
@@ -145,7 +163,7 @@ mod tests {
         ]);
         let overlap = |side: f64, d: f64| (side - d).clamp(0., side);
         for (dx, dy) in [(0.03, 0.1), (0.11, 0.02), (0.2, 0.15)] {
-            // square with square, less the two holes in what is common, plus where the holes coincide
+            // overlap of the outer squares, less both holes, plus the overlap of the holes
             let both = overlap(0.5, dx) * overlap(0.5, dy);
             let expected = ((1. - dx) * (1. - dy) - 0.5 + both) / 0.75;
             let found = frame.covariance().share(dx, dy);

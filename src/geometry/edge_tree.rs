@@ -1,9 +1,9 @@
 use super::Point;
 
-/// Edges in a leaf.
+/// Number of edges in a leaf.
 const LEAF: usize = 4;
 
-/// A straight piece of an outline.
+/// Straight piece of an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Edge {
     pub(super) from: Point,
@@ -11,7 +11,7 @@ pub(super) struct Edge {
 }
 
 impl Edge {
-    /// Squared distance from `p` to its nearest point.
+    /// Returns the squared distance from `p` to the nearest point of the edge.
     fn distance2(&self, p: Point) -> f64 {
         let (dx, dy) = (self.to.x - self.from.x, self.to.y - self.from.y);
         let (px, py) = (p.x - self.from.x, p.y - self.from.y);
@@ -20,13 +20,14 @@ impl Edge {
         ex * ex + ey * ey
     }
 
-    /// Twice the signed area of the triangle of the edge and `p`.
+    /// Returns twice the signed area of the triangle of the edge and `p`; the sign tells the side
+    /// on which `p` lies.
     pub(super) fn side(&self, p: Point) -> f64 {
         (self.to.x - self.from.x) * (p.y - self.from.y) - (p.x - self.from.x) * (self.to.y - self.from.y)
     }
 }
 
-/// An upright box around edges.
+/// Upright box around edges.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     pub(super) x0: f64,
@@ -36,6 +37,7 @@ pub(super) struct Extent {
 }
 
 impl Extent {
+    /// Box that contains nothing and leaves any other box unchanged in a union.
     const EMPTY: Self =
         Self { x0: f64::INFINITY, y0: f64::INFINITY, x1: f64::NEG_INFINITY, y1: f64::NEG_INFINITY };
 
@@ -63,6 +65,7 @@ impl Extent {
         dx * dx + dy * dy
     }
 
+    /// Returns the squared distance from `p` to the farthest point of the box.
     fn farthest2(&self, p: Point) -> f64 {
         let dx = (p.x - self.x0).abs().max((p.x - self.x1).abs());
         let dy = (p.y - self.y0).abs().max((p.y - self.y1).abs());
@@ -70,13 +73,16 @@ impl Extent {
     }
 }
 
-/// Edges below a binary tree of boxes. Edges that follow each other along an outline lie near each other, so the tree
-/// halves their sequence; no sorting is needed. A question about a place costs the logarithm of the number of edges
-/// and the edges that matter to it.
+/// Edges below a binary tree of bounding boxes.
+///
+/// Edges that follow each other along an outline lie near each other, so the tree halves their
+/// sequence and nothing needs sorting. A query at one place takes time logarithmic in the number of
+/// edges, plus the edges that matter to it.
 #[derive(Debug)]
 pub(super) struct EdgeTree {
     edges: Vec<Edge>,
-    /// Node k has the children 2k + 1 and 2k + 2; the last `leaves` nodes are the leaves.
+    /// Box of every node. Node k has the children 2k + 1 and 2k + 2; the last `leaves` nodes are
+    /// leaves.
     boxes: Vec<Extent>,
     leaves: usize,
 }
@@ -98,13 +104,15 @@ impl EdgeTree {
         &self.edges
     }
 
-    /// Visits the edges, with their indices, in boxes that `wanted` accepts, until `visit` returns false.
+    /// Visits the edges, with their indices, in all boxes that `wanted` accepts, until `visit`
+    /// returns `false`.
     pub(super) fn visit(
         &self,
         wanted: impl Fn(&Extent) -> bool,
         mut visit: impl FnMut(usize, &Edge) -> bool,
     ) {
-        // A path down leaves at most one sibling a level to be visited later.
+        // A descent leaves at most one sibling per level to be visited later, so 64 places are
+        // enough.
         let mut stack = [0usize; 64];
         let mut height = 1;
         while height > 0 {
@@ -129,7 +137,7 @@ impl EdgeTree {
         }
     }
 
-    /// Distance from `p` to the nearest edge; infinite without edges.
+    /// Returns the distance from `p` to the nearest edge; infinite without edges.
     pub(super) fn distance(&self, p: Point) -> f64 {
         let mut best = f64::INFINITY;
         let mut stack = [(0usize, 0f64); 64];
@@ -157,7 +165,7 @@ impl EdgeTree {
         best.sqrt()
     }
 
-    /// Visits edges that a circle of radius `d` around `p` may cross.
+    /// Visits every edge that a circle of radius `d` around `p` may cross.
     pub(super) fn visit_circle(&self, p: Point, d: f64, mut visit: impl FnMut(&Edge)) {
         let d2 = d * d;
         let wanted = |b: &Extent| b.distance2(p) <= d2 && b.farthest2(p) >= d2;

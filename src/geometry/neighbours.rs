@@ -4,32 +4,34 @@ use rayon::prelude::*;
 use serde::Serialize;
 use std::num::NonZero;
 
-/// Points from which on all threads look for neighbours.
+/// Number of points from which on the search uses all threads.
 const SPREAD_FROM: usize = 8192;
 
-/// For every point the nearest other point; both empty for fewer than two points.
+/// Nearest other point of every point; both lists are empty for fewer than two points.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct NearestNeighbours {
-    /// Distance to it, in the unit of the coordinates; 0 where points coincide.
+    /// Distance to the nearest other point, in the unit of the coordinates; 0 where points
+    /// coincide.
     pub distances: Vec<f64>,
-    /// Its index; one of them where several are equally near.
+    /// Index of the nearest other point; any one of them if several are equally near.
     pub indices: Vec<usize>,
 }
 
-/// Nearest neighbour of every point, by k-d tree; the short way round on a torus.
+/// Finds the nearest neighbour of every point by k-d tree, taking the short way round on a torus.
 ///
-/// Empty for fewer than two points, and if a coordinate is not finite.
+/// The result is empty for fewer than two points, and if a coordinate is not finite.
 pub fn nearest_neighbours(points: &[Point], window: &Window) -> NearestNeighbours {
     let mut nearest = NearestNeighbours::default();
     if points.len() < 2 {
         return nearest;
     }
     let Some(tree) = planted(points, window) else { return nearest };
-    // The point itself is one of the two nearest, unless others coincide with it.
+    // The point itself is one of its two nearest, unless others coincide with it.
     let two = NonZero::<usize>::MIN.saturating_add(1);
     let other = |(i, &p): (usize, &Point)| {
         let (j, _) = tree.nearest(p, two).find(|&(j, _)| j != i)?;
-        // From the coordinates as given, so that moving the window cannot round the distance.
+        // Computed from the original coordinates, so that moving the window cannot change the
+        // rounding.
         Some((window.distance(p, points[j]), j))
     };
     let found: Option<Vec<(f64, usize)>> = if points.len() < SPREAD_FROM {
@@ -41,8 +43,10 @@ pub fn nearest_neighbours(points: &[Point], window: &Window) -> NearestNeighbour
     nearest
 }
 
-/// Distance from each of `places` to the nearest of `points`, the short way round on a torus; infinite without points,
-/// and if a coordinate of theirs is not finite.
+/// Returns the distance from each of `places` to the nearest of `points`, taking the short way
+/// round on a torus.
+///
+/// Distances are infinite if there are no points or a coordinate of `points` is not finite.
 pub fn distances_to_nearest(places: &[Point], points: &[Point], window: &Window) -> Vec<f64> {
     let tree = if points.is_empty() { None } else { planted(points, window) };
     let Some(tree) = tree else { return vec![f64::INFINITY; places.len()] };
@@ -55,7 +59,7 @@ pub fn distances_to_nearest(places: &[Point], points: &[Point], window: &Window)
     places.par_iter().map(distance).collect()
 }
 
-/// `None` if a coordinate is not finite, or there are too many points.
+/// Builds the k-d tree; `None` if a coordinate is not finite or there are too many points.
 fn planted(points: &[Point], window: &Window) -> Option<NeighbourTree> {
     if points.iter().any(|p| !p.is_finite()) {
         return None;
@@ -105,7 +109,7 @@ mod tests {
     proptest! {
         #[test]
         fn nearest_neighbour_is_the_least_of_all_distances(
-            // A coarse lattice of coordinates, so that points coincide and lie on the border.
+            // A coarse lattice of coordinates makes points coincide and lie on the border.
             raw in prop::collection::vec((0..12u8, 0..12u8), 0..60), torus: bool, x0 in -1e3..1e3f64,
         ) {
             let bounds = crate::geometry::Rectangle::new(x0, 0., x0 + 11., 11.).unwrap();

@@ -7,40 +7,44 @@ use std::sync::{Arc, OnceLock};
 /// Rings that enclose no window.
 #[derive(Clone, Debug, thiserror::Error, PartialEq)]
 pub enum PolygonError {
-    /// Nothing that encloses an area.
+    /// Rings that enclose no area.
     #[error("the polygon has no area: give at least three corners that do not lie on a line")]
     NoArea,
-    /// A corner that is not a number.
+    /// Corner with a coordinate that is not finite.
     #[error("a corner of the polygon is ({x}, {y}): coordinates must be finite numbers")]
     NotFinite {
-        /// Its x.
+        /// Horizontal coordinate of the corner.
         x: f64,
-        /// Its y.
+        /// Vertical coordinate of the corner.
         y: f64,
     },
-    /// Edges that cross, so that inside and outside are not told apart.
+    /// Edges that cross, so that inside and outside cannot be told apart.
     #[error(
         "the outline of the polygon crosses itself at ({x:.3}, {y:.3}): give its corners in order, and rings that do not cross"
     )]
     Crosses {
-        /// Where.
+        /// Horizontal coordinate of the crossing.
         x: f64,
-        /// Where.
+        /// Vertical coordinate of the crossing.
         y: f64,
     },
 }
 
-/// An area enclosed by one or more rings that do not cross (they may touch). A place belongs to it if an odd number of rings
-/// surround it: a ring within a ring is a hole, a ring within a hole an island. Which way round the corners are given
-/// does not matter; kept are outer rings with positive area (clockwise, since y points down) and holes with negative area.
+/// Area enclosed by one or more rings that do not cross (they may touch).
 ///
-/// Copies share what it holds.
+/// A place belongs to the area if an odd number of rings surround it: a ring within a ring is a
+/// hole, a ring within a hole an island. The corners may be given in either direction. They are
+/// stored so that outer rings have positive area (clockwise, since y points down) and holes have
+/// negative area.
+///
+/// Clones share their contents and are cheap.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(try_from = "Vec<Vec<[f64; 2]>>", into = "Vec<Vec<[f64; 2]>>")]
 pub struct Polygon {
     shape: Arc<Shape>,
 }
 
+/// Contents of a polygon, shared by its clones.
 #[derive(Debug)]
 struct Shape {
     rings: Vec<Ring>,
@@ -51,18 +55,21 @@ struct Shape {
 }
 
 impl Polygon {
-    /// The area that `rings` enclose. A last corner that repeats the first, and corners that repeat the one before, are
-    /// dropped, as are rings without area.
+    /// Builds the polygon that `rings` enclose.
+    ///
+    /// A last corner that repeats the first, a corner that repeats the one before it, and rings
+    /// without area are dropped.
     ///
     /// # Errors
-    /// If no area is left, a corner is not finite, or edges cross.
+    /// Fails if no area is left, a corner is not finite, or edges cross.
     pub fn new(rings: Vec<Ring>) -> Result<Self, PolygonError> {
         let rings = tidy(rings)?;
         let tree = EdgeTree::new(edges_of(&rings));
         if let Some(p) = crossing(&tree) {
             return Err(PolygonError::Crosses { x: p.x, y: p.y });
         }
-        // only now: a figure of eight has no area, but a fault to tell
+        // after the check for crossings: a figure of eight has no area, but its fault should be
+        // named
         let rings: Vec<Ring> = rings.into_iter().filter(|ring| signed_area(ring) != 0.).collect();
         // the depth of a ring is the number of other rings around it
         let trees: Vec<EdgeTree> =
@@ -79,7 +86,8 @@ impl Polygon {
         Self::from_oriented(oriented.collect())
     }
 
-    /// Rings known not to cross, outer rings with positive and holes with negative area.
+    /// Builds a polygon from rings known not to cross, outer rings with positive and holes with
+    /// negative area.
     fn from_oriented(rings: Vec<Ring>) -> Result<Self, PolygonError> {
         let tree = EdgeTree::new(edges_of(&rings));
         let area: f64 = rings.iter().map(|ring| signed_area(ring)).sum();
@@ -92,22 +100,22 @@ impl Polygon {
         Ok(Self { shape: Arc::new(Shape { rings, tree, bounds, area, covariance: OnceLock::new() }) })
     }
 
-    /// The rings: outer rings with positive area, holes with negative.
+    /// Returns the rings: outer rings have positive area, holes negative.
     pub fn rings(&self) -> &[Ring] {
         &self.shape.rings
     }
 
-    /// The smallest upright rectangle around it.
+    /// Returns the smallest upright rectangle around the polygon.
     pub fn bounds(&self) -> Rectangle {
         self.shape.bounds
     }
 
-    /// Area, in squared units of the coordinates.
+    /// Returns the area, in squared units of the coordinates.
     pub fn area(&self) -> f64 {
         self.shape.area
     }
 
-    /// The upright rectangle that this polygon is, if it is one.
+    /// Returns the upright rectangle that equals this polygon, if there is one.
     pub fn as_rectangle(&self) -> Option<Rectangle> {
         let b = self.bounds();
         let [ring] = self.rings() else { return None };
@@ -117,12 +125,12 @@ impl Polygon {
         (fills && ring.iter().all(at_edge) && self.shape.tree.edges().iter().all(upright)).then_some(b)
     }
 
-    /// Inside or on the border.
+    /// Returns whether a point lies inside or on the border.
     pub fn contains(&self, p: Point) -> bool {
         self.place(p) != Place::Outside
     }
 
-    /// Inside and not on the border.
+    /// Returns whether a point lies inside and not on the border.
     pub fn contains_strictly(&self, p: Point) -> bool {
         self.place(p) == Place::Inside
     }
@@ -132,14 +140,17 @@ impl Polygon {
         if b.contains(p) { place(&self.shape.tree, p) } else { Place::Outside }
     }
 
-    /// Distance from a point inside to the nearest edge; negative outside.
+    /// Returns the distance from a point to the nearest edge; negative if the point lies outside.
     pub fn border_distance(&self, p: Point) -> f64 {
         let distance = self.shape.tree.distance(p);
         if self.contains(p) { distance } else { -distance }
     }
 
-    /// Share of the circle of radius `d` around `p`, a point inside, that lies in the polygon: the arcs between its
-    /// crossings with the outline, each taken or left by its middle.
+    /// Returns the fraction of the circle of radius `d` around `p`, a point inside, that lies in
+    /// the polygon.
+    ///
+    /// The crossings with the outline divide the circle into arcs; an arc counts if its middle lies
+    /// in the polygon.
     pub fn share_of_circle(&self, p: Point, d: f64) -> f64 {
         let mut angles: Vec<f64> = Vec::new();
         self.shape.tree.visit_circle(p, d, |edge| {
@@ -174,7 +185,8 @@ impl Polygon {
         share / tau
     }
 
-    /// The intervals of x, rising, in which the horizontal line at `y` runs inside.
+    /// Writes the intervals of x, in rising order, in which the horizontal line at `y` runs inside
+    /// the polygon.
     pub(crate) fn chords(&self, y: f64, chords: &mut Vec<(f64, f64)>) {
         let mut crossings: Vec<f64> = Vec::new();
         self.shape.tree.visit(
@@ -192,14 +204,16 @@ impl Polygon {
         chords.extend(crossings.as_chunks::<2>().0.iter().map(|&[from, to]| (from, to)));
     }
 
-    /// Its set covariance, computed when first asked for and kept by all copies.
+    /// Returns the set covariance, which is computed when first asked for and shared by all clones.
     pub fn covariance(&self) -> &SetCovariance {
         self.shape.covariance.get_or_init(|| SetCovariance::of(self))
     }
 
-    /// Nodes (places on the outline, weights) such that Σ weight · F(place) is the integral of ∂F/∂x over the polygon
-    /// (Green's theorem), by Gauss's rule of 8 nodes on pieces of edges no longer than `step`: to rounding for what
-    /// varies slowly over a step.
+    /// Returns nodes (place on the outline, weight) such that Σ weight · F(place) is the integral
+    /// of ∂F/∂x over the polygon (Green's theorem).
+    ///
+    /// Pieces of edges no longer than `step` are integrated by Gauss's rule of 8 nodes, which is
+    /// exact to rounding if F varies slowly over a step.
     pub(crate) fn boundary_rule(&self, step: f64) -> Vec<(Point, f64)> {
         let mut nodes = Vec::new();
         for edge in self.shape.tree.edges() {
@@ -221,10 +235,12 @@ impl Polygon {
         nodes
     }
 
-    /// The part inside `frame`; `None` if nothing is left.
+    /// Returns the part of the polygon inside `frame`; `None` if nothing is left.
     ///
-    /// Each ring is cut at the four edges in turn (Sutherland & Hodgman 1974). Parts of a ring that come apart stay joined
-    /// by edges along the frame that run to and fro: they enclose nothing and no way out of the window crosses them first.
+    /// Each ring is cut at the four edges in turn (Sutherland & Hodgman 1974,
+    /// <https://doi.org/10.1145/360767.360802>). Parts of a ring that come apart stay joined by
+    /// edges that run to and fro along the frame: these enclose nothing, and no path out of the
+    /// polygon meets them first.
     pub fn within(&self, frame: &Rectangle) -> Option<Self> {
         let b = self.bounds();
         if frame.x0() <= b.x0() && frame.y0() <= b.y0() && frame.x1() >= b.x1() && frame.y1() >= b.y1() {
@@ -240,17 +256,18 @@ impl Polygon {
         Self::from_oriented(rings.into_iter().filter(|ring| signed_area(ring) != 0.).collect()).ok()
     }
 
-    /// All coordinates multiplied by `factor`, a positive number.
+    /// Multiplies all coordinates by `factor`, a positive number.
     ///
     /// # Errors
-    /// If the result is beyond the range of numbers.
+    /// Fails if the result is beyond the range of numbers.
     pub fn scaled(&self, factor: f64) -> Result<Self, PolygonError> {
         let times = |p: &Point| Point::new(p.x * factor, p.y * factor);
         Self::new(self.rings().iter().map(|ring| ring.iter().map(times).collect()).collect())
     }
 }
 
-/// Positive nodes and weights of Gauss's rule of 8 nodes on [−1, 1] (Abramowitz & Stegun 1964, table 25.4).
+/// Positive nodes and weights of Gauss's rule of 8 nodes on `[−1, 1]` (Abramowitz & Stegun 1964,
+/// table 25.4).
 const GAUSS: [(f64, f64); 4] = [
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),
     (0.525_532_409_916_329, 0.313_706_645_877_887_3),
@@ -268,7 +285,7 @@ mod tests {
         corners.iter().map(|&(x, y)| Point::new(x, y)).collect()
     }
 
-    /// A square with a square hole, in which there is a square island.
+    /// Returns a square with a square hole, in which there is a square island.
     fn island() -> Polygon {
         let square = |low: f64, high: f64| ring(&[(low, low), (high, low), (high, high), (low, high)]);
         Polygon::new(vec![square(2., 8.), square(0., 10.), square(4., 6.)]).unwrap()
@@ -352,7 +369,7 @@ mod tests {
         }
     }
 
-    /// A star of many corners whose radius scatters: no two edges cross.
+    /// Returns a star of many corners whose radius scatters; no two of its edges cross.
     fn star(corners: usize, seed: u64) -> Polygon {
         let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(seed);
         let corner = |k: usize, r: f64| {

@@ -1,9 +1,10 @@
-//! When two polygons are the same, and how they are written.
+//! Equality, hashing and conversion of polygons.
 
 use super::{Point, Polygon, PolygonError};
 use std::hash::{Hash, Hasher};
 
 impl Polygon {
+    /// Returns the bit patterns of all rings: the number of corners, then their coordinates.
     fn bits(&self) -> impl Iterator<Item = u64> {
         let rings = self.rings().iter();
         rings.flat_map(|r| {
@@ -12,7 +13,7 @@ impl Polygon {
         })
     }
 
-    /// Bytes that two polygons share only if they are the same.
+    /// Returns bytes that two polygons share only if they are equal.
     pub(crate) fn bytes(&self) -> Vec<u8> {
         self.bits().flat_map(u64::to_le_bytes).collect()
     }
@@ -24,7 +25,7 @@ impl PartialEq for Polygon {
     }
 }
 
-/// Coordinates are finite, so every polygon equals itself.
+/// Equality is reflexive, as all coordinates are finite.
 impl Eq for Polygon {}
 
 impl Hash for Polygon {

@@ -1,10 +1,10 @@
 use super::edge_tree::{Edge, EdgeTree, Extent};
 use super::{Point, PolygonError};
 
-/// A closed line of corners, the last joined to the first.
+/// Closed line through corners, the last of which is joined to the first.
 pub type Ring = Vec<Point>;
 
-/// Where a point lies.
+/// Position of a point relative to a polygon.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
     Inside,
@@ -12,7 +12,8 @@ pub(super) enum Place {
     Outside,
 }
 
-/// Where `p` lies: on an edge, or by the parity of the edges that a ray to the right crosses.
+/// Returns the position of `p`: on an edge, or else by the parity of the edges that a ray to the
+/// right crosses.
 pub(super) fn place(tree: &EdgeTree, p: Point) -> Place {
     let mut inside = false;
     let mut on_border = false;
@@ -30,7 +31,7 @@ pub(super) fn place(tree: &EdgeTree, p: Point) -> Place {
                 on_border = true;
                 return false;
             }
-            // p lies left of the edge seen upwards in y: the ray meets it
+            // p lies left of the edge (seen towards growing y), so the ray to the right meets it
             if p.y < high.y && side > 0. {
                 inside = !inside;
             }
@@ -44,8 +45,9 @@ pub(super) fn place(tree: &EdgeTree, p: Point) -> Place {
     }
 }
 
-/// Whether the ring of `tree` surrounds `ring`, which does not cross it: by the first corner, or middle of an edge, that
-/// does not lie on it.
+/// Returns whether the ring of `tree` surrounds `ring`, which must not cross it.
+///
+/// The first corner or middle of an edge that does not lie on the ring of `tree` decides.
 pub(super) fn surrounds(tree: &EdgeTree, ring: &Ring) -> bool {
     let next = ring.iter().cycle().skip(1);
     let places =
@@ -53,7 +55,8 @@ pub(super) fn surrounds(tree: &EdgeTree, ring: &Ring) -> bool {
     places.map(|p| place(tree, p)).find(|p| *p != Place::Border) == Some(Place::Inside)
 }
 
-/// Where two edges cross, each with its ends strictly on either side of the other.
+/// Returns the point at which two edges cross, or `None`; the ends of each must lie strictly on
+/// either side of the other.
 pub(super) fn crossing(tree: &EdgeTree) -> Option<Point> {
     for (i, edge) in tree.edges().iter().enumerate() {
         let extent = Extent::of(edge);
@@ -82,6 +85,7 @@ pub(super) fn crossing(tree: &EdgeTree) -> Option<Point> {
     None
 }
 
+/// Returns the edges of all rings.
 pub(super) fn edges_of(rings: &[Ring]) -> Vec<Edge> {
     rings
         .iter()
@@ -89,14 +93,20 @@ pub(super) fn edges_of(rings: &[Ring]) -> Vec<Edge> {
         .collect()
 }
 
-/// Half the sum of cross products; from the first corner, so that far polygons do not cancel.
+/// Returns the signed area of a ring, half the sum of cross products.
+///
+/// These are taken relative to the first corner, as polygons far from the origin would lose digits
+/// to cancellation.
 pub(super) fn signed_area(ring: &[Point]) -> f64 {
     let Some(&o) = ring.first() else { return 0. };
     let cross = |a: &Point, b: &Point| (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
     ring.windows(2).map(|w| cross(&w[0], &w[1])).sum::<f64>() / 2.
 }
 
-/// Without repeated corners and rings of fewer than three.
+/// Removes repeated corners, and rings left with fewer than three corners.
+///
+/// # Errors
+/// Fails if a coordinate is not finite or no ring is left.
 pub(super) fn tidy(rings: Vec<Ring>) -> Result<Vec<Ring>, PolygonError> {
     if let Some(p) = rings.iter().flatten().find(|p| !p.is_finite()) {
         return Err(PolygonError::NotFinite { x: p.x, y: p.y });
@@ -114,7 +124,9 @@ pub(super) fn tidy(rings: Vec<Ring>) -> Result<Vec<Ring>, PolygonError> {
     if rings.is_empty() { Err(PolygonError::NoArea) } else { Ok(rings) }
 }
 
-/// The part of a ring where `depth` is not negative; `edge` puts a crossing exactly on the cutting line.
+/// Returns the part of a ring in which `depth` is not negative.
+///
+/// `edge` moves a crossing exactly onto the cutting line.
 pub(super) fn cut(ring: &[Point], depth: impl Fn(Point) -> f64, edge: impl Fn(Point) -> Point) -> Ring {
     let mut kept = Vec::with_capacity(ring.len() + 4);
     for (&a, &b) in ring.iter().zip(ring.iter().cycle().skip(1)) {

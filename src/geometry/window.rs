@@ -3,7 +3,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// A rectangle that is not one.
+/// Bounds that make no rectangle: a side that is not finite or not positive.
 #[derive(Debug, Error, PartialEq)]
 #[error(
     "the window [{x0}, {x1}] × [{y0}, {y1}] has no area: give X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1, all finite"
@@ -15,7 +15,7 @@ pub struct WindowError {
     y1: f64,
 }
 
-/// An upright rectangle of positive area.
+/// Upright rectangle of positive area.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rectangle {
     x0: f64,
@@ -25,10 +25,10 @@ pub struct Rectangle {
 }
 
 impl Rectangle {
-    /// [x0, x1] × [y0, y1].
+    /// Creates the rectangle `[x0, x1] × [y0, y1]`.
     ///
     /// # Errors
-    /// If a side is not finite or not positive.
+    /// Fails if a side is not finite or not positive.
     pub fn new(x0: f64, y0: f64, x1: f64, y1: f64) -> Result<Self, WindowError> {
         let finite = [x0, y0, x1, y1].iter().all(|v| v.is_finite());
         let area = (x1 - x0) * (y1 - y0);
@@ -39,41 +39,41 @@ impl Rectangle {
         }
     }
 
-    /// Left edge.
+    /// Returns x of the left edge.
     pub const fn x0(&self) -> f64 {
         self.x0
     }
-    /// Upper edge.
+    /// Returns y of the upper edge.
     pub const fn y0(&self) -> f64 {
         self.y0
     }
-    /// Right edge.
+    /// Returns x of the right edge.
     pub const fn x1(&self) -> f64 {
         self.x1
     }
-    /// Lower edge.
+    /// Returns y of the lower edge.
     pub const fn y1(&self) -> f64 {
         self.y1
     }
-    /// Horizontal side.
+    /// Returns the horizontal side.
     pub const fn width(&self) -> f64 {
         self.x1 - self.x0
     }
-    /// Vertical side.
+    /// Returns the vertical side.
     pub const fn height(&self) -> f64 {
         self.y1 - self.y0
     }
-    /// width × height.
+    /// Returns the area, width × height.
     pub const fn area(&self) -> f64 {
         self.width() * self.height()
     }
 
-    /// Inside or on the border.
+    /// Returns whether a point lies inside or on the border.
     pub fn contains(&self, p: Point) -> bool {
         p.x >= self.x0 && p.x <= self.x1 && p.y >= self.y0 && p.y <= self.y1
     }
 
-    /// Distance from a point inside to the nearest edge; negative outside.
+    /// Returns the distance from a point to the nearest edge; negative if the point lies outside.
     pub fn border_distance(&self, p: Point) -> f64 {
         let dx = (p.x - self.x0).min(self.x1 - p.x);
         let dy = (p.y - self.y0).min(self.y1 - p.y);
@@ -81,56 +81,60 @@ impl Rectangle {
     }
 }
 
-/// Where points could have been seen. Statistics take their edge correction from it.
+/// Region in which points could have been observed; statistics take their edge correction from it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Window {
-    /// Nothing is known of what lies outside: an imaged field, a cropped picture.
+    /// Upright rectangle outside which nothing is known: an imaged field, a cropped picture.
     Rectangle(Rectangle),
-    /// Opposite edges are the same place: what periodic samplers make. It has no border.
+    /// Rectangle without a border, whose opposite edges are the same place; made by periodic
+    /// samplers.
     Torus(Rectangle),
-    /// Nothing is known of what lies outside the rings, nor within their holes: the imaged area of a montage, a region
-    /// drawn by hand.
+    /// Area outside whose rings, and within whose holes, nothing is known: the imaged area of a
+    /// montage, or a region drawn by hand.
     Polygon(Polygon),
 }
 
 impl Window {
-    /// [x0, x1] × [y0, y1], bounded.
+    /// Creates the bounded rectangle `[x0, x1] × [y0, y1]`.
     ///
     /// # Errors
-    /// If a side is not finite or not positive.
+    /// Fails if a side is not finite or not positive.
     pub fn rectangle(x0: f64, y0: f64, x1: f64, y1: f64) -> Result<Self, WindowError> {
         Rectangle::new(x0, y0, x1, y1).map(Self::Rectangle)
     }
 
-    /// The area that `rings` enclose; see [`Polygon::new`]. Four corners of an upright rectangle make a rectangle.
+    /// Creates the window that `rings` enclose; see [`Polygon::new`]. Four corners of an upright
+    /// rectangle make a rectangle.
     ///
     /// # Errors
-    /// If they enclose no area, a corner is not finite, or edges cross.
+    /// Fails if the rings enclose no area, a corner is not finite, or edges cross.
     pub fn polygon(rings: Vec<Ring>) -> Result<Self, PolygonError> {
         Ok(Polygon::new(rings)?.into())
     }
 
-    /// The bounded unit square.
+    /// Returns the bounded unit square.
     pub const fn unit_square() -> Self {
         Self::Rectangle(Rectangle { x0: 0., y0: 0., x1: 1., y1: 1. })
     }
 
-    /// The unit square with opposite edges glued.
+    /// Returns the unit square with opposite edges glued together.
     pub const fn unit_torus() -> Self {
         Self::Torus(Rectangle { x0: 0., y0: 0., x1: 1., y1: 1. })
     }
 
-    /// The window of a whole image of `width` × `height` px: [−.5, W−.5] × [−.5, H−.5], since pixel (0, 0) is
-    /// the centre of the top-left pixel.
+    /// Creates the window of a whole image of `width` × `height` px.
+    ///
+    /// It is `[−.5, width − .5] × [−.5, height − .5]`, since (0, 0) is the centre of the top-left
+    /// pixel.
     ///
     /// # Errors
-    /// If a side is 0.
+    /// Fails if a side is 0.
     pub fn of_image(width: usize, height: usize) -> Result<Self, WindowError> {
         Self::rectangle(-0.5, -0.5, width as f64 - 0.5, height as f64 - 0.5)
     }
 
-    /// The smallest upright rectangle around it.
+    /// Returns the smallest upright rectangle around the window.
     pub fn bounds(&self) -> Rectangle {
         match self {
             Self::Rectangle(r) | Self::Torus(r) => *r,
@@ -138,7 +142,7 @@ impl Window {
         }
     }
 
-    /// Area, in squared units of the coordinates.
+    /// Returns the area, in squared units of the coordinates.
     pub fn area(&self) -> f64 {
         match self {
             Self::Rectangle(r) | Self::Torus(r) => r.area(),
@@ -146,7 +150,8 @@ impl Window {
         }
     }
 
-    /// Length of the border, holes' included, in units of the coordinates; 0 on a torus, which has none.
+    /// Returns the length of the border, that of holes included, in units of the coordinates; 0 on
+    /// a torus, which has no border.
     pub fn perimeter(&self) -> f64 {
         match self {
             Self::Rectangle(r) => 2. * (r.width() + r.height()),
@@ -160,12 +165,12 @@ impl Window {
         }
     }
 
-    /// Whether opposite edges are glued.
+    /// Returns whether opposite edges are glued together.
     pub const fn is_torus(&self) -> bool {
         matches!(self, Self::Torus(_))
     }
 
-    /// The rings that bound it, if it is a polygon.
+    /// Returns the rings that bound a polygon; none for a rectangle or torus.
     pub fn rings(&self) -> &[Ring] {
         match self {
             Self::Polygon(polygon) => polygon.rings(),
@@ -173,7 +178,7 @@ impl Window {
         }
     }
 
-    /// Inside or on the border.
+    /// Returns whether a point lies inside or on the border.
     pub fn contains(&self, p: Point) -> bool {
         match self {
             Self::Rectangle(r) | Self::Torus(r) => r.contains(p),
@@ -181,7 +186,7 @@ impl Window {
         }
     }
 
-    /// Distance to the border: negative outside, infinite on a torus.
+    /// Returns the distance to the border: negative outside, infinite on a torus.
     pub fn border_distance(&self, p: Point) -> f64 {
         match self {
             Self::Rectangle(r) => r.border_distance(p),
@@ -190,7 +195,7 @@ impl Window {
         }
     }
 
-    /// [`Self::border_distance`] of many points.
+    /// Returns the [`Self::border_distance`] of many points.
     pub fn border_distances(&self, points: &[Point]) -> Vec<f64> {
         match self {
             Self::Polygon(_) => points.par_iter().map(|&p| self.border_distance(p)).collect(),
@@ -198,7 +203,8 @@ impl Window {
         }
     }
 
-    /// The part of it inside `frame`, with a border; `None` if nothing is left.
+    /// Returns the part of the window inside `frame`, as a window with a border; `None` if nothing
+    /// is left.
     pub fn within(&self, frame: &Rectangle) -> Option<Self> {
         match self {
             Self::Rectangle(r) | Self::Torus(r) => {
@@ -209,10 +215,10 @@ impl Window {
         }
     }
 
-    /// All coordinates multiplied by `factor`: from px to µm.
+    /// Multiplies all coordinates by `factor`, for instance to convert px to µm.
     ///
     /// # Errors
-    /// If the result is beyond the range of numbers.
+    /// Fails if the result is beyond the range of numbers.
     pub fn scaled(&self, factor: f64) -> Result<Self, PolygonError> {
         let rectangle = |r: &Rectangle| {
             let [x0, y0, x1, y1] = [r.x0(), r.y0(), r.x1(), r.y1()].map(|v| v * factor);
@@ -225,13 +231,14 @@ impl Window {
         })
     }
 
-    /// Distance of two points of the window: the shortest way round on a torus.
+    /// Returns the distance between two points of the window, by the shortest way round on a torus.
     pub fn distance(&self, a: Point, b: Point) -> f64 {
         let [dx, dy] = self.displacement(a, b);
         dx.hypot(dy)
     }
 
-    /// The way from `a` to `b` along x and y: the shortest way round on a torus.
+    /// Returns the displacement from `a` to `b` along x and y, by the shortest way round on a
+    /// torus.
     pub fn displacement(&self, a: Point, b: Point) -> [f64; 2] {
         let (dx, dy) = (b.x - a.x, b.y - a.y);
         match self {
@@ -245,7 +252,7 @@ impl Window {
 }
 
 impl From<Polygon> for Window {
-    /// A rectangle, where the polygon is one.
+    /// Makes a rectangle if the polygon is one.
     fn from(polygon: Polygon) -> Self {
         match polygon.as_rectangle() {
             Some(rectangle) => Self::Rectangle(rectangle),

@@ -1,25 +1,38 @@
+//! Pixels that were not imaged: counting them in rectangles, and filling them in.
+//!
+//! 1. A summed-area table gives the count in any rectangle by four look-ups.
+//! 2. Pull–push (Gortler et al. 1996, <https://doi.org/10.1145/237170.237200>) fills them in: the
+//!    plane is averaged to ever coarser versions until all pixels are known, and from there back to
+//!    fine.
+
 use super::{Plane, fill_rows, imaged_mask};
 
-/// The pixels of an image that were not imaged, see [`imaged_mask`].
+/// Pixels of an image that were not imaged, see [`imaged_mask`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct EmptyPixels {
+    /// Width of the image in px.
     width: usize,
+    /// Height of the image in px.
     height: usize,
-    /// Row by row, whether a pixel was imaged.
+    /// Mask of the image, row by row: `true` for a pixel that was imaged.
     imaged: Vec<bool>,
-    /// How many there are above and left of a corner, (height + 1) × (width + 1).
+    /// Number of empty pixels above and to the left of every corner of pixels, (height + 1) ×
+    /// (width + 1).
     sums: Vec<u32>,
 }
 
 impl EmptyPixels {
-    /// `None` if all of the image was imaged.
+    /// Finds the empty pixels of an image; `None` if all of it was imaged.
     pub fn of(plane: &Plane) -> Option<Self> {
         let (height, width) = plane.dim();
         imaged_mask(plane).map(|imaged| Self::not(imaged, height, width))
     }
 
-    /// Those blocks of `block` × `block` px in which there are any, as pixels; `None` if there are none. What does not fill a block at
-    /// the right and below is left out.
+    /// Returns the blocks of `block` × `block` px that hold an empty pixel, as empty pixels of a
+    /// coarser image.
+    ///
+    /// `None` if there are none. Pixels at the right and at the bottom that do not fill a block are
+    /// left out.
     pub fn in_blocks(&self, block: usize) -> Option<Self> {
         let (height, width) = (self.height / block, self.width / block);
         let whole = |k: usize| {
@@ -30,6 +43,7 @@ impl EmptyPixels {
         imaged.contains(&false).then(|| Self::not(imaged, height, width))
     }
 
+    /// Returns the empty pixels of a mask.
     fn not(imaged: Vec<bool>, height: usize, width: usize) -> Self {
         let mut sums = vec![0u32; (height + 1) * (width + 1)];
         for y in 0..height {
@@ -42,7 +56,10 @@ impl EmptyPixels {
         Self { width, height, imaged, sums }
     }
 
-    /// Which part of the columns `left..right` and rows `top..bottom` was not imaged; what lies beyond the image does not count.
+    /// Returns the fraction, 0–1, of the columns `left..right` and rows `top..bottom` that was not
+    /// imaged.
+    ///
+    /// Pixels beyond the image do not count; without any pixel inside it, the fraction is 0.
     pub fn part(&self, left: usize, top: usize, right: usize, bottom: usize) -> f64 {
         let (right, bottom) = (right.min(self.width), bottom.min(self.height));
         let (left, top) = (left.min(right), top.min(bottom));
@@ -51,13 +68,16 @@ impl EmptyPixels {
         count as f64 / ((right - left) * (bottom - top)).max(1) as f64
     }
 
-    /// Whether the pixel in column `x` and row `y` was not imaged; what lies beyond the image was not.
+    /// Returns whether the pixel in column `x` and row `y` was not imaged; pixels beyond the image
+    /// were not.
     pub fn contains(&self, x: usize, y: usize) -> bool {
         x >= self.width || y >= self.height || !self.imaged[y * self.width + x]
     }
 
-    /// `plane` with these pixels filled in smoothly from what was imaged around them (pull–push, Gortler et al. 1996), so that
-    /// filters meet no edge there.
+    /// Returns `plane` with these pixels filled in smoothly from those around them, so that filters
+    /// meet no edge there.
+    ///
+    /// The method is pull–push (Gortler et al. 1996, <https://doi.org/10.1145/237170.237200>).
     pub fn filled(&self, plane: &Plane) -> Plane {
         let weight = Plane::from_shape_fn(plane.dim(), |(y, x)| if self.contains(x, y) { 0. } else { 1. });
         let mut value = plane.clone();
@@ -66,7 +86,7 @@ impl EmptyPixels {
     }
 }
 
-/// Gives pixels of weight 0 what a coarser, complete version of the plane shows there.
+/// Gives pixels of weight 0 the value that a coarser, complete version of the plane has there.
 fn pull_push(value: &mut Plane, weight: &Plane) {
     let (h, w) = value.dim();
     if weight.iter().all(|v| *v > 0.) || h.max(w) == 1 {
@@ -89,7 +109,7 @@ fn pull_push(value: &mut Plane, weight: &Plane) {
         }
     });
     pull_push(&mut coarse, &coarse_weight);
-    // linear between the coarse pixels' centres
+    // linear interpolation between the centres of the coarse pixels
     let ends = |k: usize, length: usize| {
         let place = (k as f32 + 0.5) / 2. - 0.5;
         let first = place.floor().max(0.) as usize;

@@ -2,15 +2,15 @@ use super::{extensions_in_words, formats_in_words};
 use std::io;
 use thiserror::Error;
 
-/// An image that cannot be read or written. `name` is its file.
+/// Reasons why an image cannot be read or written. `name` is its file.
 #[derive(Debug, Error)]
 pub enum ImageError {
     /// The file cannot be opened or read.
     #[error("{name}: cannot be read ({source}): check that it exists and may be read")]
     Read {
-        /// The file.
+        /// Name of the file.
         name: String,
-        /// What the system says.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// The file cannot be written.
@@ -18,101 +18,101 @@ pub enum ImageError {
         "{name}: cannot be written ({source}): check that its folder exists, may be written to and has room"
     )]
     Write {
-        /// The file.
+        /// Name of the file.
         name: String,
-        /// What the system says.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// Nothing in it.
+    /// The file has no content.
     #[error("{name}: the file is empty: copy or export the image again")]
     Empty {
-        /// The file.
+        /// Name of the file.
         name: String,
     },
-    /// None of the formats that are read, whatever it is called.
+    /// The file has none of the formats that are read, whatever its name.
     #[error("{name}: expected a {formats} image, found {found}: save it as {formats}", formats = formats_in_words())]
     NotAnImage {
-        /// The file.
+        /// Name of the file.
         name: String,
-        /// What its first bytes look like.
+        /// Kind of file that the first bytes look like.
         found: &'static str,
     },
-    /// It begins well and then does not go on.
+    /// The file begins as it should, but is damaged or cut short further on.
     #[error("{name}: damaged or cut short {format} ({reason}): copy or export the image again")]
     Damaged {
-        /// The file.
+        /// Name of the file.
         name: String,
-        /// Name of its format.
+        /// Name of the file's format.
         format: &'static str,
-        /// What the decoder says.
+        /// Message of the decoder.
         reason: String,
     },
-    /// Sound, but of a kind that is not read.
+    /// The file is sound, but of a kind that is not read.
     #[error(
         "{name}: {format} of a kind that is not read ({reason}): save it as 8 or 16 bit grey {formats}",
         formats = formats_in_words()
     )]
     Unsupported {
-        /// The file.
+        /// Name of the file.
         name: String,
-        /// Name of its format.
+        /// Name of the file's format.
         format: &'static str,
-        /// What kind.
+        /// Kind of the image, in words.
         reason: String,
     },
-    /// No width or no height.
+    /// The image has no width or no height.
     #[error("{name}: {width} × {height} px hold no picture: export the image again")]
     NoPixels {
-        /// The file.
+        /// Name of the file.
         name: String,
-        /// Width in px.
+        /// Width of the image in px.
         width: u32,
-        /// Height in px.
+        /// Height of the image in px.
         height: u32,
     },
-    /// More than memory should be asked to hold.
+    /// The image needs more memory than is reasonable.
     #[error("{name}: {size} is too large, at most {limit} can be read: cut the image into parts")]
     TooLarge {
-        /// The file.
+        /// Name of the file.
         name: String,
-        /// How large it is.
+        /// Size of the image or the file, with its unit.
         size: String,
-        /// How large it may be.
+        /// Largest size that is read, with its unit.
         limit: String,
     },
-    /// Several images in one file.
+    /// The file holds several images.
     #[error(
         "{name}: holds {pages} pages, expected one image: save the page to be measured (or the average) by itself"
     )]
     SeveralPages {
-        /// The file.
+        /// Name of the file.
         name: String,
-        /// How many images.
+        /// Number of images in the file.
         pages: usize,
     },
-    /// A pixel that is infinite or not a number.
+    /// A pixel is infinite or not a number.
     #[error(
         "{name}: pixel ({x}, {y}) is {value}: every pixel must be a finite number; fill or crop what was not imaged"
     )]
     NotFinite {
-        /// The file.
+        /// Name of the file.
         name: String,
-        /// Column, from 0.
+        /// Column of the pixel, from 0.
         x: usize,
-        /// Row, from 0.
+        /// Row of the pixel, from 0.
         y: usize,
-        /// What stands there.
+        /// Value of the pixel.
         value: f32,
     },
     /// The name of the file to be written does not tell its format.
     #[error("{name}: expected a name that ends in {}", extensions_in_words())]
     UnknownExtension {
-        /// The file.
+        /// Name of the file.
         name: String,
     },
 }
 
-/// The message of a decoder on one line.
+/// Returns the message of a decoder on one line.
 pub(super) fn one_line(error: impl std::fmt::Display) -> String {
     error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
 }

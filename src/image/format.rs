@@ -5,19 +5,19 @@ use std::path::Path;
 /// A format of image files.
 #[derive(Debug)]
 pub struct Format {
-    /// Name in messages.
+    /// Name of the format in messages.
     pub name: &'static str,
-    /// Extensions of its files in lower case, without the dot; the first is the usual one.
+    /// Extensions of the format's files in lower case, without the dot; the first is the usual one.
     pub extensions: &'static [&'static str],
-    /// First bytes of its files: one of these.
+    /// Alternatives for the first bytes of the format's files.
     pub signatures: &'static [&'static [u8]],
-    /// Decodes the bytes of a file, whose name serves for errors.
+    /// Function that decodes the bytes of a file; the text is the file's name for errors.
     pub(super) decode: fn(&[u8], &str) -> Result<Plane, ImageError>,
-    /// Writes a plane in [0, 1].
+    /// Function that writes a plane with values from 0 to 1.
     pub(super) write: fn(&Path, &Plane, BitDepth) -> Result<(), ImageError>,
 }
 
-/// The formats that are read and written.
+/// Formats that are read and written.
 pub static FORMATS: [Format; 2] = [
     Format {
         name: "PNG",
@@ -29,7 +29,7 @@ pub static FORMATS: [Format; 2] = [
     Format {
         name: "TIFF",
         extensions: &["tif", "tiff"],
-        // TIFF and BigTIFF of either byte order
+        // TIFF and BigTIFF, in both byte orders
         signatures: &[b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"],
         decode: tiff::decode,
         write: write_tiff,
@@ -37,19 +37,20 @@ pub static FORMATS: [Format; 2] = [
 ];
 
 impl Format {
-    /// Returns the format that the first bytes of a file tell.
+    /// Returns the format that the first bytes of a file show; `None` if it is none of them.
     pub(super) fn of_bytes(bytes: &[u8]) -> Option<&'static Self> {
         FORMATS.iter().find(|format| format.signatures.iter().any(|s| bytes.starts_with(s)))
     }
 
-    /// Returns the format that the extension of a file tells, in any case of letters.
+    /// Returns the format that the extension of a file names, in upper or lower case; `None` if it
+    /// is none of them.
     pub(super) fn of_path(path: &Path) -> Option<&'static Self> {
         let extension = path.extension()?.to_str()?;
         FORMATS.iter().find(|format| format.extensions.iter().any(|e| extension.eq_ignore_ascii_case(e)))
     }
 }
 
-/// Returns whether the extension of a file is that of an image format, in any case of letters.
+/// Returns whether the extension of a file is that of an image format, in upper or lower case.
 pub fn is_image_path(path: &Path) -> bool {
     Format::of_path(path).is_some()
 }
@@ -69,6 +70,7 @@ pub fn extensions_in_words() -> String {
     in_words(extensions().map(|e| format!(".{e}")).collect())
 }
 
+/// Joins words by commas and a last “or”.
 fn in_words(mut words: Vec<String>) -> String {
     match (words.pop(), words.is_empty()) {
         (Some(last), false) => format!("{} or {last}", words.join(", ")),

@@ -1,10 +1,17 @@
+//! Two-dimensional fast Fourier transform of a real plane, and filters in its domain.
+//!
+//! 1. Rows are transformed first; they are real, so only the half with fx ≥ 0 is kept.
+//! 2. The result is stored column by column, and the columns are transformed in place.
+//!
+//! Small planes are transformed by one thread, large ones by all.
+
 use super::{PARALLEL_PIXELS, Plane};
 use rayon::prelude::*;
 use realfft::RealFftPlanner;
 use rustfft::{FftDirection, FftPlanner, num_complex::Complex32};
 use std::cell::RefCell;
 
-/// Rows or columns a task, so that one scratch serves them all.
+/// Number of rows or columns per task; one scratch buffer serves them all.
 const LINES: usize = 16;
 
 thread_local! {
@@ -13,7 +20,9 @@ thread_local! {
         RefCell::new((RealFftPlanner::new(), FftPlanner::new()));
 }
 
-/// The smallest even length ≥ `length` without prime factors above 5: what a fast Fourier transform of real numbers is fast at.
+/// Returns the smallest even length ≥ `length` that has no prime factor above 5.
+///
+/// A fast Fourier transform of real numbers is fast for such lengths.
 pub fn fast_length(length: usize) -> usize {
     let smooth = |mut n: usize| {
         for p in [2, 3, 5] {
@@ -26,16 +35,22 @@ pub fn fast_length(length: usize) -> usize {
     (length.max(1)..).find(|&n| n.is_multiple_of(2) && smooth(n)).unwrap_or(length)
 }
 
-/// The two-dimensional Fourier transform of a real plane: the half with fx ≥ 0, stored column by column
-/// (`values[kx · height + ky]`).
+/// Two-dimensional Fourier transform of a real plane.
+///
+/// It holds the half with fx ≥ 0, stored column by column: `values[kx · height + ky]`.
 pub struct Spectrum {
+    /// Width of the plane that was transformed, in px.
     width: usize,
+    /// Height of the plane that was transformed, in px.
     height: usize,
+    /// Terms of the transform, column by column.
     values: Vec<Complex32>,
 }
 
 impl Spectrum {
-    /// Transform of `plane`, continued by zeros to `height` × `width` (neither smaller than the plane's).
+    /// Returns the transform of `plane`, padded with zeros to `height` × `width`.
+    ///
+    /// Neither may be smaller than the plane's own.
     pub fn forward(plane: &Plane, height: usize, width: usize) -> Self {
         let (rows, columns) = plane.dim();
         let half = width / 2 + 1;
@@ -47,8 +62,8 @@ impl Spectrum {
             for (k, out) in out.chunks_mut(half).enumerate() {
                 let (row, beyond) = input.split_at_mut(columns);
                 row.iter_mut().zip(plane.row(LINES * task + k)).for_each(|(i, v)| *i = *v);
-                beyond.fill(0.); // the plan works in it
-                // lengths are ours, so the plan cannot refuse them
+                beyond.fill(0.); // the plan uses its input as scratch
+                // the buffers were made by the plan, so it cannot refuse their lengths
                 let done = row_plan.process_with_scratch(&mut input, out, &mut scratch);
                 debug_assert!(done.is_ok());
             }
@@ -73,6 +88,7 @@ impl Spectrum {
         spectrum
     }
 
+    /// Transforms all columns in place.
     fn transform_columns(&mut self, direction: FftDirection) {
         let plan = PLANNERS.with_borrow_mut(|p| p.1.plan_fft(self.height, direction));
         if self.values.len() >= PARALLEL_PIXELS / 2 {
@@ -82,7 +98,7 @@ impl Spectrum {
         }
     }
 
-    /// Back to a plane of `height` × `width`.
+    /// Transforms back to a plane of `height` × `width`.
     pub fn inverse(mut self) -> Plane {
         self.transform_columns(FftDirection::Inverse);
         let half = self.width / 2 + 1;
@@ -95,7 +111,8 @@ impl Spectrum {
             for (k, out) in out.chunks_mut(width).enumerate() {
                 let y = LINES * task + k;
                 input.iter_mut().zip(values.chunks(height)).for_each(|(i, column)| *i = column[y] * scale);
-                // a real plane has a real mean along x, and a real last term if the width is even; rounding left a trace
+                // the first term along x of a real plane is real, and so is the last if the width
+                // is even; rounding left a trace that the plan would refuse
                 input[0].im = 0.;
                 if width.is_multiple_of(2) {
                     input[half - 1].im = 0.;
@@ -112,8 +129,10 @@ impl Spectrum {
         Plane::from_shape_vec((height, width), data).unwrap_or_default()
     }
 
-    /// Multiplies every value by `factor` of what `of_x` and `of_y` make of its frequencies fx and fy, in cycles per pixel,
-    /// 0 ≤ fx ≤ ½, −½ ≤ fy < ½: what depends on one of them alone is computed once a column or row.
+    /// Multiplies every term by `factor(of_x(fx), of_y(fy))`.
+    ///
+    /// The frequencies are in cycles per pixel, 0 ≤ fx ≤ ½ and −½ ≤ fy < ½. What depends on one of
+    /// them alone is computed only once per column or row.
     pub fn multiply<X, Y: Sync>(
         &mut self,
         of_x: impl Fn(f32) -> X + Sync,
@@ -135,13 +154,14 @@ impl Spectrum {
         }
     }
 
-    /// |value|², in the order of storage: `[kx · height + ky]`.
+    /// Returns the power |value|² of every term, in the order of storage: `[kx · height + ky]`.
     pub fn power(&self) -> impl Iterator<Item = f32> {
         self.values.iter().map(|v| v.norm_sqr())
     }
 }
 
-/// Frequency of term `k` of a transform of `length` terms, in cycles per sample, in [−½, ½).
+/// Returns the frequency of term `k` of a transform of `length` terms, in cycles per sample, in
+/// [−½, ½).
 pub(crate) fn signed_frequency(k: usize, length: usize) -> f32 {
     let k = if 2 * k < length { k as f32 } else { k as f32 - length as f32 };
     k / length as f32

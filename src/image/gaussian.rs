@@ -1,17 +1,29 @@
+//! Gaussian filter, at a cost that stays bounded for wide kernels.
+//!
+//! 1. For σ below 8 px, the weighted sums are computed exactly, along x and then along y.
+//! 2. For wider kernels, weighted means every ⌊σ/4⌋ px form a coarser grid, on which σ is only 4 to
+//!    6 steps.
+//! 3. Cubics (Catmull and Rom 1974, <https://doi.org/10.1016/B978-0-12-079050-0.50020-5>) lead back
+//!    to the pixels.
+
 use super::pad::framed;
 use super::{Plane, fill_rows, mirror, values};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 
-/// Where the kernel ends, in standard deviations.
+/// Half-width of the kernel, in standard deviations.
 const CUT: f64 = 4.;
 
-/// Kernels are at least so wide on their grid, in its steps: every further pixel of width would cost without adding detail.
+/// Smallest standard deviation of a kernel on a coarser grid, in steps of that grid.
+///
+/// A finer grid would cost more without adding detail.
 const COARSE_SIGMA: f64 = 4.;
 
-/// Gaussian filter of standard deviation `sigma` px, cut at ⌈4σ⌉, the border mirrored with its edge pixel repeated
-/// (OpenCV's BORDER_REFLECT). Below σ = 8 px the sum is exact; from there on, it is taken over weighted means every ⌊σ/4⌋ px
-/// and interpolated by cubics, which stays within 1e-3 of the input's range at a cost that does not grow with σ.
-/// σ ≤ 0 returns the plane itself.
+/// Returns `plane` filtered by a Gaussian of standard deviation `sigma` px.
+///
+/// The kernel is cut at ⌈4σ⌉, and the plane is mirrored at its border with the edge pixel repeated
+/// (OpenCV's BORDER_REFLECT). Below σ = 8 px the sum is exact. From there on, it is taken over
+/// weighted means every ⌊σ/4⌋ px and interpolated by cubics, which stays within 1e-3 of the input's
+/// range at a cost that does not grow with σ. For σ ≤ 0, the plane itself is returned.
 pub fn gaussian(plane: &Plane, sigma: f64) -> Plane {
     if sigma <= 0. || plane.is_empty() {
         return plane.clone();
@@ -20,7 +32,7 @@ pub fn gaussian(plane: &Plane, sigma: f64) -> Plane {
     if step == 1 { fine_columns(&fine_rows(plane, sigma), sigma) } else { coarse(plane, sigma, step) }
 }
 
-/// The kernel from its middle outwards; both halves sum to 1.
+/// Returns the kernel from its middle outwards; both halves together sum to 1.
 fn half_kernel(sigma: f64) -> Vec<f32> {
     let radius = (CUT * sigma).ceil() as usize;
     let weights: Vec<f64> = (0..=radius).map(|k| (-0.5 * (k as f64 / sigma).powi(2)).exp()).collect();
@@ -28,7 +40,7 @@ fn half_kernel(sigma: f64) -> Vec<f32> {
     weights.iter().map(|w| (w / sum) as f32).collect()
 }
 
-/// Σₖ kernel[|k|] · row(y + k), for one y.
+/// Computes one filtered row: Σₖ `kernel[|k|]` · `row(k)`, for k on both sides of the row.
 fn weigh_rows<'a>(out: &mut [f32], kernel: &[f32], row: impl Fn(isize) -> &'a [f32]) {
     let pairs = kernel.iter().enumerate().map(|(k, &weight)| {
         let k = k as isize;
@@ -37,27 +49,33 @@ fn weigh_rows<'a>(out: &mut [f32], kernel: &[f32], row: impl Fn(isize) -> &'a [f
     weigh(out, &pairs.collect::<Vec<_>>());
 }
 
-/// Two rows as far above as below the one that is computed.
+/// Two rows that lie as far above as below the one that is computed.
 struct Pair<'a> {
+    /// Row above the computed one.
     before: &'a [f32],
+    /// Row below the computed one.
     after: &'a [f32],
+    /// Weight of their sum.
     weight: f32,
 }
 
 impl<'a> Pair<'a> {
-    /// The row that is computed stands for both.
+    /// Returns the pair in which the computed row itself stands for both.
     const fn alone(row: &'a [f32], weight: f32) -> Self {
         Self { before: row, after: row, weight: 0.5 * weight }
     }
 }
 
-/// The weighted sum of pairs of rows. By the widest registers that the processor has; every sum is added up in the same order on all
-/// of them.
+/// Computes the weighted sum of pairs of rows, at the widest SIMD level available.
+///
+/// Every sum is added up in the same order at all levels.
 fn weigh(out: &mut [f32], pairs: &[Pair<'_>]) {
     dispatch!(Level::new(), simd => weigh_by(simd, out, pairs));
 }
 
-/// Several registers of sums at a time, so that their additions overlap; what is left of the row one by one.
+/// Computes the sums of a row, several registers at a time so that their additions overlap.
+///
+/// The end of the row is computed one register and then one pixel at a time.
 #[inline(always)]
 fn weigh_by<S: Simd>(simd: S, out: &mut [f32], pairs: &[Pair<'_>]) {
     const REGISTERS: usize = 4;
@@ -93,6 +111,7 @@ fn sums<S: Simd, const REGISTERS: usize>(simd: S, out: &mut [f32], pairs: &[Pair
     }
 }
 
+/// Returns the plane filtered along x by the exact sum.
 fn fine_rows(plane: &Plane, sigma: f64) -> Plane {
     let (h, w) = plane.dim();
     let kernel = half_kernel(sigma);
@@ -105,6 +124,7 @@ fn fine_rows(plane: &Plane, sigma: f64) -> Plane {
     })
 }
 
+/// Returns the plane filtered along y by the exact sum.
 fn fine_columns(plane: &Plane, sigma: f64) -> Plane {
     let (h, w) = plane.dim();
     let kernel = half_kernel(sigma);
@@ -117,16 +137,20 @@ fn fine_columns(plane: &Plane, sigma: f64) -> Plane {
     })
 }
 
-/// How a side is filtered on a grid of `step` pixels.
+/// Filter along one side of a plane, on a grid of `step` pixels.
 struct Coarse {
+    /// Distance of the points of the grid, in px.
     step: usize,
-    /// Weights of the pixels around a point of that grid: a hat, twice as wide as `step`, that lets no fine detail pass for coarse.
+    /// Weights of the pixels around a point of the grid.
+    ///
+    /// They form a hat twice as wide as `step`, so that fine detail does not pass for coarse
+    /// detail.
     hat: Vec<f32>,
-    /// The kernel on that grid, from its middle outwards.
+    /// Kernel on the grid, from its middle outwards.
     kernel: Vec<f32>,
-    /// Points before the first one inside.
+    /// Number of points before the first one inside.
     reach: usize,
-    /// Points that cover the side.
+    /// Number of points that cover the side.
     inside: usize,
 }
 
@@ -135,7 +159,7 @@ impl Coarse {
         let count = 2 * step - step % 2;
         let distance = |k: usize| k as f64 - 0.5 * (count - 1) as f64;
         let weight = |k: usize| (1. - distance(k).abs() / step as f64) / step as f64;
-        // the hat blurs already
+        // the hat blurs as well, so the kernel must be narrower by its variance
         let variance: f64 = (0..count).map(|k| weight(k) * distance(k).powi(2)).sum();
         let kernel = half_kernel((sigma * sigma - variance).sqrt() / step as f64);
         let reach = kernel.len() + 1;
@@ -143,32 +167,33 @@ impl Coarse {
         Self { step, hat, kernel, reach, inside: length.div_ceil(step) }
     }
 
-    /// Number of points, those beyond either end included.
+    /// Returns the number of points, including those beyond either end.
     const fn points(&self) -> usize {
         self.inside + 2 * self.reach
     }
 
-    /// The first pixel that counts for point `i`, in a row with its frame.
+    /// Returns the first pixel that counts for point `i`, in a row with its frame.
     const fn first(&self, i: usize) -> usize {
         (i + 2) * self.step - self.step / 2
     }
 
-    /// Pixels beyond either end that count for any point.
+    /// Returns the number of pixels beyond either end that count for any point.
     const fn frame(&self) -> usize {
         (self.reach + 2) * self.step
     }
 
-    /// Filtered samples: two beyond either end serve the cubics at the border.
+    /// Returns the number of filtered samples; two beyond either end serve the cubics at the
+    /// border.
     const fn samples(&self) -> usize {
         self.inside + 4
     }
 
-    /// The point below sample `i`.
+    /// Returns the index of the point at the place of sample `i`.
     const fn middle(&self, i: usize) -> usize {
         i + self.reach - 2
     }
 
-    /// First of the four samples around every pixel of the side, and their weights.
+    /// Returns the first of the four samples around every pixel of the side, and the four weights.
     fn cubics(&self, length: usize) -> Vec<(usize, [f32; 4])> {
         (0..length)
             .map(|x| {
@@ -180,6 +205,7 @@ impl Coarse {
     }
 }
 
+/// Returns the plane filtered along x on a coarser grid.
 fn coarse_rows(plane: &Plane, sigma: f64, step: usize) -> Plane {
     let (h, w) = plane.dim();
     let grid = Coarse::new(w, sigma, step);
@@ -197,7 +223,10 @@ fn coarse_rows(plane: &Plane, sigma: f64, step: usize) -> Plane {
     })
 }
 
-/// Columns to a coarser grid, its rows filtered, and back: so the fewest rows are filtered along x.
+/// Returns the plane filtered along both axes on coarser grids.
+///
+/// The columns go to the coarser grid first and come back last, so that the fewest rows are
+/// filtered along x.
 fn coarse(plane: &Plane, sigma: f64, step: usize) -> Plane {
     let (h, w) = plane.dim();
     let data = values(plane);
@@ -208,7 +237,7 @@ fn coarse(plane: &Plane, sigma: f64, step: usize) -> Plane {
             let y = mirror((grid.first(i) + k) as isize - grid.frame() as isize, h);
             &data[y * w..(y + 1) * w]
         };
-        // both halves of a hat are alike
+        // the two halves of the hat have the same weights, so rows are added in pairs
         let pairs = grid.hat[..=last / 2].iter().enumerate().map(|(k, &weight)| match last - k {
             opposite if opposite == k => Pair::alone(row(k), weight),
             opposite => Pair { before: row(k), after: row(opposite), weight },
@@ -234,7 +263,8 @@ fn coarse(plane: &Plane, sigma: f64, step: usize) -> Plane {
     })
 }
 
-/// Weights of the four samples around a place `t` of the way from the second to the third.
+/// Returns the weights of the four samples around a place `t` of the way from the second to the
+/// third.
 fn catmull_rom(t: f32) -> [f32; 4] {
     [
         0.5 * t * (-1. + t * (2. - t)),
@@ -255,6 +285,7 @@ mod tests {
         })
     }
 
+    /// Returns the filtered plane by the definition of the Gaussian filter.
     fn direct(plane: &Plane, sigma: f64) -> Plane {
         let (h, w) = plane.dim();
         let radius = (CUT * sigma).ceil() as isize;

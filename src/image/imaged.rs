@@ -1,38 +1,51 @@
+//! Mask of the pixels that were imaged, without black margins and gaps of montages.
+//!
+//! 1. Runs of exactly black pixels are joined to 4-connected regions in one pass over the rows.
+//! 2. A region counts as not imaged if it is large enough, is not porous like the ground between
+//!    bright cones, and, unless it is very large, ends abruptly.
+
 use super::Plane;
 
-/// Smaller regions, as a part of the image, are dark places rather than places that were not imaged.
+/// Smallest region that can count as not imaged, as a fraction of the image.
+///
+/// Smaller ones are dark places.
 const SMALLEST: f64 = 0.005;
 
-/// Smaller regions than this part of the image end abruptly if they were not imaged: around them it is at least this part as
-/// bright as everywhere. What fades to black is a dark place, in a picture of few grey levels.
+/// Fraction of the image below which a region must end abruptly to count as not imaged.
+///
+/// A region that fades to black is a dark place in a picture of few grey levels.
 const SMALL: f64 = 0.05;
+/// Smallest brightness around an abrupt region, as a fraction of the mean brightness of all imaged
+/// pixels.
 const ABRUPT: f64 = 0.5;
 
-/// A region of at least so many runs of pixels a row, on average no longer than this, is the ground between cones.
+/// Smallest number of runs per row that makes a region porous, like the ground between cones.
 const POROUS_RUNS: usize = 4;
+/// Largest mean length, in px, of the runs of a porous region.
 const POROUS_LENGTH: usize = 64;
 
-/// The smallest upright rectangle of an image that holds all that was imaged, in px.
+/// Smallest upright rectangle of an image that holds everything that was imaged, in px.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ImagedPart {
-    /// First row.
+    /// Index of the first row.
     pub top: usize,
-    /// First column.
+    /// Index of the first column.
     pub left: usize,
-    /// Number of rows.
+    /// Height: the number of rows.
     pub height: usize,
-    /// Number of columns.
+    /// Width: the number of columns.
     pub width: usize,
 }
 
-/// Finds the imaged part: the bounds of the [`imaged_mask`]. All of the image if nothing of it was imaged.
+/// Returns the imaged part: the bounds of the [`imaged_mask`], or all of the image if nothing was
+/// imaged.
 pub fn imaged_part(plane: &Plane) -> ImagedPart {
     let (height, width) = plane.dim();
     let whole = ImagedPart { top: 0, left: 0, height, width };
     imaged_mask(plane).and_then(|mask| part_of(&mask, width)).unwrap_or(whole)
 }
 
-/// The bounds of a mask, row by row, of rows of `width`; `None` if it is empty.
+/// Returns the bounds of a mask with rows of `width` pixels; `None` if nothing is in it.
 pub(super) fn part_of(mask: &[bool], width: usize) -> Option<ImagedPart> {
     let imaged = |row: &&[bool]| row.contains(&true);
     let rows = || mask.chunks_exact(width.max(1));
@@ -46,11 +59,13 @@ pub(super) fn part_of(mask: &[bool], width: usize) -> Option<ImagedPart> {
     Some(ImagedPart { top, left, height: bottom - top + 1, width: right - left + 1 })
 }
 
-/// For every pixel, row by row, whether it was imaged; `None` if all were.
+/// Returns a mask, row by row, that is `true` for pixels that were imaged; `None` if all were.
 ///
-/// What was not imaged are exactly black regions (4-connected) that cover at least 0.5 % of the image each, as montages and
-/// registered averages leave them: margins, and gaps between tiles. Porous regions are imaged: the dark ground between
-/// bright cones; and so are small ones that the image fades into. One pass over the pixels, and one byte a pixel.
+/// Regions that are exactly black, 4-connected and at least 0.5 % of the image count as not imaged:
+/// montages and registered averages leave such margins, and such gaps between tiles. Two kinds of
+/// them count as imaged nevertheless: porous regions, which are the dark ground between bright
+/// cones, and small ones that the image fades into. Labelling takes one pass over the pixels, the
+/// mask one byte per pixel.
 pub fn imaged_mask(plane: &Plane) -> Option<Vec<bool>> {
     let width = plane.ncols();
     let least = SMALLEST * plane.len() as f64;
@@ -101,6 +116,7 @@ pub fn imaged_mask(plane: &Plane) -> Option<Vec<bool>> {
 }
 
 #[derive(Clone, Copy, Default)]
+/// Mean of values that arrive one after the other.
 struct Mean {
     sum: f64,
     count: usize,
@@ -119,7 +135,7 @@ impl Mean {
     }
 }
 
-/// A horizontal run of pixels: columns `first..end` of `row`.
+/// A horizontal run of pixels: the columns `first..end` of `row`.
 #[derive(Clone, Copy)]
 struct Run {
     row: usize,
@@ -128,7 +144,7 @@ struct Run {
 }
 
 impl Run {
-    /// The pixels above, below and at both ends.
+    /// Returns the values of the pixels above, below and at both ends.
     fn neighbours(self, plane: &Plane) -> impl Iterator<Item = f32> + '_ {
         let ends = [self.first.wrapping_sub(1), self.end].into_iter().map(move |x| (self.row, x));
         let sides = [self.row.wrapping_sub(1), self.row + 1];
@@ -137,39 +153,46 @@ impl Run {
     }
 }
 
-/// A connected region in numbers.
+/// A connected region, described by a few numbers.
 #[derive(Clone, Copy, Default)]
 struct Region {
+    /// Number of pixels in the region.
     size: usize,
+    /// Number of runs in the region.
     runs: usize,
-    /// Rows in which it has a run; the last of them.
+    /// Number of rows in which it has a run.
     rows: usize,
+    /// Last row in which it has a run.
     last_row: usize,
-    /// What surrounds it.
+    /// Mean of the pixels around it that are not black.
     rim: Mean,
 }
 
 impl Region {
-    /// Whether something keeps interrupting it: many runs a row, and short ones.
+    /// Returns whether other pixels keep interrupting the region: it has many runs per row, and
+    /// short ones.
     fn is_porous(&self) -> bool {
         self.runs >= POROUS_RUNS * self.rows && self.size <= POROUS_LENGTH * self.runs
     }
 }
 
-/// Connected regions as runs, row by row, each of which points to an earlier run of its region.
+/// Connected regions as runs of pixels, row by row, each pointing to an earlier run of its region.
 ///
-/// imageproc's `connected_components` would keep two words and a label for every pixel and panics from 2³² pixels on: too
-/// much for a montage, whose margins are few runs.
+/// `connected_components` of imageproc would keep two words and a label for every pixel and panics
+/// from 2³² pixels on. That is too much for a montage, whose margins are few runs.
 #[derive(Default)]
 struct Regions {
+    /// Runs of all rows so far.
     runs: Vec<Run>,
+    /// Index of an earlier run of the same region, or of the run itself.
     parents: Vec<usize>,
     rows: usize,
-    /// Where the runs of the row before begin.
+    /// Index of the first run of the row before.
     before: usize,
 }
 
 impl Regions {
+    /// Returns the first run of the region of run `k`, and shortens the way to it.
     fn root(&mut self, mut k: usize) -> usize {
         while self.parents[k] != k {
             self.parents[k] = self.parents[self.parents[k]];
@@ -178,6 +201,7 @@ impl Regions {
         k
     }
 
+    /// Adds a row, given whether each of its pixels is black, and joins its runs with those above.
     fn add_row(&mut self, black: impl Iterator<Item = bool>) {
         let (begin, row) = (self.runs.len(), self.rows);
         let mut inside = false;

@@ -1,4 +1,25 @@
-//! Reading PNG and TIFF as one grey plane, padding, Gaussian and Fourier filters. Knows nothing of cones.
+//! Images as grey planes: reading and writing PNG and TIFF, padding, Gaussian and Fourier filters.
+//!
+//! The module knows nothing of cones.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::image::{BitDepth, decode, gaussian, imaged_part, write_png};
+//! use conemosaic::prelude::*;
+//!
+//! let grey = |(y, x): (usize, usize)| if x < 8 { 0. } else { (x + y) as f32 / 80. };
+//! let plane = Plane::from_shape_fn((32, 48), grey);
+//! let folder = tempfile::tempdir()?;
+//! let path = folder.path().join("image.png");
+//! write_png(&path, &plane, BitDepth::Sixteen)?;
+//!
+//! let back = read(&path)?; // rows × columns, grey values from 0 to 1
+//! assert_eq!(back.dim(), (32, 48));
+//! assert_eq!(decode(&std::fs::read(&path)?, "image.png")?, back);
+//! assert_eq!(imaged_part(&back).left, 8); // the black margin was not imaged
+//! assert_eq!(gaussian(&back, 2.).dim(), back.dim());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod empty;
 mod error;
@@ -28,5 +49,7 @@ pub use read::{MAX_PIXELS, decode, read, read_bytes};
 pub(crate) use rows::{PARALLEL_PIXELS, fill_rows, plane_of, values};
 pub use write::{BitDepth, write_grey, write_png, write_tiff};
 
-/// Grey values, one `f32` a pixel, indexed `[[y, x]]`; (0, 0) is the top-left pixel. Stored row by row.
+/// Grey values, one `f32` per pixel, indexed `[[y, x]]` and stored row by row.
+///
+/// Pixel (0, 0) is the top-left one.
 pub type Plane = ndarray::Array2<f32>;

@@ -2,7 +2,7 @@ use crate::choice::UnknownChoice;
 use serde::{Deserialize, Serialize};
 use strum::{Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
 
-/// The way in which an image was taken.
+/// Modality of an image: the technique by which it was taken.
 #[derive(
     Clone,
     Copy,
@@ -25,22 +25,23 @@ use strum::{Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
     parse_err_fn = UnknownChoice::among::<Modality>
 )]
 pub enum Modality {
-    /// Confocal adaptive-optics ophthalmoscopy: a cone is a bright spot.
+    /// Confocal adaptive-optics ophthalmoscopy, in which a cone is a bright spot.
     Confocal,
-    /// Split-detector adaptive-optics ophthalmoscopy: an inner segment is a dark–bright pair along x.
+    /// Split-detector adaptive-optics ophthalmoscopy, in which an inner segment is a dark–bright
+    /// pair along x.
     Split,
-    /// Histology: an inner segment is a disc, brighter or darker than what surrounds it.
+    /// Histology, in which an inner segment is a disc, brighter or darker than its surroundings.
     Histology,
 }
 
 impl Modality {
-    /// Returns the word for it in options and tables.
+    /// Returns the name that options and tables use.
     pub fn name(self) -> &'static str {
         self.into()
     }
 }
 
-/// The sign of a cone's contrast.
+/// Sign of a cone's contrast.
 #[derive(
     Clone,
     Copy,
@@ -63,14 +64,15 @@ impl Modality {
     parse_err_fn = UnknownChoice::among::<Polarity>
 )]
 pub enum Polarity {
-    /// Cones brighter than what surrounds them; in split detection, dark on the left and bright on the right.
+    /// Contrast of cones that are brighter than their surroundings; in split detection, of cones
+    /// that are dark on the left and bright on the right.
     Positive,
-    /// The same with the sign turned.
+    /// Contrast of the opposite sign.
     Negative,
 }
 
 impl Polarity {
-    /// Returns the word for it in options and tables.
+    /// Returns the name that options and tables use.
     pub fn name(self) -> &'static str {
         self.into()
     }

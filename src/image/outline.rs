@@ -1,3 +1,11 @@
+//! The imaged area of an image as a window: all of the image, a rectangle, or polygons.
+//!
+//! 1. The mask of imaged pixels is eroded by 1 px, because ragged edges are mixed with black.
+//! 2. The outlines of the mask are followed along the edges of its pixels.
+//! 3. The steps of oblique lines are levelled.
+//! 4. The outlines are simplified (Douglas and Peucker 1973,
+//!    <https://doi.org/10.3138/FM57-6770-U75U-7727>).
+
 use super::imaged::part_of;
 use super::{Plane, imaged_mask};
 use crate::geometry::{Point, PolygonError, Ring, Window, WindowError};
@@ -5,20 +13,27 @@ use image::GrayImage;
 use imageproc::distance_transform::Norm;
 use imageproc::morphology::erode_mut;
 
-/// Pixels next to what was not imaged that are left out, unless all edges of the imaged area are upright and straight:
-/// at ragged edges registration has mixed them with black.
+/// Width, in px, of the margin that is removed next to pixels that were not imaged.
+///
+/// At ragged edges, registration has mixed pixels with black. Nothing is removed if all edges of
+/// the imaged area are upright and straight.
 const MARGIN: u8 = 1;
-/// Islands smaller than this, as a part of the image, are specks and letters rather than parts of a mosaic.
+/// Smallest island that counts, as a fraction of the image; smaller ones are specks and letters
+/// rather than parts of a mosaic.
 const SMALLEST_ISLAND: f64 = 0.001;
-/// Runs of pixel edges this long end where they end; shorter ones may be steps of an oblique line.
+/// Length, in px, from which on a run of pixel edges is an edge of its own.
+///
+/// Shorter runs may be steps of an oblique line.
 const LONG_RUN: f64 = 16.;
-/// Farthest that a corner may lie from the simplified outline, in px.
+/// Largest distance, in px, of an omitted corner from the simplified outline.
 const TOLERANCE: f64 = 0.5;
 
-/// The part of an image that was imaged ([`imaged_mask`]) as a window in px: all of the image, a rectangle, or polygons.
+/// Returns the part of an image that was imaged ([`imaged_mask`]) as a window in px.
 ///
-/// Polygons follow the edges of the pixels that lie at least 1 px within the mask (the border of the image itself costs no
-/// margin), with the steps of oblique lines levelled, and simplified by Douglas & Peucker (1973) to 0.5 px.
+/// The window is all of the image, a rectangle, or polygons. Polygons follow the edges of the
+/// pixels that lie at least 1 px within the mask; at the border of the image itself there is no
+/// such margin. The steps of oblique lines are levelled, and the result is simplified to 0.5 px
+/// (Douglas and Peucker 1973, <https://doi.org/10.3138/FM57-6770-U75U-7727>).
 ///
 /// # Errors
 /// If the image has no pixels.
@@ -44,13 +59,15 @@ pub fn imaged_area(plane: &Plane) -> Result<Window, WindowError> {
     let levelled: Vec<Ring> = rings.iter().map(|ring| levelled(ring)).collect();
     let simplified = levelled.iter().map(|ring| simplified(ring, TOLERANCE)).collect();
     match Window::polygon(simplified) {
-        // where two parts of the outline run within a pixel of each other
+        // simplification can make two parts of the outline cross where they run within a pixel of
+        // each other
         Err(PolygonError::Crosses { .. }) => Ok(Window::polygon(levelled).unwrap_or(bounds)),
         outline => Ok(outline.unwrap_or(bounds)),
     }
 }
 
-/// Takes off the mask, whose rows are `width` long, what lies within `margin` px along x or y (or both) of what is not in it.
+/// Removes from a mask, whose rows have `width` pixels, all that lies within `margin` px of pixels
+/// outside it, along x, y or both.
 fn erode(mask: &mut [bool], width: usize, margin: u8) {
     let height = mask.len() / width;
     let (Ok(w), Ok(h)) = (u32::try_from(width), u32::try_from(height)) else { return };
@@ -61,10 +78,12 @@ fn erode(mask: &mut [bool], width: usize, margin: u8) {
     }
 }
 
-/// The outlines of a mask along the edges of its pixels, what is inside always on the right, as corners in px. Pixels that
-/// touch at a corner only are apart.
+/// Returns the outlines of a mask along the edges of its pixels, as corners in px.
+///
+/// The inside is always on the right. Pixels that touch only at a corner are separate.
 fn rings(mask: &[bool], width: usize) -> Vec<Ring> {
-    // Steps right, down, left, up; and the pixels on either side of the way ahead, from the corner stood on.
+    // steps to the right, down, left and up, and the pixels on either side of the way ahead,
+    // relative to the current corner
     const STEPS: [(isize, isize); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
     const AHEAD_LEFT: [(isize, isize); 4] = [(0, -1), (0, 0), (-1, 0), (-1, -1)];
     const AHEAD_RIGHT: [(isize, isize); 4] = [(0, 0), (-1, 0), (-1, -1), (0, -1)];
@@ -74,7 +93,7 @@ fn rings(mask: &[bool], width: usize) -> Vec<Ring> {
         within && mask[y as usize * width + x as usize]
     };
     let mut rings = Vec::new();
-    // upper edges of pixels that an outline has followed
+    // pixels whose upper edge an outline has followed: none of them starts another outline
     let mut followed = vec![false; mask.len()];
     for start in 0..mask.len() {
         let (x0, y0) = ((start % width) as isize, (start / width) as isize);
@@ -110,8 +129,10 @@ fn rings(mask: &[bool], width: usize) -> Vec<Ring> {
     rings
 }
 
-/// A ring along pixel edges with its steps of 1 px levelled. Of a digital straight line every second run of edges is 1 px
-/// long, and the middles of runs lie on the line: they take the place of the corners of such steps.
+/// Returns a ring along pixel edges with its steps of 1 px levelled.
+///
+/// Along a digital straight line, every second run of edges is 1 px long, and the middles of the
+/// runs lie on the line. These middles replace the corners of such steps.
 fn levelled(ring: &[Point]) -> Ring {
     let n = ring.len();
     let next = |k: usize| ring[(k + 1) % n];
@@ -141,7 +162,9 @@ fn levelled(ring: &[Point]) -> Ring {
     level
 }
 
-/// The ring with fewer corners, none of those left out farther than `tolerance` from it (Douglas & Peucker 1973).
+/// Returns the ring with fewer corners, none of the others farther than `tolerance` from it.
+///
+/// The method is that of Douglas and Peucker (1973).
 fn simplified(ring: &[Point], tolerance: f64) -> Ring {
     let Some(&first) = ring.first() else { return Ring::new() };
     let far = (0..ring.len()).max_by(|&a, &b| ring[a].distance(first).total_cmp(&ring[b].distance(first)));

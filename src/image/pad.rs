@@ -1,22 +1,26 @@
 use super::{Plane, fill_rows, values};
 use ndarray::{Axis, Zip};
 
-/// The index inside `0..length` that a mirror at the edges shows at `index`, the edge pixel repeated
-/// (… 1 0 | 0 1 2 … n−1 | n−1 …): OpenCV's BORDER_REFLECT. `length` must not be 0.
+/// Returns the index inside `0..length` that a mirror at the edges shows at `index`.
+///
+/// The edge pixel is repeated (… 1 0 | 0 1 2 … n−1 | n−1 …), as in OpenCV's BORDER_REFLECT.
+/// `length` must not be 0.
 pub fn mirror(index: isize, length: usize) -> usize {
     let period = 2 * length;
     let i = index.rem_euclid(period as isize) as usize;
     if i < length { i } else { period - 1 - i }
 }
 
-/// `row` between `before` and `after` elements of its own mirror image (see [`mirror`]). `row` must not be empty.
+/// Returns `row` between `before` and `after` elements of its own mirror image (see [`mirror`]).
+///
+/// `row` must not be empty.
 pub(super) fn framed(row: &[f32], before: usize, after: usize) -> Vec<f32> {
     let length = row.len() as isize;
     let end = length + after as isize;
     let mut framed = Vec::with_capacity(before + row.len() + after);
     let mut i = -(before as isize);
     while i < end {
-        // copies of the row, every other one backwards
+        // the mirror shows copies of the row, every other one backwards
         let within = i.rem_euclid(length);
         let run = (length - within).min(end - i);
         if i.div_euclid(length) % 2 == 0 {
@@ -29,8 +33,10 @@ pub(super) fn framed(row: &[f32], before: usize, after: usize) -> Vec<f32> {
     framed
 }
 
-/// `plane` inside a frame of its own mirror image: `top` and `left` pixels before it, and as many behind it as make
-/// `height` × `width`, which must hold it all.
+/// Returns `plane` inside a frame of its own mirror image, `height` × `width` px in all.
+///
+/// The frame has `top` rows above and `left` columns to the left; the rest lies below and to the
+/// right. `height` and `width` must hold it all.
 pub fn reflect_pad(plane: &Plane, top: usize, left: usize, height: usize, width: usize) -> Plane {
     let (h, w) = plane.dim();
     let data = values(plane);
@@ -40,13 +46,16 @@ pub fn reflect_pad(plane: &Plane, top: usize, left: usize, height: usize, width:
     })
 }
 
-/// The part of `plane` of `height` × `width` px whose first pixel is at (`left`, `top`).
+/// Returns the part of `plane` of `height` × `width` px whose first pixel is at (`left`, `top`).
 pub fn crop(plane: &Plane, top: usize, left: usize, height: usize, width: usize) -> Plane {
     let rows = plane.slice_axis(Axis(0), (top..top + height).into());
     rows.slice_axis(Axis(1), (left..left + width).into()).to_owned()
 }
 
-/// Means over blocks of `block` × `block` px. What does not fill a block at the right and below is left out. `block` must not be 0.
+/// Returns the means over blocks of `block` × `block` px.
+///
+/// Pixels at the right and at the bottom that do not fill a block are left out. `block` must not be
+/// 0.
 pub fn block_means(plane: &Plane, block: usize) -> Plane {
     let share = 1. / (block * block) as f32;
     Zip::from(plane.exact_chunks((block, block))).map_collect(|pixels| share * pixels.sum())

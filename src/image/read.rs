@@ -7,12 +7,14 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-/// Most pixels an image may have: 2²⁷, some 11,500 × 11,500.
+/// Largest number of pixels an image may have: 2²⁷, some 11,500 × 11,500.
 pub const MAX_PIXELS: usize = 1 << 27;
-/// Most bytes a file may have: a pixel of the largest kind read, RGBA of 32 bits, takes 16.
+/// Largest size of a file in bytes.
+///
+/// The largest kind of pixel that is read, RGBA of 32 bits, takes 16 bytes.
 const MAX_BYTES: u64 = 16 * MAX_PIXELS as u64;
 
-/// The image in a PNG or TIFF file as one grey plane; see [`decode`].
+/// Reads the image in a PNG or TIFF file as one grey plane; see [`decode`].
 ///
 /// # Errors
 /// If the file cannot be read, and as [`decode`].
@@ -20,7 +22,7 @@ pub fn read(path: &Path) -> Result<Plane, ImageError> {
     decode(&read_bytes(path)?, &path.display().to_string())
 }
 
-/// The bytes of a file that is not unreasonably large.
+/// Reads the bytes of a file that is not unreasonably large.
 ///
 /// # Errors
 /// If it cannot be read or has more bytes than the largest image.
@@ -37,20 +39,24 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ImageError> {
     Ok(bytes)
 }
 
-/// The image in the bytes of a PNG or TIFF file as one grey plane. The content decides, not the name, which serves
-/// for error messages only.
+/// Decodes the image in the bytes of a PNG or TIFF file as one grey plane.
 ///
-/// - Unsigned integers of b bits are divided by 2ᵇ − 1: [0, 1]. Signed ones are divided by 2ᵇ⁻¹ − 1: [−1, 1]. Floating-point
-///   values stay as they are.
-/// - Colour becomes its luma by Rec. 601, .299 R + .587 G + .114 B (as MATLAB, OpenCV and Pillow do); equal R, G and B stay
-///   exactly that. Palettes are looked up first. Gamma and colour profiles are not looked at.
-/// - What is transparent was not imaged: it becomes black (grey × alpha, or as it is where alpha is already multiplied in).
-/// - TIFF: strips or tiles, any byte order, BigTIFF; uncompressed, LZW, Deflate, PackBits; WhiteIsZero is turned. Thumbnails
-///   and masks beside the image are passed over; several images are an error.
+/// The format is recognised by the content, not by `name`, which serves for error messages only.
+///
+/// - Unsigned integers of b bits are divided by 2ᵇ − 1 and lie in [0, 1]. Signed ones are divided
+///   by 2ᵇ⁻¹ − 1 and lie in [−1, 1]. Floating-point values stay as they are.
+/// - Colour becomes its luma by Rec. 601, .299 R + .587 G + .114 B, as in MATLAB, OpenCV and
+///   Pillow; equal R, G and B keep their value exactly. Palettes are looked up first. Gamma and
+///   colour profiles are ignored.
+/// - Transparent pixels were not imaged and become black: grey × alpha, or grey as it is where it
+///   is already multiplied by alpha.
+/// - TIFF may have strips or tiles, any byte order, and be a BigTIFF; it may be uncompressed or
+///   compressed by LZW, Deflate or PackBits. WhiteIsZero is inverted. Thumbnails and masks beside
+///   the image are skipped; several images are an error.
 ///
 /// # Errors
-/// If it is not a PNG or TIFF, damaged, of a kind that is not read, larger than [`MAX_PIXELS`], holds no pixel or several
-/// pages, or has a pixel that is not a finite number.
+/// If it is not a PNG or TIFF, damaged, of a kind that is not read, larger than [`MAX_PIXELS`],
+/// holds no pixel or several pages, or has a pixel that is not a finite number.
 pub fn decode(bytes: &[u8], name: &str) -> Result<Plane, ImageError> {
     if bytes.is_empty() {
         return Err(ImageError::Empty { name: name.to_owned() });
@@ -65,7 +71,7 @@ pub fn decode(bytes: &[u8], name: &str) -> Result<Plane, ImageError> {
     }
 }
 
-/// Refuses images without a pixel and those that memory should not be asked to hold.
+/// Refuses images without a pixel and images that are unreasonably large.
 fn check_size(width: u32, height: u32, name: &str) -> Result<(), ImageError> {
     let name = name.to_owned();
     if width == 0 || height == 0 {
@@ -78,7 +84,7 @@ fn check_size(width: u32, height: u32, name: &str) -> Result<(), ImageError> {
     Ok(())
 }
 
-/// Describes the first bytes of a file of no format that is read.
+/// Describes the first bytes of a file that has none of the formats that are read.
 fn looks_like(bytes: &[u8]) -> &'static str {
     const KINDS: [(&[u8], &str); 10] = [
         (b"\x89PNG", "a damaged PNG signature (was it transferred as text?)"),

@@ -2,10 +2,12 @@ use super::Plane;
 use rayon::prelude::*;
 use std::borrow::Cow;
 
-/// From this many pixels on, a filter spreads one image over all cores. Smaller images travel side by side instead.
+/// Number of pixels from which on a filter spreads one image over all cores.
+///
+/// Smaller images are processed side by side instead.
 pub(crate) const PARALLEL_PIXELS: usize = 1 << 18;
 
-/// Runs `fill(y, row)` for every row of a new plane, over all cores if it is large.
+/// Fills a new plane by `fill(y, row)` for every row, over all cores if it is large.
 pub(crate) fn fill_rows(height: usize, width: usize, fill: impl Fn(usize, &mut [f32]) + Sync) -> Plane {
     let mut data = vec![0f32; height * width];
     if data.is_empty() {
@@ -19,14 +21,17 @@ pub(crate) fn fill_rows(height: usize, width: usize, fill: impl Fn(usize, &mut [
     plane_of(height, width, data)
 }
 
-/// Returns the grey values of a plane row by row; copies them only if it is stored otherwise.
+/// Returns the grey values of a plane row by row; they are copied only if it is stored in another
+/// order.
 pub(crate) fn values(plane: &Plane) -> Cow<'_, [f32]> {
     plane.as_slice().map_or_else(|| plane.iter().copied().collect(), Cow::Borrowed)
 }
 
-/// Returns the plane whose grey values, row by row, are `values`: exactly `height` × `width` of them.
+/// Returns the plane whose grey values, row by row, are `values`.
+///
+/// There must be exactly `height` × `width` of them.
 pub(crate) fn plane_of(height: usize, width: usize, values: Vec<f32>) -> Plane {
-    // a shorter plane would be a silent fault of the filter that made it
+    // a plane of another size would be a silent fault of the filter that made it
     assert_eq!(values.len(), height * width, "grey values of a plane of {height} × {width} px");
     Plane::from_shape_vec((height, width), values).unwrap_or_default()
 }

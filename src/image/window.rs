@@ -2,7 +2,7 @@ use super::Plane;
 use crate::geometry::{Window, WindowError};
 
 impl Window {
-    /// Returns the window of the whole of an image, in px: see [`Window::of_image`].
+    /// Returns the window of a whole image, in px: see [`Window::of_image`].
     ///
     /// # Errors
     /// If the image has no pixels.

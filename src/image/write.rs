@@ -10,26 +10,29 @@ use tiff::encoder::{TiffEncoder, colortype};
 /// Bits of a grey value in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BitDepth {
-    /// 256 grey values.
+    /// Eight bits: 256 grey values.
     Eight,
-    /// 65,536 grey values.
+    /// Sixteen bits: 65,536 grey values.
     Sixteen,
 }
 
-/// Writes a plane in [0, 1] as grey PNG or TIFF, by the ending of the name (`.png`, `.tif`, `.tiff`).
-/// Values are rounded to the nearest grey; those outside [0, 1] are cut to it. The file appears whole or not at all.
+/// Writes a plane as grey PNG or TIFF, by the extension of the name (`.png`, `.tif`, `.tiff`).
+///
+/// Values from 0 to 1 are rounded to the nearest grey; values outside are clamped. The file appears
+/// whole or not at all.
 ///
 /// # Errors
-/// If the name ends otherwise, a pixel is not a finite number, the plane has none, or the file cannot be written.
+/// If the name has another extension, a pixel is not a finite number, the plane has no pixel, or
+/// the file cannot be written.
 pub fn write_grey(path: &Path, plane: &Plane, depth: BitDepth) -> Result<(), ImageError> {
     let unknown = || ImageError::UnknownExtension { name: path.display().to_string() };
     (Format::of_path(path).ok_or_else(unknown)?.write)(path, plane, depth)
 }
 
-/// Writes a plane in [0, 1] as grey PNG; see [`write_grey`].
+/// Writes a plane with values from 0 to 1 as grey PNG; see [`write_grey`].
 ///
 /// # Errors
-/// If a pixel is not a finite number, the plane has none, or the file cannot be written.
+/// If a pixel is not a finite number, the plane has no pixel, or the file cannot be written.
 pub fn write_png(path: &Path, plane: &Plane, depth: BitDepth) -> Result<(), ImageError> {
     let (width, height) = check(path, plane)?;
     let mut bytes = Vec::new();
@@ -45,10 +48,11 @@ pub fn write_png(path: &Path, plane: &Plane, depth: BitDepth) -> Result<(), Imag
     write_whole(path, &bytes)
 }
 
-/// Writes a plane in [0, 1] as uncompressed grey TIFF, which every program reads; see [`write_grey`].
+/// Writes a plane with values from 0 to 1 as uncompressed grey TIFF, which every program reads; see
+/// [`write_grey`].
 ///
 /// # Errors
-/// If a pixel is not a finite number, the plane has none, or the file cannot be written.
+/// If a pixel is not a finite number, the plane has no pixel, or the file cannot be written.
 pub fn write_tiff(path: &Path, plane: &Plane, depth: BitDepth) -> Result<(), ImageError> {
     let (width, height) = check(path, plane)?;
     let mut bytes = Cursor::new(Vec::new());
@@ -60,7 +64,7 @@ pub fn write_tiff(path: &Path, plane: &Plane, depth: BitDepth) -> Result<(), Ima
     write_whole(path, bytes.get_ref())
 }
 
-/// Width and height of a plane that can be written.
+/// Returns the width and the height of a plane, or an error if it cannot be written.
 fn check(path: &Path, plane: &Plane) -> Result<(u32, u32), ImageError> {
     let name = || path.display().to_string();
     let (rows, columns) = plane.dim();

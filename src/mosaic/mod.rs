@@ -1,4 +1,19 @@
 //! The central data type: points, the window in which they were seen, and the scale of that window.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::prelude::*;
+//!
+//! let window = Window::rectangle(0., 0., 100., 50.)?; // px
+//! let points = vec![Point::new(20., 30.), Point::new(60., 10.), Point::new(120., 10.)];
+//! let scale = Scale::new(0.5, 288.)?; // µm per px, µm per degree
+//! let (mosaic, outside) = Mosaic::new(points, window, LengthUnit::Pixel, Some(scale))?;
+//!
+//! assert_eq!((mosaic.len(), outside), (2, 1));
+//! assert_eq!(mosaic.density(), 2. / 5000.); // points per px²
+//! assert_eq!(mosaic.micrometres_per_unit(), Some(0.5));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod io;
 mod normative;

@@ -1,18 +1,28 @@
-/// The lower triangle L of a symmetric matrix L Lᵀ. A row that depends on earlier ones is left out.
+//! Cholesky decomposition of a symmetric matrix into L Lᵀ, for matrices whose rows may be
+//! dependent.
+
+/// Lower triangle L of a symmetric matrix L Lᵀ.
+///
+/// A row that depends on earlier ones is left out.
 pub(crate) struct Cholesky {
+    /// Number of rows and columns.
     n: usize,
+    /// Entries of L, row by row, with zeros above the diagonal.
     lower: Vec<f64>,
+    /// `true` for every row that does not depend on earlier ones.
     own: Vec<bool>,
 }
 
 impl Cholesky {
-    /// Decomposes an n × n matrix, given by row and column. A row depends on earlier ones if of its square no more is
-    /// left than the share `least`, 0–1.
+    /// Decomposes an n × n matrix, given by row and column.
+    ///
+    /// A row counts as dependent on earlier ones if at most the fraction `least`, 0–1, of its
+    /// diagonal entry is left after their parts are subtracted.
     pub(crate) fn new(n: usize, least: f64, matrix: impl Fn(usize, usize) -> f64) -> Self {
         let mut lower = vec![0.; n * n];
         let mut own = vec![true; n];
         for i in 0..n {
-            // slices instead of indices: this loop is what long decompositions spend their time in
+            // slices instead of indices, because long decompositions spend their time in this loop
             let (above, row) = lower.split_at_mut(i * n);
             for j in 0..i {
                 let earlier = &above[j * n..=j * n + j];
@@ -27,12 +37,12 @@ impl Cholesky {
         Self { n, lower, own }
     }
 
-    /// Says that row `k` does not depend on earlier ones.
+    /// Returns whether row `k` does not depend on earlier ones.
     pub(crate) fn is_own(&self, k: usize) -> bool {
         self.own[k]
     }
 
-    /// Says that every row is finite and none depends on others.
+    /// Returns whether the diagonal of every row is finite and no row depends on others.
     pub(crate) fn is_whole(&self) -> bool {
         (0..self.n).all(|k| self.own[k] && self.lower[k * self.n + k].is_finite())
     }

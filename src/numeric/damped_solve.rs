@@ -1,7 +1,9 @@
 use super::cholesky::Cholesky;
 
-/// Solves (A + μ) y = b for a symmetric, not negative A, μ being `damping` times the mean of its diagonal: by Cholesky's
-/// decomposition. `None` if that breaks down.
+/// Solves (A + μ 1) y = b for a symmetric matrix A that is not negative, by Cholesky decomposition.
+///
+/// μ is `damping` times the mean of the diagonal of A. `a` holds A row by row. `None` if the
+/// decomposition breaks down.
 pub(crate) fn solve(a: &[f64], damping: f64, b: &[f64]) -> Option<Vec<f64>> {
     let n = b.len();
     let trace: f64 = (0..n).map(|i| a[i * n + i]).sum();

@@ -1,4 +1,4 @@
-//! Small numerical tools that know nothing of points, cones or images.
+//! Small numerical tools that do not depend on points, cones or images.
 
 mod average;
 mod cholesky;

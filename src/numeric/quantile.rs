@@ -1,21 +1,31 @@
-//! Quantiles by the definitions that are in use, so that each caller names the one it means.
+//! Quantiles by the definitions in use, under separate names so that each caller says which one it
+//! means.
+//!
+//! Hyndman and Fan (1996), <https://doi.org/10.2307/2684934>, number the definitions.
 
-/// Quantile of values in rising order, interpolated linearly between two of them: type 7 of Hyndman & Fan (1996),
-/// doi:10.2307/2684934. `share` is held to 0–1; `None` without values.
+/// Returns the quantile of values in rising order, interpolated linearly between two of them: type
+/// 7 of Hyndman and Fan (1996).
+///
+/// `share` is held to 0–1. `None` without values.
 pub(crate) fn linear_quantile(rising: &[f64], share: f64) -> Option<f64> {
     let place = share.clamp(0., 1.) * rising.len().checked_sub(1)? as f64;
     let (low, high) = (rising.get(place.floor() as usize)?, rising.get(place.ceil() as usize)?);
     Some(low + (high - low) * place.fract())
 }
 
-/// Smallest of values in rising order that a share of them does not exceed: the inverse of their distribution function,
-/// type 1 of Hyndman & Fan (1996). NaN without values.
+/// Returns the smallest value that at least the share `share`, 0–1, of the values does not exceed:
+/// type 1 of Hyndman and Fan (1996).
+///
+/// This is the inverse of the distribution function. `rising` must be in rising order; NaN without
+/// values.
 pub(crate) fn stepped_quantile(rising: &[f64], share: f64) -> f64 {
     let index = (share * rising.len() as f64).ceil() as usize;
     rising.get(index.saturating_sub(1)).copied().unwrap_or(f64::NAN)
 }
 
-/// Value of values in rising order whose rank is nearest to the share, 0–1, of the highest rank; `None` without values.
+/// Returns the value whose rank is nearest to the share, 0–1, of the highest rank.
+///
+/// `rising` must be in rising order; `None` without values.
 pub(crate) fn nearest_rank(rising: &[f64], share: f64) -> Option<f64> {
     let highest = rising.len().checked_sub(1)?;
     rising.get((highest as f64 * share).round() as usize).copied()

@@ -1,6 +1,10 @@
+//! Inverse, eigenvalues and eigenvectors of 3 × 3 matrices.
+
 use std::f64::consts::TAU;
 
-/// Returns the inverse of a 3 × 3 matrix by its cofactors; `None` if the determinant is below 1e−14 in size: entries near 1 are meant.
+/// Returns the inverse of a 3 × 3 matrix by its cofactors.
+///
+/// `None` if the absolute value of the determinant is below 1e−14, which suits entries near 1.
 pub(crate) fn inverted(m: [[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
     let cofactor = |i: usize, j: usize| {
         let (r, s, u, v) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
@@ -11,8 +15,9 @@ pub(crate) fn inverted(m: [[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
     ok.then(|| std::array::from_fn(|i| std::array::from_fn(|j| cofactor(j, i) / determinant)))
 }
 
-/// Returns the eigenvalues of a 3 × 3 matrix whose eigenvalues are real: the roots of its characteristic polynomial, by
-/// Viète's cosines.
+/// Returns the eigenvalues of a 3 × 3 matrix whose eigenvalues are real.
+///
+/// They are the roots of its characteristic polynomial, by Viète's trigonometric solution.
 pub(crate) fn eigenvalues(m: [[f64; 3]; 3]) -> [f64; 3] {
     let trace = m[0][0] + m[1][1] + m[2][2];
     let minors = m[0][0] * m[1][1] - m[0][1] * m[1][0] + m[0][0] * m[2][2] - m[0][2] * m[2][0]
@@ -21,7 +26,7 @@ pub(crate) fn eigenvalues(m: [[f64; 3]; 3]) -> [f64; 3] {
     let determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
         - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
         + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-    // λ = trace/3 + u, u³ − 3 p u − 2 q = 0
+    // with λ = trace/3 + u, the characteristic polynomial becomes u³ − 3 p u − 2 q = 0
     let shift = trace / 3.;
     let p = (shift * shift - minors / 3.).max(0.);
     let q = (determinant - minors * shift) / 2. + shift * shift * shift;
@@ -31,7 +36,10 @@ pub(crate) fn eigenvalues(m: [[f64; 3]; 3]) -> [f64; 3] {
     [0., 1., 2.].map(|k| shift + 2. * root * (angle + k * TAU / 3.).cos())
 }
 
-/// Returns the direction that `m − value` takes to zero, at right angles to its rows; `None` if every direction is one.
+/// Returns the unit vector that `m − value` maps to zero: the direction at right angles to its
+/// rows.
+///
+/// `None` if that direction is not unique.
 pub(crate) fn eigenvector(mut m: [[f64; 3]; 3], value: f64) -> Option<[f64; 3]> {
     (0..3).for_each(|k| m[k][k] -= value);
     let product = |a: [f64; 3], b: [f64; 3]| {

@@ -1,3 +1,9 @@
+//! Confocal images: cones and rods as spots of light that interfere in part.
+//!
+//! 1. Each cone or rod sends its light through the point-spread function, with a random phase.
+//! 2. Intensities add up, and so do amplitudes; the signal mixes both by the degree of coherence.
+//! 3. Haze, which is no cone, is added.
+
 use super::field::{normal, smooth, texture};
 use super::psf::{AIRY_CUT, airy_amplitude};
 use super::rods::Rod;
@@ -9,20 +15,23 @@ use rand::{Rng, RngExt};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Part of the light of neighbouring cones that interferes; the rest adds up.
+/// Fraction of the light of neighbouring cones that interferes; intensities of the rest add up.
 const COHERENCE: f64 = 0.35;
-/// Full width at half maximum of a Gaussian over its standard deviation.
+/// Full width at half maximum of a Gaussian divided by its standard deviation.
 const WIDTH_PER_SIGMA: f64 = 2.354_820_045;
-/// Where a spot is cut off, in standard deviations of its intensity.
+/// Distance at which a spot is cut off, in standard deviations of its intensity.
 const CUT: f64 = 4.;
-/// Width of a rod's spot, in distances of the rods.
+/// Width of a rod's spot, relative to the distance of the rods.
 const ROD: f64 = 0.6;
-/// Width of the small peaks of a multimodal cone, and how far they lie from its centre, in widths of its spot.
+/// Width of the small peaks of a multimodal cone, in widths of its spot.
 const PEAK: f64 = 0.45;
+/// Distance of these peaks from the cone's centre, in widths of its spot, before a random factor.
 const PEAK_OFFSET: f64 = 0.4;
 
-/// Cones and rods as waveguides that send light back through a point-spread function: spots whose centre is the cone and whose
-/// mean height is 1. Light of neighbours interferes in part, with random phases, which joins or parts their spots.
+/// Draws cones and rods as waveguides that send light back through a point-spread function.
+///
+/// The spots are centred on the cones and have a mean height of 1. Light of neighbours interferes
+/// in part, with random phases, which joins or separates their spots.
 pub(super) fn signal(
     points: &[Point],
     cells: &CellSizes,
@@ -56,7 +65,7 @@ pub(super) fn signal(
     intensity
 }
 
-/// Light of many spots: its summed intensity, and its summed amplitude.
+/// Light of many spots, as summed intensity and as summed complex amplitude.
 struct Light {
     psf: PointSpread,
     intensity: Plane,
@@ -70,7 +79,7 @@ impl Light {
         Self { psf: options.psf, intensity: plane(), real: plane(), imaginary: plane() }
     }
 
-    /// A spot of the given full width at half maximum, px, and intensity.
+    /// Adds a spot of this full width at half maximum, in px, and this peak intensity.
     fn add_spot(&mut self, p: Point, width: f64, peak: f64, phase: f64) {
         let (sin, cos) = phase.sin_cos();
         let amplitude = peak.sqrt();
@@ -91,7 +100,8 @@ impl Light {
         match self.psf {
             PointSpread::Gaussian => {
                 let sigma = width / WIDTH_PER_SIGMA;
-                // The amplitude of a spot is the square root of its intensity: twice its variance.
+                // The amplitude of a spot is the square root of its intensity, so its variance is
+                // twice as large.
                 let profile = |range: Range<usize>, centre: f64| -> Vec<f64> {
                     range.map(|i| (-((i as f64 - centre) / sigma).powi(2) / 4.).exp()).collect()
                 };
@@ -113,7 +123,7 @@ impl Light {
         }
     }
 
-    /// Two to four peaks within a cone, as wide cones guide several modes.
+    /// Adds two to four peaks within a cone, as wide cones guide several modes.
     fn add_peaks(&mut self, p: Point, width: f64, peak: f64, rng: &mut dyn Rng) {
         let count = rng.random_range(2..=4);
         let turn = rng.random_range(0. ..TAU);
@@ -126,7 +136,7 @@ impl Light {
         }
     }
 
-    /// What a detector sees of it.
+    /// Returns the intensity that a detector sees, partly from summed amplitudes.
     fn seen(mut self) -> Plane {
         let coherence = COHERENCE as f32;
         let (real, imaginary) = (&self.real, &self.imaginary);
@@ -137,7 +147,9 @@ impl Light {
     }
 }
 
-/// Pixels of a side within `reach` of `centre`; `None` if there are none.
+/// Returns the pixels of an axis within `reach` of `centre`, or `None` if there are none.
+///
+/// `side` is the number of pixels of the axis.
 pub(super) fn span(centre: f64, reach: f64, side: usize) -> Option<Range<usize>> {
     let first = (centre - reach).ceil().max(0.);
     let last = (centre + reach).floor().min(side as f64 - 1.);

@@ -1,16 +1,24 @@
+//! Density of a simulated mosaic from place to place, and patterns bent to have it.
+//!
+//! All distortions go through cumulative densities: a place moves to where the integral of the
+//! wanted density equals that of the pattern.
+
 use super::{GradientShape, MosaicOptions};
 use crate::geometry::Point;
 use rand::{Rng, RngExt};
 use std::f64::consts::{PI, TAU};
 
-/// Area of a cell, in squared spacings.
+/// Area of a cell, in squared spacings: √3/2.
 const CELL: f64 = 0.866_025_403_784_438_6;
-/// Samples of a cumulative density.
+/// Number of samples of a cumulative density.
 const SAMPLES: usize = 2048;
-/// Angle between one point of Vogel's (1979) spiral and the next: the circle divided by the golden ratio.
+/// Angle between one point of Vogel's spiral and the next, in radians: 2π divided by the square of
+/// the golden ratio.
+///
+/// Source: Vogel (1979), <https://doi.org/10.1016/0025-5564(79)90080-4>.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
-/// An upright rectangle, px.
+/// Upright rectangle, in px.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rectangle {
     pub(super) x0: f64,
@@ -19,11 +27,14 @@ pub(super) struct Rectangle {
     pub(super) y1: f64,
 }
 
-/// How dense a mosaic is where. Places are those of the isotropic frame: the image, with its pixels stretched until the
-/// mosaic has the same spacing along x and y.
+/// Density of a mosaic from place to place.
+///
+/// Places are those of the isotropic frame: the image, with its pixels stretched until the mosaic
+/// has the same spacing along x and y.
 pub(super) struct Density {
-    /// Sides of that frame.
+    /// Width of the isotropic frame, in px.
     pub(super) width: f64,
+    /// Height of the isotropic frame, in px.
     pub(super) height: f64,
     /// Factor from x of the image to x of the frame; y is divided by it.
     stretch: f64,
@@ -45,7 +56,9 @@ impl Density {
         }
     }
 
-    /// From the isotropic frame to the image. Both have pixel (0, 0) half a pixel from their corner.
+    /// Takes a point from the isotropic frame to the image.
+    ///
+    /// In both, the centre of pixel (0, 0) is half a pixel from the corner.
     pub(super) fn stretched(&self, p: Point) -> Point {
         if self.stretch == 1. {
             return p;
@@ -53,7 +66,7 @@ impl Density {
         Point::new((p.x + 0.5) / self.stretch - 0.5, (p.y + 0.5) * self.stretch - 0.5)
     }
 
-    /// Local hexagonal spacing, px.
+    /// Returns the local hexagonal spacing, in px.
     pub(super) fn spacing_at(&self, p: Point) -> f64 {
         match self.shape {
             GradientShape::Linear => self.spacing / self.relative_density(p.x).sqrt(),
@@ -61,7 +74,7 @@ impl Density {
         }
     }
 
-    /// Widest spacing of the image.
+    /// Returns the widest spacing in the image, in px.
     pub(super) fn widest(&self) -> f64 {
         match self.shape {
             GradientShape::Linear => {
@@ -72,7 +85,9 @@ impl Density {
         }
     }
 
-    /// Of a linear gradient, the density at x relative to the mean of the image; beyond the image, that of its edge.
+    /// Returns the density of a linear gradient at x, relative to the mean of the image.
+    ///
+    /// Beyond the image it is that of the image's edge.
     fn relative_density(&self, x: f64) -> f64 {
         let log = self.gradient.ln();
         let t = ((x + 0.5) / self.width).clamp(0., 1.);
@@ -85,15 +100,18 @@ impl Density {
         Point::new(0.5 * self.width - 0.5, 0.5 * self.height - 0.5)
     }
 
-    /// Of a radial gradient, the spacing at a distance from the middle.
+    /// Returns the spacing of a radial gradient at a distance from the middle.
     fn spacing_at_radius(&self, radius: f64) -> f64 {
         let reach = 0.5 * self.width.max(self.height);
         self.spacing * (1. + (self.gradient.sqrt() - 1.) * (radius / reach).min(1.))
     }
 
-    /// Points of this density over a rectangle, each cell with its share. A linear gradient bends a low-discrepancy
-    /// sequence (Roberts 2018, the plane's analogue of the golden ratio) from a random start; a radial one
-    /// spaces Vogel's spiral.
+    /// Spreads points of this density evenly over a rectangle, so that each cell has its share.
+    ///
+    /// For a linear gradient, a low-discrepancy sequence with a random start is bent (Roberts 2018,
+    /// <https://extremelearning.com.au/unreasonable-effectiveness-of-quasirandom-sequences/>, the
+    /// analogue of the golden ratio in the plane). For a radial gradient, Vogel's spiral is spaced by
+    /// the density.
     pub(super) fn evenly_spread(&self, bounds: &Rectangle, rng: &mut dyn Rng) -> Vec<Point> {
         const RATIO: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
         let start: [f64; 2] = [rng.random(), rng.random()];
@@ -128,12 +146,13 @@ impl Density {
         }
     }
 
-    /// Number of cones within a distance of the middle.
+    /// Returns the cumulative number of cones by distance from the middle.
     fn within_radius(&self, farthest: f64) -> Cumulative {
         Cumulative::new(farthest, |r| TAU * r / (CELL * self.spacing_at_radius(r).powi(2)))
     }
 
-    /// The rectangle that a pattern of uniform density must fill to become this one, and with how many points.
+    /// Returns the rectangle that a pattern of uniform density must fill to become this mosaic, and
+    /// its number of points.
     pub(super) fn flat(&self) -> (Rectangle, usize) {
         let cell = CELL * self.spacing * self.spacing;
         match self.shape {
@@ -142,7 +161,7 @@ impl Density {
                 (Rectangle { x0: -0.5, y0: -0.5, x1, y1 }, (self.width * self.height / cell).round() as usize)
             }
             GradientShape::Radial => {
-                // a square around a disc that is as dense as the middle everywhere
+                // a square around the disc that holds the same cones at the density of the middle
                 let half = (cell * self.within_radius(self.corner()).total() / PI).sqrt();
                 let square = Rectangle { x0: -half, y0: -half, x1: half, y1: half };
                 (square, (4. * half * half / cell).round() as usize)
@@ -154,7 +173,8 @@ impl Density {
         0.5 * self.width.hypot(self.height)
     }
 
-    /// Where the points of the uniform pattern go, without those that leave the frame.
+    /// Moves the points of a uniform pattern to their places in the mosaic; those that leave the
+    /// frame are dropped.
     pub(super) fn bent(&self, points: &[Point]) -> Vec<Point> {
         match self.shape {
             GradientShape::Linear if self.gradient == 1. => points.to_vec(),
@@ -179,7 +199,7 @@ impl Density {
     }
 }
 
-/// The integral of a density from 0, in equal steps.
+/// Integral of a density from 0, sampled in equal steps.
 struct Cumulative {
     length: f64,
     sums: Vec<f64>,
@@ -199,7 +219,7 @@ impl Cumulative {
         self.sums[SAMPLES]
     }
 
-    /// Where the integral reaches `sum`.
+    /// Returns the place where the integral reaches `sum`.
     fn place(&self, sum: f64) -> f64 {
         let i = self.sums.partition_point(|&c| c <= sum).clamp(1, SAMPLES) - 1;
         let within = (sum - self.sums[i]) / (self.sums[i + 1] - self.sums[i]);

@@ -1,7 +1,7 @@
 use crate::geometry::WindowError;
 use thiserror::Error;
 
-/// A picture that cannot be made.
+/// Reason why an image cannot be made.
 #[derive(Debug, Error, PartialEq)]
 pub enum RenderError {
     /// An option lies outside its range.
@@ -9,47 +9,47 @@ pub enum RenderError {
     OutOfRange {
         /// Name of the field.
         option: &'static str,
-        /// What it was.
+        /// Value that the field had.
         value: f64,
-        /// Smallest value allowed.
+        /// Smallest value that is allowed.
         low: f64,
-        /// Largest value allowed.
+        /// Largest value that is allowed.
         high: f64,
-        /// Unit of all three.
+        /// Unit of all three values.
         unit: &'static str,
     },
-    /// More pixels than a picture may have.
+    /// The image would have more pixels than are allowed.
     #[error("{width} × {height} px is too large: at most {limit} pixels; make width or height smaller")]
     TooLarge {
-        /// Width in px.
+        /// Width of the image, in px.
         width: usize,
-        /// Height in px.
+        /// Height of the image, in px.
         height: usize,
-        /// Most pixels allowed.
+        /// Largest number of pixels allowed.
         limit: usize,
     },
     /// A coordinate is infinite or not a number.
     #[error("point {index} is ({x}, {y}): coordinates must be finite numbers")]
     NotFinite {
-        /// 0-based index of the point.
+        /// Index of the point, from 0.
         index: usize,
-        /// Its x.
+        /// Value of its x coordinate.
         x: f64,
-        /// Its y.
+        /// Value of its y coordinate.
         y: f64,
     },
     /// The nearest neighbours of the points could not be found.
     #[error("the neighbours of {points} points could not be found: {reason}")]
     Neighbours {
-        /// Number of points.
+        /// Number of points given.
         points: usize,
-        /// What the spatial index says.
+        /// Message of the spatial index.
         reason: String,
     },
     /// The image has no area.
     #[error(transparent)]
     Window(#[from] WindowError),
-    /// Too few points to tell how large a cone is.
+    /// There are too few points to tell how large a cone is.
     #[error(
         "the size of a cone follows from its neighbours, and {found} points are too few: give at least 4, or the spacing"
     )]
@@ -59,7 +59,7 @@ pub enum RenderError {
     },
 }
 
-/// Refuses what is outside [low, high] or not a number.
+/// Refuses a value that is outside [low, high] or not a number.
 pub(super) fn check(
     option: &'static str,
     value: f64,

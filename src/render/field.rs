@@ -1,22 +1,27 @@
+//! Random fields for simulated images: slow fields for uneven light, textures for grain.
+
 use crate::image::Plane;
 use ndarray::Array2;
 use rand::Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-/// Standard normal deviate.
+/// Draws a standard normal deviate.
 pub(super) fn normal(rng: &mut dyn Rng) -> f64 {
     StandardNormal.sample(rng)
 }
 
-/// A smooth Gaussian random field of mean 0 and variance 1, as cubic B-splines over random knots: its cost does not
-/// grow with its correlation length.
+/// Smooth Gaussian random field of mean 0 and variance 1.
+///
+/// It is a sum of cubic B-splines over random knots, so its cost does not grow with its correlation
+/// length.
 pub(super) struct SlowField {
     knots: Array2<f64>,
     cell: f64,
 }
 
 impl SlowField {
-    /// Over an image of `width` × `height` px, with knots every `cell` px (at least 1).
+    /// Creates a field over an image of `width` × `height` px, with knots every `cell` px (at least
+    /// 1).
     pub(super) fn new(width: usize, height: usize, cell: f64, rng: &mut dyn Rng) -> Self {
         let cell = cell.max(1.);
         let knots = |side: usize| (side as f64 / cell).ceil() as usize + 4;
@@ -25,13 +30,13 @@ impl SlowField {
         Self { knots: values, cell }
     }
 
-    /// The field at (x, y) px; beyond the image, that of its border.
+    /// Returns the field at (x, y), in px; beyond the image it is that of the border.
     pub(super) fn at(&self, x: f64, y: f64) -> f64 {
         let (rows, columns) = self.knots.dim();
         self.sum(&Knots::around(x / self.cell, columns), &Knots::around(y / self.cell, rows))
     }
 
-    /// The field at every pixel of an image of `width` × `height` px.
+    /// Returns the field at every pixel of an image of `width` × `height` px.
     pub(super) fn plane(&self, width: usize, height: usize) -> Plane {
         let (rows, columns) = self.knots.dim();
         let across: Vec<Knots> = (0..width).map(|x| Knots::around(x as f64 / self.cell, columns)).collect();
@@ -52,25 +57,26 @@ impl SlowField {
     }
 }
 
-/// The four knots that a place depends on, along one axis.
+/// The four knots that determine the field at a place along one axis, with their weights.
 struct Knots {
     first: usize,
     weights: [f64; 4],
 }
 
 impl Knots {
-    /// Around place `at`, in cells, of an axis with `knots` knots.
+    /// Returns the knots around place `at`, in cells, of an axis with `knots` knots.
     fn around(at: f64, knots: usize) -> Self {
         let at = at.clamp(0., (knots - 4) as f64);
         let mut weights = cubic_b_spline(at.fract());
-        // Between knots the variance of a sum of splines sinks: dividing by it makes the field equally strong everywhere.
+        // Between knots the variance of a sum of splines drops. Dividing by its root makes the
+        // field equally strong everywhere.
         let deviation = weights.iter().map(|w| w * w).sum::<f64>().sqrt();
         weights.iter_mut().for_each(|w| *w /= deviation);
         Self { first: at as usize, weights }
     }
 }
 
-/// Weights of the four knots around a place, at fraction `t` of the cell.
+/// Returns the weights of the four knots around a place at fraction `t` of the cell.
 fn cubic_b_spline(t: f64) -> [f64; 4] {
     let u = 1. - t;
     [
@@ -81,7 +87,8 @@ fn cubic_b_spline(t: f64) -> [f64; 4] {
     ]
 }
 
-/// White noise of variance 1 smoothed by a Gaussian of standard deviation `sigma` px, and brought back to variance 1.
+/// Makes white noise smoothed by a Gaussian of standard deviation `sigma` px, scaled back to
+/// variance 1.
 pub(super) fn texture(width: usize, height: usize, sigma: f64, rng: &mut dyn Rng) -> Plane {
     let mut plane = Plane::zeros((height, width));
     plane.iter_mut().for_each(|v| *v = normal(rng) as f32);
@@ -91,21 +98,23 @@ pub(super) fn texture(width: usize, height: usize, sigma: f64, rng: &mut dyn Rng
     plane
 }
 
-/// What `smooth` leaves of the standard deviation of white noise.
+/// Returns the factor by which [`smooth`] reduces the standard deviation of white noise.
 pub(super) fn smoothed_deviation(sigma: f64) -> f64 {
     gaussian(sigma).iter().map(|&w| f64::from(w).powi(2)).sum()
 }
 
-/// Convolution with a Gaussian of standard deviation `sigma` px, the border mirrored.
+/// Convolves with a Gaussian of standard deviation `sigma` px; the image is mirrored at its border.
 pub(super) fn smooth(plane: &Plane, sigma: f64) -> Plane {
-    // narrower than this it does not reach the next pixel
+    // A narrower Gaussian does not reach the next pixel.
     if sigma < NARROWEST { plane.clone() } else { crate::image::gaussian(plane, sigma) }
 }
 
 /// Standard deviation, in px, below which a Gaussian stays within a pixel.
 const NARROWEST: f64 = 0.15;
 
-/// Samples of a Gaussian with sum 1, from −⌈4σ⌉ to ⌈4σ⌉; just [1] where σ is too small to reach the next pixel.
+/// Returns samples of a Gaussian with sum 1, from −⌈4σ⌉ to ⌈4σ⌉.
+///
+/// Where σ is too small to reach the next pixel, the only sample is 1.
 fn gaussian(sigma: f64) -> Vec<f32> {
     if sigma < NARROWEST {
         return vec![1.];

@@ -1,3 +1,6 @@
+//! Histological images: inner segments cut across, as discs with a dark outline on a grained
+//! ground.
+
 use super::RenderOptions;
 use super::confocal::span;
 use super::field::{normal, texture};
@@ -9,14 +12,17 @@ use rand::Rng;
 
 /// Width of the soft edge of a disc, in spacings.
 const EDGE: f64 = 0.1;
-/// Distance of the outline from the edge, and its standard deviation, in spacings.
+/// Distance of the outline from the edge of a disc, and its standard deviation, in spacings.
 const OUTLINE: f64 = 0.07;
-/// The same for a rod, in distances of the rods, and its diameter.
+/// Diameter of a rod's disc, relative to the distance of the rods.
 const ROD: f64 = 0.7;
-/// Standard deviation of the height at which a cell is cut, in half axes, where the section lies above the equator.
+/// Standard deviation of the height at which a cell is cut, relative to the height of the section.
+///
+/// Heights are in half axes above the widest place of the inner segments.
 const UNEVEN_SECTION: f64 = 0.25;
 
-/// How large a section leaves each cell, relative to its widest place; 0 for those it misses.
+/// Returns the size of each cell in the section, relative to its widest place; 0 for cells that the
+/// section misses.
 pub(super) fn section(count: usize, options: &RenderOptions, rng: &mut dyn Rng) -> Vec<f64> {
     if options.section == 0. {
         return vec![1.; count];
@@ -28,8 +34,10 @@ pub(super) fn section(count: usize, options: &RenderOptions, rng: &mut dyn Rng) 
     (0..count).map(|_| cut()).collect()
 }
 
-/// Inner segments cut across: discs of about height 1 with a dark outline, not quite round, not quite even, and never
-/// overlapping, on a grained ground.
+/// Draws inner segments cut across: discs of about height 1 with a dark outline on a grained
+/// ground.
+///
+/// The discs are not quite round or even, and never overlap.
 pub(super) fn signal(
     points: &[Point],
     cells: &CellSizes,
@@ -46,7 +54,7 @@ pub(super) fn signal(
         let spacing = cells.spacing[i];
         let scatter = (1. + cv * normal(rng)).clamp((1. - 4. * cv).max(0.3), 1. + 4. * cv);
         let radius = (0.5 * options.diameter * spacing * scatter).min(0.5 * cells.nearest[i]).max(0.2);
-        // Amplitudes, along x and y, of the second and third harmonic of the outline.
+        // Amplitudes of the second and third harmonic of the outline, each along x and y.
         let oval = [0.035 * normal(rng), 0.035 * normal(rng)];
         let lobes = [0.02 * normal(rng), 0.02 * normal(rng)];
         if peak > 0. && sizes[i] > 0. {
@@ -94,22 +102,26 @@ pub(super) fn signal(
     discs
 }
 
-/// A cell cut across, px.
+/// Cell that is cut across; lengths are in px.
 struct Disc {
     centre: Point,
     radius: f64,
-    /// Unit of edge and outline.
+    /// Length that the widths of edge and outline are multiples of.
     scale: f64,
+    /// Height at the centre over the ground.
     peak: f64,
+    /// Amplitudes of the second harmonic of the outline, along x and y.
     oval: [f64; 2],
+    /// Amplitudes of the third harmonic of the outline, along x and y.
     lobes: [f64; 2],
 }
 
+/// Planes on which cells are drawn.
 struct Section {
     discs: Plane,
     outlines: Plane,
     inside: Plane,
-    /// Change of height over one radius to the right and downwards.
+    /// Change of height over one radius, to the right and downwards.
     shading: [f64; 2],
 }
 
@@ -147,7 +159,8 @@ impl Section {
                 let disc = (peak * shade * inside) as f32;
                 let outline = (-0.5 * ((beyond - OUTLINE) / OUTLINE).powi(2)).exp() as f32;
                 let pixel = [y, x];
-                // the dark side of strong shading falls below the ground; what the rim only touches stays
+                // The dark side of strong shading falls below the ground and is drawn too. A pixel
+                // that only the outline touches keeps its value.
                 let drawn = &mut self.discs[pixel];
                 if disc != 0. {
                     *drawn = if *drawn == 0. { disc } else { disc.max(*drawn) };

@@ -1,11 +1,13 @@
-//! A mosaic becomes a simulated retinal image with known truth.
+//! Simulated retinal images with known places of the cones.
 //!
-//! [`cone_mosaic`] makes places for cones, [`render`] takes a picture of places from anywhere, [`simulate`]
-//! does both. What is simulated is what decides whether a detector works: the size of a cone relative to its
-//! neighbours' distance, scatter of brightness, dim cones, structure that is not a cone, uneven illumination,
-//! blur and noise. Sizes follow the local spacing, so a density gradient looks like one.
+//! [`cone_mosaic`] makes places for cones, [`render`] makes an image of places from anywhere, and
+//! [`simulate`] does both. The simulation covers what decides whether a detector works: the size of
+//! a cone relative to the distance of its neighbours, scatter of brightness, dim cones, structure
+//! that is not a cone, uneven illumination, blur and noise. Sizes follow the local spacing, so a
+//! density gradient looks like one.
 //!
-//! Simulated cones with known places, to judge detectors, follow Mariotti & Devaney (2015).
+//! Judging detectors by simulated cones with known places follows Mariotti and Devaney (2015),
+//! <https://doi.org/10.1364/JOSAA.32.000497>.
 
 mod confocal;
 mod density;
@@ -38,19 +40,21 @@ use montage::Montage;
 use rand::Rng;
 use spacing::CellSizes;
 
-/// A simulated image and the cones in it.
+/// Simulated image with the cones in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Simulation {
-    /// Grey values in [0, 1].
+    /// Image with grey values in [0, 1].
     pub image: Plane,
-    /// The cones whose centre lies on a pixel that was imaged, in px, whether or not they can be seen.
+    /// Cones whose centre lies on a pixel that was imaged, in px, whether or not they can be seen.
     pub cones: Vec<Point>,
-    /// For each of them, how well it can be seen.
+    /// Visibility of each of the `cones`, in the same order.
     pub visibility: Vec<Visibility>,
 }
 
-/// A mosaic made by [`cone_mosaic`], and its picture. Cones beyond the border shine into the picture, as they do in a
-/// real one, but are not among those returned. The size is that of `image`; that of `mosaic` is not used.
+/// Makes a mosaic by [`cone_mosaic`] and an image of it.
+///
+/// Cones beyond the border shine into the image, as they do in a real one, but are not among those
+/// returned. The size of the image is that of `image`; that of `mosaic` is not used.
 ///
 /// # Errors
 /// If an option is out of its range.
@@ -61,7 +65,8 @@ pub struct Simulation {
 /// use conemosaic::render::{MosaicOptions, RenderOptions, simulate};
 /// use rand::SeedableRng;
 ///
-/// let image = RenderOptions { width: 96, height: 64, noise: 0.02, ..RenderOptions::new(Modality::Confocal) };
+/// let confocal = RenderOptions::new(Modality::Confocal);
+/// let image = RenderOptions { width: 96, height: 64, noise: 0.02, ..confocal };
 /// let mosaic = MosaicOptions { spacing: 8., ..MosaicOptions::default() };
 /// let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
 /// let simulation = simulate(&mosaic, &image, &mut rng)?;
@@ -83,15 +88,20 @@ pub fn simulate(
     picture(&around, image, rng)
 }
 
-/// The picture of cones at `points` (px, pixel (0, 0) is the centre of the top-left pixel), in [0, 1].
+/// Draws the image of cones at `points`, with grey values in [0, 1].
 ///
-/// Steps: the size of each cone from its neighbours → its height → the signal of the modality → contrast and brightness →
-/// uneven illumination and vessels → blur → noise → montage → cut to [0, 1]. Points beyond the border are welcome: what they shine
-/// into the picture is drawn.
+/// Coordinates are in px; (0, 0) is the centre of the top-left pixel. Points beyond the border are
+/// welcome: the light that they cast into the image is drawn.
+///
+/// 1. The size of each cone follows from its neighbours, and its height is drawn.
+/// 2. The modality turns cones, and rods between them, into a signal.
+/// 3. Contrast, brightness, uneven illumination, vessels and blur are applied.
+/// 4. Noise is added, and values are cut to [0, 1].
+/// 5. A montage of tiles is made, if asked for.
 ///
 /// # Errors
-/// If an option is out of its range, a coordinate is not finite, or there are fewer than four points and the
-/// options name no spacing.
+/// If an option is out of its range, a coordinate is not finite, or there are fewer than four
+/// points and the options name no spacing.
 ///
 /// # Examples
 /// ```
@@ -99,7 +109,8 @@ pub fn simulate(
 /// use conemosaic::render::{RenderOptions, render};
 /// use rand::SeedableRng;
 ///
-/// let options = RenderOptions { width: 32, height: 32, spacing: Some(10.), noise: 0., ..Default::default() };
+/// let size = RenderOptions { width: 32, height: 32, ..Default::default() };
+/// let options = RenderOptions { spacing: Some(10.), noise: 0., ..size };
 /// let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
 /// let image = render(&[Point::new(20., 8.)], &options, &mut rng)?;
 /// assert!(image[[8, 20]] > image[[24, 8]]);
@@ -109,10 +120,11 @@ pub fn render(points: &[Point], options: &RenderOptions, rng: &mut dyn Rng) -> R
     Ok(picture(points, options, rng)?.image)
 }
 
-/// As [`render`], with those of the points that lie on an imaged pixel, and how well each can be seen.
+/// Draws the image of [`render`] and returns it with the points on imaged pixels and their
+/// visibility.
 ///
 /// # Errors
-/// As [`render`].
+/// Those of [`render`].
 pub fn picture(
     points: &[Point],
     options: &RenderOptions,
@@ -157,7 +169,8 @@ pub fn picture(
     Ok(Simulation { image, cones, visibility })
 }
 
-/// The signal as grey values, unevenly lit, behind vessels, blurred, and turned round where the polarity is negative.
+/// Turns the signal into grey values: unevenly lit, behind vessels, blurred, and inverted where the
+/// polarity is negative.
 fn expose(
     mut signal: Plane,
     vessels: Option<&Plane>,
@@ -182,13 +195,16 @@ fn expose(
     image
 }
 
-/// Multiplies by 1 + drift: half its variance spans the picture (vignetting, tilt), half a few cones (vessels and
-/// the layers above).
+/// Multiplies the image by 1 + drift.
+///
+/// Half the variance of the drift spans the image (vignetting, tilt), and half spans a few cones
+/// (vessels and the layers above).
 fn illuminate(image: &mut Plane, options: &RenderOptions, spacing: f64, rng: &mut dyn Rng) {
     let (height, width) = image.dim();
     let mut field = |cell| SlowField::new(width, height, cell, rng).plane(width, height);
     let (wide, near) = (field(0.5 * width.max(height) as f64), field(1.5 * spacing));
     let half = (options.drift * 0.5f64.sqrt()) as f32;
-    // A bright field never turns dark side up, however large a drift is asked for.
+    // The factor stays above 0, as a bright field never turns dark, however large a drift is asked
+    // for.
     ndarray::Zip::from(image).and(&wide).and(&near).for_each(|v, w, n| *v *= (1. + half * (w + n)).max(0.1));
 }

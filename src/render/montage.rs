@@ -1,28 +1,30 @@
+//! Montages: an image seen through overlapping tiles, each turned and of its own brightness.
+
 use super::RenderOptions;
 use super::field::normal;
 use crate::image::{Plane, fill_rows};
 use rand::{Rng, RngExt};
 
-/// Side of a tile over the pitch of the tiles.
+/// Side of a tile, relative to the pitch of the tiles.
 const OVERLAP: f64 = 1.3;
-/// How far a tile strays from its place, standard deviation in pitches.
+/// Standard deviation of a tile's distance from its place along each axis, in pitches.
 const STRAY: f64 = 0.06;
-/// Largest turn of a tile, radians.
+/// Largest turn of a tile, in radians: 5°.
 const TURN: f64 = 0.087;
 /// Standard deviation of the logarithm of a tile's brightness.
 const GAIN: f64 = 0.08;
-/// How often a place at the border of the montage has no tile.
+/// Probability that a place at the border of the montage has no tile, where one may be missing.
 const GAPS: f64 = 0.3;
-/// What was imaged is never quite black, so that black means not imaged: one grey of an 8-bit file.
+/// Darkest value of an imaged pixel: one grey of an 8-bit file, so that black means not imaged.
 const DARKEST: f32 = 1. / 255.;
 
-/// An overlapping frame of a montage.
+/// One of the overlapping frames of a montage.
 struct Tile {
     x: f64,
     y: f64,
     cos: f64,
     sin: f64,
-    /// Half of its side, px.
+    /// Half of its side, in px.
     half: f64,
     gain: f32,
 }
@@ -35,24 +37,26 @@ impl Tile {
     }
 }
 
-/// The tiles of a montage, the uppermost last.
+/// Tiles of a montage on a grid of places, the uppermost last.
 pub(super) struct Montage {
     tiles: Vec<Tile>,
-    /// Centre of the first place of the grid, and the distance of places, px.
+    /// Centre of the first place of the grid along x, in px.
     x0: f64,
+    /// Centre of the first place of the grid along y, in px.
     y0: f64,
+    /// Distance of the places, in px.
     pitch: f64,
     columns: usize,
     rows: usize,
-    /// For every place of the grid its tile.
+    /// Index of the tile at each place of the grid, row by row.
     at: Vec<Option<usize>>,
 }
 
 impl Montage {
-    /// Tiles on a grid that fills the image, some of the outermost left out.
+    /// Lays tiles on a grid that fills the image, with some of the outermost left out.
     pub(super) fn new(options: &RenderOptions, rng: &mut dyn Rng) -> Self {
         let (w, h) = (options.width as f64, options.height as f64);
-        // the outermost tiles stand back from the border by what they overlap and stray
+        // The outermost tiles keep a distance from the border: what they overlap and stray.
         let pitch = w.max(h) / (options.montage as f64 + OVERLAP - 1.);
         let count = |side: f64| ((side / pitch - OVERLAP + 1.).round() as usize).max(1);
         let (columns, rows) = (count(w), count(h));
@@ -64,7 +68,7 @@ impl Montage {
             let (i, j) = (k % columns, k / columns);
             let outermost = |i: usize, count: usize| count > 2 && (i == 0 || i + 1 == count);
             let (across, down) = (outermost(i, columns), outermost(j, rows));
-            // every other place of a side stays, so that the montage holds together
+            // Every other place of a side keeps its tile, so that the montage holds together.
             let may_miss = (across && (down || j % 2 == 1)) || (down && i % 2 == 1);
             let missing = rng.random::<f64>() < GAPS;
             let (stray_x, stray_y) = (STRAY * normal(rng), STRAY * normal(rng));
@@ -80,9 +84,9 @@ impl Montage {
         Self { tiles, x0, y0, pitch, columns, rows, at }
     }
 
-    /// The uppermost tile at a place.
+    /// Returns the uppermost tile at a place, or `None` if none covers it.
     fn tile(&self, x: f64, y: f64) -> Option<&Tile> {
-        // tiles within two places of the grid can reach here
+        // Only tiles within two places of the grid can reach here.
         let near = |v: f64, from: f64, count: usize| {
             let place = (v - from) / self.pitch;
             let low = (place - 2.).floor().clamp(0., count as f64) as usize;
@@ -97,12 +101,12 @@ impl Montage {
             .find(|tile| tile.covers(x, y))
     }
 
-    /// Whether anything was imaged at a place, px.
+    /// Returns whether anything was imaged at a place, in px.
     pub(super) fn covers(&self, x: f64, y: f64) -> bool {
         self.tile(x.round(), y.round()).is_some()
     }
 
-    /// What the montage shows of a picture.
+    /// Returns the image as the montage shows it: 0 where no tile lies.
     pub(super) fn applied(&self, image: &Plane) -> Plane {
         let (height, width) = image.dim();
         fill_rows(height, width, |y, row| {

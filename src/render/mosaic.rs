@@ -1,3 +1,9 @@
+//! Simulated cone mosaics: patches of triangular lattice with defects between them.
+//!
+//! 1. Spread points of the wanted density evenly, and displace them until their order is forgotten.
+//! 2. Move them for a few steps of soft repulsion within the local spacing.
+//! 3. Displace each at random.
+
 use super::RenderError;
 use super::density::{Density, Rectangle};
 use super::error::check;
@@ -8,32 +14,36 @@ use rand::Rng;
 use rayon::prelude::*;
 use serde::Serialize;
 
-/// Relaxation steps. More make larger crystals and a higher regularity.
+/// Number of relaxation steps; more make larger crystals and a higher regularity.
 const STEPS: usize = 30;
-/// Cones closer than this many spacings push each other away.
+/// Distance, in spacings, below which cones push each other away.
 const REACH: f64 = 1.25;
-/// How far a cone moves in a step for a unit of push, in spacings.
+/// Displacement of a cone in one step for a unit of push, in spacings.
 const STIFFNESS: f64 = 0.3;
-/// Standard deviation, in spacings, by which even points are displaced at the start, until their own order is forgotten.
+/// Standard deviation, in spacings, of the displacement that makes evenly spread points forget
+/// their order.
 const FORGET: f64 = 0.3;
-/// How far beyond the image cones are made, in spacings, so that the walls that hold them in are not felt inside.
+/// Distance beyond the image up to which cones are made, in spacings, so that the bounds have no
+/// effect inside.
 const MARGIN: f64 = 4.;
-/// How far beyond the image a cone still shines into it, in spacings.
+/// Distance beyond the image from which a cone still shines into it, in spacings.
 const SURROUNDINGS: f64 = 2.;
 
-/// How the density of a mosaic falls.
+/// Direction in which the density of a mosaic changes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GradientShape {
-    /// From the left edge to the right edge: its logarithm is linear in x.
+    /// The logarithm of the density is linear in x, from the left edge to the right edge.
     #[default]
     Linear,
-    /// From the middle of the image outwards, as around the fovea: the spacing grows in proportion to the distance up to half the
-    /// longer side, and stays from there on.
+    /// The density changes from the middle of the image outwards, as around the fovea.
+    ///
+    /// The spacing changes in proportion to the distance up to half the longer side, and is
+    /// constant beyond.
     Radial,
 }
 
-/// A mosaic as regular as a real one.
+/// Options for a mosaic as regular as a real one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MosaicOptions {
     /// Width of the image, 1 to 16384 px.
@@ -42,18 +52,22 @@ pub struct MosaicOptions {
     /// Height of the image, 1 to 16384 px.
     #[serde(skip)]
     pub height: usize,
-    /// Hexagonal spacing, 2 to 1000 px: of the mean density; with a radial gradient, in the middle.
+    /// Hexagonal spacing, 2 to 1000 px: that of the mean density or, with a radial gradient, that
+    /// in the middle.
     pub spacing: f64,
-    /// Density at the left edge over that at the right edge, or in the middle over that half the longer side away from it,
-    /// 1/20 to 20; 1 is uniform.
+    /// Ratio of densities, 1/20 to 20; 1 is uniform.
+    ///
+    /// It is the density at the left edge over that at the right edge, or the density in the middle
+    /// over that half the longer side away from it.
     pub gradient: f64,
-    /// Which of the two.
+    /// Direction in which the density changes.
     #[serde(rename = "gradient_shape")]
     pub shape: GradientShape,
     /// Spacing along y over spacing along x at the same density, 0.5 to 2.
     pub anisotropy: f64,
-    /// Standard deviation of the final displacement in x and in y, 0 to 0.5 local spacings. 0.085 gives the regularity index of
-    /// real mosaics.
+    /// Standard deviation of the final displacement in x and in y, 0 to 0.5 local spacings.
+    ///
+    /// 0.085 gives the regularity index of real mosaics.
     pub jitter: f64,
 }
 
@@ -72,10 +86,10 @@ impl Default for MosaicOptions {
 }
 
 impl MosaicOptions {
-    /// Whether every field is in its range.
+    /// Checks that every field is in its range.
     ///
     /// # Errors
-    /// The first field that is not, with its range.
+    /// If a field is not; the error names the first one, with its range.
     pub fn validate(&self) -> Result<(), RenderError> {
         validate_size(self.width, self.height)?;
         check("spacing", self.spacing, (2., 1000.), "px")?;
@@ -85,18 +99,22 @@ impl MosaicOptions {
     }
 }
 
-/// Whether a point lies on a pixel of the image.
+/// Returns whether a point lies on a pixel of the image.
 pub(super) fn in_image(p: Point, width: usize, height: usize) -> bool {
     let on = |v: f64, side: usize| v >= -0.5 && v < side as f64 - 0.5;
     on(p.x, width) && on(p.y, height)
 }
 
-/// Places of cones in an image, px (pixel (0, 0) is the centre of the top-left pixel): patches of triangular lattice in
-/// every direction with defects between, as repelling discs freeze when they are not given the time to crystallise.
+/// Makes the places of cones in an image, in px, where (0, 0) is the centre of the top-left pixel.
 ///
-/// Steps: evenly spread points of the density wanted → a few steps of soft repulsion within the local spacing → jitter.
-/// Uniform density at the default jitter: mean nearest-neighbour distance .83 s, regularity index 9 to 10, as in real
-/// confocal images; at jitter 0.11: .79 s and 8, as in real split-detector images.
+/// They form patches of triangular lattice in every direction with defects between them, as
+/// repelling discs do when they freeze without time to crystallise. First, points of the wanted
+/// density are spread evenly; a few steps of soft repulsion within the local spacing follow, and
+/// then jitter.
+///
+/// At uniform density and the default jitter, the mean nearest-neighbour distance is .83 s (s is
+/// the hexagonal spacing) and the regularity index is 9 to 10, as in real confocal images. At a
+/// jitter of 0.11 they are .79 s and 8, as in real split-detector images.
 ///
 /// # Errors
 /// If an option is out of its range.
@@ -106,7 +124,8 @@ pub fn cone_mosaic(options: &MosaicOptions, rng: &mut dyn Rng) -> Result<Vec<Poi
     Ok(points)
 }
 
-/// As [`cone_mosaic`], with the cones beyond the border that shine into the image.
+/// Makes the places of [`cone_mosaic`], and those of the cones beyond the border that shine into
+/// the image.
 pub(super) fn with_surroundings(
     options: &MosaicOptions,
     rng: &mut dyn Rng,
@@ -131,7 +150,7 @@ pub(super) fn with_surroundings(
     Ok(points)
 }
 
-/// Displaces cones, and takes them from the isotropic frame to the image.
+/// Displaces cones at random, and takes them from the isotropic frame to the image.
 fn jitter(points: &mut [Point], density: &Density, options: &MosaicOptions, rng: &mut dyn Rng) {
     for p in points {
         if options.jitter > 0. {
@@ -142,7 +161,8 @@ fn jitter(points: &mut [Point], density: &Density, options: &MosaicOptions, rng:
     }
 }
 
-/// A pattern of uniform density, such as a sampler's, bent into the mosaic that options describe.
+/// Pattern of uniform density, such as a sampler's, that is bent into the mosaic described by
+/// options.
 pub struct Pattern {
     density: Density,
     options: MosaicOptions,
@@ -151,7 +171,7 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// What pattern such a mosaic needs.
+    /// Creates the description of the pattern that such a mosaic needs.
     ///
     /// # Errors
     /// If an option is out of its range.
@@ -163,17 +183,19 @@ impl Pattern {
         Ok(Self { density, options: options.clone(), window, count })
     }
 
-    /// How many points it needs.
+    /// Returns the number of points that the pattern needs.
     pub const fn count(&self) -> usize {
         self.count
     }
 
-    /// Where it needs them.
+    /// Returns the window that the pattern must fill.
     pub const fn window(&self) -> &Window {
         &self.window
     }
 
-    /// The points in the image that the pattern becomes, px. A gradient stretches cells along itself.
+    /// Returns the points in the image that the pattern becomes, in px.
+    ///
+    /// A gradient stretches cells along its direction.
     pub fn bent(&self, points: &[Point], rng: &mut dyn Rng) -> Vec<Point> {
         let mut points = self.density.bent(points);
         jitter(&mut points, &self.density, &self.options, rng);
@@ -182,10 +204,10 @@ impl Pattern {
     }
 }
 
-/// The image with a margin around it.
+/// Image with a margin around it, in the isotropic frame.
 struct Field {
     bounds: Rectangle,
-    /// Side of the squares in which neighbours are sought, px.
+    /// Side of the squares in which neighbours are sought, in px.
     cell: f64,
 }
 
@@ -202,18 +224,19 @@ impl Field {
         Self { bounds, cell: REACH * widest }
     }
 
+    /// Returns the point, moved back to the bounds if it lies outside.
     fn held(&self, p: Point) -> Point {
         let Rectangle { x0, y0, x1, y1 } = self.bounds;
         Point::new(p.x.clamp(x0, x1), p.y.clamp(y0, y1))
     }
 
-    /// Every point moved away from those within `REACH`, all at once.
+    /// Moves every point away from those within `REACH`, all at the same time.
     fn repelled(&self, points: &[Point], density: &Density) -> Vec<Point> {
         let Rectangle { x0, y0, x1, y1 } = self.bounds;
         let columns = ((x1 - x0) / self.cell) as usize + 1;
         let rows = ((y1 - y0) / self.cell) as usize + 1;
         let place = |p: Point| (((p.x - x0) / self.cell) as usize, ((p.y - y0) / self.cell) as usize);
-        // Counting sort: the points of cell c are order[first[c]..first[c + 1]].
+        // Counting sort: the points of square c are order[first[c]..first[c + 1]].
         let mut first = vec![0usize; columns * rows + 1];
         for &p in points {
             let (i, j) = place(p);

@@ -1,16 +1,19 @@
+//! Noise of photons and of the detector, correlated as by the registration of frames.
+
 use super::RenderOptions;
 use super::field::{normal, smooth, smoothed_deviation};
 use crate::image::Plane;
 use rand::Rng;
 use rand_distr::{Distribution, Poisson};
 
-/// Photons from which a Poisson distribution is drawn as the normal one that it approaches.
+/// Mean number of photons from which a normal distribution stands for the Poisson distribution.
 const MANY_PHOTONS: f64 = 100.;
 
-/// Photon and detector noise, then the smoothing that registration does to them.
+/// Adds photon and detector noise, smoothed as registration smooths it.
 ///
-/// At mid-grey photons have a part q of the variance noise²: a photon makes 2 q noise² of the full range of grey, so a pixel of
-/// grey value v gets Poisson(v / 2 q noise²) · 2 q noise², of variance 2 q v noise².
+/// Photons have the share q of the variance noise² at mid-grey. One photon makes 2 q noise² of the
+/// full range of grey, so a pixel of grey value v gets Poisson(v / 2 q noise²) · 2 q noise², which
+/// has the variance 2 q v noise².
 pub(super) fn add(image: &mut Plane, options: &RenderOptions, rng: &mut dyn Rng) {
     if options.noise == 0. {
         return;
@@ -27,14 +30,14 @@ pub(super) fn add(image: &mut Plane, options: &RenderOptions, rng: &mut dyn Rng)
     image.zip_mut_with(&noise, |value, &n| *value += gain * n);
 }
 
-/// Poisson deviate of the given mean, less the mean.
+/// Draws a Poisson deviate of the given mean, and subtracts the mean.
 fn deviation_of_photons(mean: f64, rng: &mut dyn Rng) -> f64 {
     if mean >= MANY_PHOTONS {
         return mean.sqrt() * normal(rng);
     }
     match Poisson::new(mean) {
         Ok(poisson) => poisson.sample(rng) - mean,
-        // No light, no photons.
+        // The distribution needs a positive mean: without light there are no photons.
         Err(_) => 0.,
     }
 }

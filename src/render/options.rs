@@ -3,104 +3,128 @@ use super::error::check;
 use crate::image::{Modality, Polarity};
 use serde::Serialize;
 
-/// Longest side of a simulated image, px.
+/// Longest side of a simulated image, in px.
 const MAX_SIDE: usize = 16_384;
-/// Most pixels of a simulated image: 2²⁶, about 1 GB while it is being made.
+/// Largest number of pixels of a simulated image: 2²⁶, about 1 GB while it is made.
 const MAX_PIXELS: usize = 1 << 26;
 
-/// Shape of the spot that a cone's light makes, both of the same full width at half maximum.
+/// Shape of the spot that a cone's light makes; all have the same full width at half maximum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PointSpread {
-    /// What aberrations and registration leave of it.
+    /// Gaussian spot, which aberrations and registration leave.
     Gaussian,
-    /// Airy's pattern of a clear round pupil, with its rings.
+    /// Airy pattern of a clear round pupil, with its rings.
     Airy,
 }
 
-/// How a mosaic is to be pictured. The unit s is the local hexagonal spacing of the cones.
+/// Options for the simulated image of a mosaic.
 ///
-/// [`RenderOptions::new`] gives values for each modality that look like real images of it;
-/// [`Default`] is those of the confocal one.
+/// The unit s is the local hexagonal spacing of the cones. [`RenderOptions::new`] gives values for
+/// each modality that look like real images of it; [`Default`] gives those of the confocal one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RenderOptions {
-    /// What kind of image.
+    /// Kind of image: confocal, split detector or histology.
     pub modality: Modality,
-    /// Which way round its contrast runs. `Negative` is the photographic negative, before noise.
+    /// Sign of the contrast; `Negative` is the photographic negative, before noise.
     pub polarity: Polarity,
-    /// Width, 1 to 16384 px.
+    /// Width of the image, 1 to 16384 px.
     pub width: usize,
-    /// Height, 1 to 16384 px.
+    /// Height of the image, 1 to 16384 px.
     pub height: usize,
-    /// Spacing taken for every cone, 2 to 1000 px; `None`: each cone's own, from its neighbours.
+    /// Spacing taken for every cone, 2 to 1000 px; with `None`, each cone's own follows from its
+    /// neighbours.
     pub spacing: Option<f64>,
     /// Shape of a confocal spot; other modalities have none.
     pub psf: PointSpread,
-    /// Size of a cone, 0.1 to 1.5 s. Confocal: full width at half maximum of its spot; split detector and histology:
-    /// diameter of its inner segment.
+    /// Size of a cone, 0.1 to 1.5 s.
+    ///
+    /// Confocal: full width at half maximum of its spot. Split detector and histology: diameter of
+    /// its inner segment.
     pub diameter: f64,
     /// Coefficient of variation of the cones' sizes beyond what their distances explain, 0 to 0.5.
     pub size_scatter: f64,
     /// Grey value where there is no cone, 0 to 1.
     pub brightness: f64,
-    /// How far the average cone rises from its surround, 0 to 1 of the full range of grey.
+    /// Height of the average cone over its surround, 0 to 1 of the full range of grey.
     pub contrast: f64,
     /// Coefficient of variation of the cones' contrast (log-normal), 0 to 2.
     pub scatter: f64,
     /// Fraction of cones nearly without contrast (0 to 0.3 of a cone's), 0 to 1.
     pub dim: f64,
-    /// Fraction of cones that are not seen at all, 0 to 1.
+    /// Fraction of cones that are not drawn at all, 0 to 1.
     pub missing: f64,
     /// Fraction of confocal cones that show several small peaks instead of one spot, 0 to 1.
     pub multimodal: f64,
-    /// Rods per cone, 0 to 30, in what room the cones leave.
+    /// Number of rods per cone, 0 to 30, in the room that the cones leave.
     pub rods: f64,
     /// Contrast of a rod relative to that of a cone, 0 to 2.
     pub rod_contrast: f64,
-    /// Direction of light and shade, -360 to 360 degrees clockwise from x: split detector, from the dark to the bright side of
-    /// a cone; histology, towards the bright side.
+    /// Direction of light and shade, -360 to 360 degrees clockwise from x.
+    ///
+    /// Split detector: from the dark to the bright side of a cone. Histology: towards the bright
+    /// side.
     pub orientation: f64,
-    /// Split detector: how much brighter than its surround the middle of an average cone is, -2 to 2 contrasts.
+    /// Split detector: excess brightness of the middle of an average cone over its surround, -2 to
+    /// 2 contrasts.
     pub lean: f64,
-    /// Split detector: length of a cone across the direction of light and shade over that along it, 0.5 to 2.
+    /// Split detector: length of a cone across the direction of light and shade over that along it,
+    /// 0.5 to 2.
     pub elongation: f64,
-    /// Histology: rise and fall of a disc from one side to the other relative to its height, 0 to 2; much of it is Nomarski
-    /// contrast.
+    /// Histology: rise and fall of a disc from one side to the other relative to its height, 0 to
+    /// 2.
+    ///
+    /// Large values give Nomarski contrast.
     pub shading: f64,
     /// Histology: depth of the dark outline, 0 to 3 contrasts.
     pub outline: f64,
-    /// Histology: grain within the discs (mitochondria in an electron micrograph), standard deviation, 0 to 2 contrasts.
+    /// Histology: standard deviation of the grain within the discs, 0 to 2 contrasts.
+    ///
+    /// The grain stands for mitochondria in an electron micrograph.
     pub granules: f64,
-    /// Histology: height of the section above the widest place of the inner segments, taken as ellipsoids, 0 to 0.95 of their
-    /// half axis. Above 0 cells are cut at different heights and differ in size.
+    /// Histology: height of the section above the widest place of the inner segments, 0 to 0.95 of
+    /// their half axis.
+    ///
+    /// The segments are taken as ellipsoids. Above 0, cells are cut at different heights and differ
+    /// in size.
     pub section: f64,
-    /// Structure that is not a cone (haze, rods, grain of the tissue): its standard deviation, 0 to 2 times the contrast.
+    /// Standard deviation of structure that is not a cone, 0 to 2 times the contrast: haze, rods,
+    /// grain of the tissue.
     pub texture: f64,
     /// Standard deviation of the illumination relative to its mean, 0 to 1.
     pub drift: f64,
-    /// Blood vessels that enter the image from its border and branch, 0 to 50: shadows; relief in a split detector.
+    /// Number of blood vessels that enter the image from its border and branch, 0 to 50.
+    ///
+    /// They are shadows; in a split detector they are a relief.
     pub vessels: usize,
     /// Width of a vessel's trunk, 0.5 to 50 s.
     pub vessel_width: f64,
-    /// Part of the light that a vessel's middle takes, 0 to 1.
+    /// Fraction of the light that the middle of a vessel takes, 0 to 1.
     pub vessel_depth: f64,
     /// Standard deviation of an additional Gaussian blur (defocus, motion), 0 to 1 s.
     pub blur: f64,
     /// Standard deviation of the noise of a pixel at mid-grey, 0 to 0.5 of the full range of grey.
     pub noise: f64,
-    /// Part of that noise's variance at mid-grey that is photons', 0 to 1: Poisson, its variance in proportion to the grey value.
-    /// The rest is the detector's: Gaussian, the same everywhere.
+    /// Fraction of that noise's variance at mid-grey that is due to photons, 0 to 1.
+    ///
+    /// Photon noise is Poisson, with a variance proportional to the grey value. The rest is the
+    /// detector's: Gaussian, the same everywhere.
     pub photons: f64,
-    /// Standard deviation of the Gaussian that correlates the noise of neighbouring pixels, 0 to 4 px: averaging registered
-    /// frames resamples them. 0 is white noise. The noise of a pixel stays what `noise` says.
+    /// Standard deviation of the Gaussian that correlates the noise of neighbouring pixels, 0 to 4
+    /// px.
+    ///
+    /// Averaging registered frames resamples them, which correlates their noise. 0 is white noise.
+    /// The noise of a pixel stays as `noise` says.
     pub grain: f64,
-    /// Tiles along the longer side of a montage, 0 to 64: overlapping, turned by up to 5°, each of its own brightness; pixels
-    /// outside of all are 0, all others at least 1/255. 0 and 1: a single frame.
+    /// Number of tiles along the longer side of a montage, 0 to 64; 0 and 1 give a single frame.
+    ///
+    /// Tiles overlap, are turned by up to 5°, and differ in brightness. Pixels outside all tiles
+    /// are 0, all others at least 1/255.
     pub montage: usize,
 }
 
 impl RenderOptions {
-    /// Values that look like real images of the modality, 150 × 150 px.
+    /// Returns values that look like real images of the modality, 150 × 150 px.
     pub const fn new(modality: Modality) -> Self {
         let common = Self {
             modality,
@@ -170,10 +194,10 @@ impl RenderOptions {
         }
     }
 
-    /// Whether every field is in its range.
+    /// Checks that every field is in its range.
     ///
     /// # Errors
-    /// The first field that is not, with its range.
+    /// If a field is not; the error names the first one, with its range.
     pub fn validate(&self) -> Result<(), RenderError> {
         validate_size(self.width, self.height)?;
         if let Some(spacing) = self.spacing {
@@ -223,7 +247,7 @@ impl Default for RenderOptions {
     }
 }
 
-/// Refuses images without a pixel and those that would not fit into memory.
+/// Refuses images without a pixel, and those that would not fit into memory.
 pub(super) fn validate_size(width: usize, height: usize) -> Result<(), RenderError> {
     check("width", width as f64, (1., MAX_SIDE as f64), "px")?;
     check("height", height as f64, (1., MAX_SIDE as f64), "px")?;

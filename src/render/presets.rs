@@ -1,30 +1,30 @@
 use super::{GradientShape, MosaicOptions, PointSpread, RenderOptions};
 use crate::image::Modality;
 
-/// A kind of retinal image, as a starting point.
+/// Kind of retinal image, as a starting point for options.
 #[derive(Clone, Copy, Debug)]
 pub struct Preset {
-    /// The name users type.
+    /// Name that users type.
     pub name: &'static str,
-    /// One line: what it shows.
+    /// One line about the image.
     pub about: &'static str,
     make: fn() -> (MosaicOptions, RenderOptions),
 }
 
 impl Preset {
-    /// The preset of that name.
+    /// Returns the preset of that name, or `None` if there is none.
     pub fn named(name: &str) -> Option<&'static Self> {
         PRESETS.iter().find(|p| p.name == name)
     }
 
-    /// The mosaic, of the size of the image, and what it is pictured with.
+    /// Returns the options of the mosaic, with the size of the image, and those of its image.
     pub fn options(&self) -> (MosaicOptions, RenderOptions) {
         let (mosaic, image) = (self.make)();
         (MosaicOptions { width: image.width, height: image.height, ..mosaic }, image)
     }
 }
 
-/// Every preset.
+/// All presets, in the order in which they are listed.
 pub const PRESETS: [Preset; 8] = [
     Preset {
         name: "fovea",
@@ -59,7 +59,7 @@ fn of(modality: Modality, side: usize) -> RenderOptions {
 fn fovea() -> (MosaicOptions, RenderOptions) {
     let mosaic =
         MosaicOptions { spacing: 5., gradient: 3., shape: GradientShape::Radial, ..MosaicOptions::default() };
-    // the point-spread function is as wide as the cones are apart
+    // In the fovea the point-spread function is as wide as the cones are apart.
     let image = RenderOptions { diameter: 0.6, texture: 0.1, noise: 0.012, ..of(Modality::Confocal, 256) };
     (mosaic, image)
 }

@@ -1,15 +1,21 @@
+//! Airy pattern of a clear round pupil, read from a table.
+
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-/// Samples of the table per unit of distance, one full width at half maximum.
+/// Samples of the table per unit of distance, which is one full width at half maximum.
 const PER_WIDTH: usize = 64;
-/// Where the pattern is cut off, in full widths at half maximum: behind its second ring, below 0.5 % of its top.
+/// Distance at which the pattern is cut off, in full widths at half maximum.
+///
+/// It lies behind the second ring, where the intensity is below 0.5 % of its maximum.
 pub(super) const AIRY_CUT: f64 = 3.1;
-/// Where (2 J₁(v) / v)² = ½, times two.
+/// Twice the v at which (2 J₁(v) / v)² = ½: the full width at half maximum in units of v.
 const WIDTH: f64 = 3.232_679;
 
-/// Amplitude of Airy's pattern 2 J₁(v) / v, 1 at its centre, at `distance` in full widths at half maximum of its
-/// intensity; linear between samples.
+/// Returns the amplitude 2 J₁(v) / v of the Airy pattern, which is 1 at its centre.
+///
+/// `distance` is in full widths at half maximum of the intensity. The value is interpolated
+/// linearly between the samples of a table.
 pub(super) fn airy_amplitude(distance: f64) -> f64 {
     static TABLE: OnceLock<Vec<f64>> = OnceLock::new();
     let table = TABLE.get_or_init(|| {
@@ -23,8 +29,9 @@ pub(super) fn airy_amplitude(distance: f64) -> f64 {
     }
 }
 
-/// 2 J₁(v) / v with Bessel's integral J₁(v) = ∫₀^π cos(τ − v sin τ) dτ / π, which the trapezium rule sums to the last digit:
-/// its integrand is periodic.
+/// Computes 2 J₁(v) / v with Bessel's integral J₁(v) = ∫₀^π cos(τ − v sin τ) dτ / π.
+///
+/// The trapezium rule is exact to the last digit, as the integrand is periodic.
 fn besinc(v: f64) -> f64 {
     const STEPS: usize = 64;
     if v < 1e-6 {

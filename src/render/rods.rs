@@ -1,3 +1,5 @@
+//! Rods at random places in the room that cones leave.
+
 use super::RenderOptions;
 use super::field::normal;
 use super::spacing::CellSizes;
@@ -6,31 +8,36 @@ use crate::geometry::index::BucketGrid;
 use rand::{Rng, RngExt};
 use std::f64::consts::TAU;
 
-/// Area of a cone's cell, in squared spacings.
+/// Area of a cone's cell, in squared spacings: √3/2.
 const CELL: f64 = 0.866_025_403_784_438_6;
-/// Closest distance of two rods, in rod spacings: random placing stops near the density of their lattice.
+/// Closest distance of two rods, as a share of the spacing of a lattice of the same density.
+///
+/// It is about where random placing stops.
 const CLOSEST: f64 = 0.75;
-/// Discs of diameter 1 that random placing without overlap brings into a unit of area (Rényi's car parking in the plane:
-/// coverage .547), less what the tries below leave out.
+/// Discs of diameter 1 per unit of area that random placing without overlap achieves.
+///
+/// Random sequential adsorption in the plane (Rényi's car parking) covers .547; the tries below
+/// leave out a part of it.
 const PARKED: f64 = 0.6;
-/// Room that cones leave to rods at least, squared spacings a cone.
+/// Least room that the cones are taken to leave to rods, in squared spacings per cone.
 const LEAST_ROOM: f64 = 0.1;
-/// How often a place is tried for every rod wanted.
+/// Number of places tried per rod wanted.
 const TRIES: f64 = 6.;
 /// Coefficient of variation of the rods' heights.
 const SCATTER: f64 = 0.5;
 
-/// A rod between cones.
+/// Rod that lies between cones.
 pub(super) struct Rod {
     pub(super) centre: Point,
-    /// Distance of the rods there, px.
+    /// Distance of the rods around it, in px.
     pub(super) pitch: f64,
     /// Height over the surround, relative to the average cone.
     pub(super) height: f64,
 }
 
-/// Rods at random in what room the cones leave, never overlapping. Their distance follows from their number and from that
-/// room.
+/// Places rods at random in the room that the cones leave, without overlap.
+///
+/// Their distance follows from their number and from that room.
 pub(super) fn between(
     points: &[Point],
     cells: &CellSizes,
@@ -65,8 +72,10 @@ pub(super) fn between(
     rods
 }
 
-/// Closest distance of two rods, in spacings, at which as many as asked for find room. Their centres keep half of it, x/2, away
-/// from a cone of diameter d: rods · x² = PARKED · (cell − π (d + x)²/4), solved for x.
+/// Returns the closest distance of two rods, in spacings, at which as many as asked for find room.
+///
+/// With this distance x, the centre of a rod keeps x/2 away from a cone of diameter d. x solves
+/// rods · x² = PARKED · (cell − π (d + x)²/4).
 fn closest(options: &RenderOptions) -> f64 {
     let d = options.diameter;
     let parked = PARKED * TAU / 8.;
@@ -75,20 +84,22 @@ fn closest(options: &RenderOptions) -> f64 {
     ((b * b + 4. * a * room).sqrt() - b) / (2. * a)
 }
 
-/// Discs that must not overlap, by squares at least as wide as any two of them reach.
+/// Discs that must not overlap, in a grid of squares.
+///
+/// The squares are at least as wide as any two discs reach.
 struct Discs {
     side: f64,
-    /// Columns and rows of the image.
+    /// Numbers of columns and rows of squares over the image.
     counts: [usize; 2],
     discs: BucketGrid<(Point, f64)>,
 }
 
 impl Discs {
     fn new(options: &RenderOptions, reach: f64) -> Self {
-        // never more squares than pixels
+        // A square is at least one pixel wide, so there are never more squares than pixels.
         let side = reach.max(1.);
         let counts = [options.width, options.height].map(|length| (length as f64 / side) as usize + 1);
-        // one square around the image
+        // one more square on each side of the image
         let discs = BucketGrid::new([-side; 2], side, counts.map(|count| count + 2));
         Self { side, counts, discs }
     }
@@ -97,7 +108,9 @@ impl Discs {
         self.discs.insert(p, (p, radius));
     }
 
-    /// Outside the image and one square around it nothing is free.
+    /// Adds a disc if it overlaps no other, and returns whether it was added.
+    ///
+    /// Nothing is free beyond one square around the image.
     fn insert_if_free(&mut self, p: Point, radius: f64) -> bool {
         let inside = |v: f64, count: usize| v > -self.side && v < (count as f64) * self.side;
         let free = inside(p.x, self.counts[0])

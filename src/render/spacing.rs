@@ -1,23 +1,28 @@
+//! Local spacing at each cone, which determines its size.
+
 use super::{RenderError, RenderOptions};
 use crate::geometry::Point;
 use crate::geometry::index::NeighbourTree;
 use std::num::NonZero;
 
-/// Hexagonal spacing over the mean distance of the three nearest neighbours, in a cone mosaic.
+/// Hexagonal spacing divided by the mean distance of the three nearest neighbours, in a cone
+/// mosaic.
 const SPACING_PER_NEIGHBOUR_DISTANCE: f64 = 1.09;
-/// Spacings, px, for which cones are drawn: clusters and strays are taken for the nearest of these.
+/// Smallest spacing for which cones are drawn, in px; cones in clusters are taken to have it.
 const MIN_SPACING: f64 = 1.;
+/// Largest spacing for which cones are drawn, in px; cones far from others are taken to have it.
 const MAX_SPACING: f64 = 1000.;
-/// Neighbours, itself included, over which a cone's spacing is averaged: its own ring.
+/// Number of points over which a cone's spacing is averaged: the cone and its ring of six
+/// neighbours.
 const RING: NonZero<usize> = NonZero::<usize>::MIN.saturating_add(6);
 
-/// How large each cone may be.
+/// Spacings and nearest-neighbour distances that limit the sizes of cones.
 pub(super) struct CellSizes {
-    /// Local hexagonal spacing at each cone, px.
+    /// Local hexagonal spacing at each cone, in px.
     pub(super) spacing: Vec<f64>,
-    /// Distance of each cone to its nearest neighbour, px; infinite for a cone alone.
+    /// Distance of each cone to its nearest neighbour, in px; infinite for a cone alone.
     pub(super) nearest: Vec<f64>,
-    /// Median spacing, px: the scale of what is not a cone.
+    /// Median spacing, in px, which is the scale of everything that is not a cone.
     pub(super) typical: f64,
 }
 
@@ -37,7 +42,7 @@ impl CellSizes {
     }
 }
 
-/// Of each point the index and distance of the `RING` nearest, itself first.
+/// Returns, for each point, the index and distance of the `RING` nearest points, itself first.
 fn nearest_neighbours(points: &[Point]) -> Result<Vec<Vec<(usize, f64)>>, RenderError> {
     if points.is_empty() {
         return Ok(Vec::new());
@@ -47,15 +52,18 @@ fn nearest_neighbours(points: &[Point]) -> Result<Vec<Vec<(usize, f64)>>, Render
     let neighbours = points.iter().enumerate().map(|(own, &place)| {
         let mut found: Vec<(usize, f64)> =
             tree.nearest(place, RING).map(|(k, squared)| (k, squared.sqrt())).collect();
-        // Among points at the same place the tree may name another first.
+        // Among points at the same place, the tree may name another one first.
         found.sort_by(|a, b| a.1.total_cmp(&b.1).then((a.0 != own).cmp(&(b.0 != own))).then(a.0.cmp(&b.0)));
         found
     });
     Ok(neighbours.collect())
 }
 
-/// The mean distance of the three nearest neighbours is as good at the border of a mosaic as inside, unlike a density;
-/// averaging it over the ring of neighbours takes out what is irregular and leaves what is a gradient.
+/// Returns the local spacing at each point from the distances of its neighbours.
+///
+/// Unlike a density, the mean distance of the three nearest neighbours is as good at the border of
+/// a mosaic as inside. Averaging it over the ring of neighbours removes irregularity and keeps a
+/// gradient.
 fn local_spacing(neighbours: &[Vec<(usize, f64)>]) -> Vec<f64> {
     let own: Vec<f64> = neighbours
         .iter()

@@ -1,3 +1,5 @@
+//! Split-detector images: inner segments as domes, seen by their slope.
+
 use super::RenderOptions;
 use super::confocal::span;
 use super::field::{normal, smooth, texture};
@@ -7,13 +9,16 @@ use crate::geometry::Point;
 use crate::image::Plane;
 use rand::Rng;
 
-/// Diameter of a rod's dome, in distances of the rods.
+/// Diameter of a rod's dome, relative to the distance of the rods.
 const ROD: f64 = 0.9;
-/// Relief of a vessel: how steep its flanks look, in contrasts.
+/// Relief of a vessel's flanks, in contrasts: how steep they look.
 const VESSEL_RELIEF: f64 = 0.4;
 
-/// Inner segments as domes (1 − ρ²)^1.5, seen by their slope along the direction of detection: dark on one side, bright on
-/// the other, the average cone from −1 to 1. Between them rods, smaller domes, and the slope of a finer relief.
+/// Draws inner segments as domes (1 − ρ²)^1.5, seen by their slope along the direction of
+/// detection.
+///
+/// Each is dark on one side and bright on the other, from −1 to 1 for the average cone. Between
+/// them lie rods, which are smaller domes, and the slope of a finer relief.
 pub(super) fn signal(
     points: &[Point],
     cells: &CellSizes,
@@ -29,7 +34,8 @@ pub(super) fn signal(
     for ((&p, &spacing), &peak) in points.iter().zip(&cells.spacing).zip(heights) {
         let scatter = (1. + cv * normal(rng)).clamp((1. - 3.75 * cv).max(0.3), 1. + 3.75 * cv);
         let radius = 0.5 * options.diameter * spacing * scatter;
-        // Segments stand slightly askew: seen longer across the direction of detection, brighter or darker on the whole.
+        // Segments stand slightly askew: they look longer across the direction of detection, and
+        // brighter or darker as a whole.
         let longer = (options.elongation + 0.08 * normal(rng)).clamp(0.5, 2.);
         let lean = options.lean + 0.25 * normal(rng);
         relief.add_dome(p, radius, longer, peak, lean);
@@ -46,7 +52,7 @@ pub(super) fn signal(
     smooth(&plane, 0.05 * cells.typical)
 }
 
-/// The flanks of vessels, and less of what lies behind them.
+/// Adds the flanks of vessels, and weakens what lies behind them.
 pub(super) fn cover(plane: &mut Plane, vessels: &Plane, options: &RenderOptions, spacing: f64) {
     let (sin, cos) = options.orientation.to_radians().sin_cos();
     let soft = smooth(vessels, 0.15 * options.vessel_width * spacing);
@@ -59,6 +65,7 @@ pub(super) fn cover(plane: &mut Plane, vessels: &Plane, options: &RenderOptions,
         .for_each(|v, depth, flank| *v = *v * (1. - shade * depth) - steepness * flank);
 }
 
+/// Plane on which domes are drawn, with the direction of detection.
 struct Relief {
     plane: Plane,
     sin: f64,
@@ -66,6 +73,8 @@ struct Relief {
 }
 
 impl Relief {
+    /// Adds the slope of a dome; `longer` is its length across the direction of detection over that
+    /// along it.
     fn add_dome(&mut self, p: Point, radius: f64, longer: f64, peak: f64, lean: f64) {
         let (height, width) = self.plane.dim();
         let (sin, cos) = (self.sin, self.cos);
@@ -79,7 +88,9 @@ impl Relief {
                 let v = (dy * cos - dx * sin) / (radius * longer);
                 let inside = 1. - u * u - v * v;
                 if inside > 0. {
-                    // √(1 − ρ²) falls off where the slope is steep: u √(1 − u²) is largest, ½, at u = 1/√2.
+                    // The slope of a dome (1 − ρ²)^1.5 is proportional to u √(1 − ρ²). Along the
+                    // direction of detection that is u √(1 − u²), which is largest, ½, at u = 1/√2;
+                    // hence the factor 2.
                     let slope = 2. * u * inside.sqrt();
                     self.plane[[y, x]] += (peak * (slope + lean * inside * inside)) as f32;
                 }
@@ -88,7 +99,7 @@ impl Relief {
     }
 }
 
-/// The slope of a relief along a direction, per px.
+/// Returns the slope of a relief along a direction, per px.
 fn slope(relief: &Plane, sin: f64, cos: f64) -> Plane {
     let (along_x, along_y) = (cos as f32, sin as f32);
     let (height, width) = relief.dim();

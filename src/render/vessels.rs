@@ -1,3 +1,5 @@
+//! Blood vessels that enter a simulated image from its border, wind and branch.
+
 use super::RenderOptions;
 use super::confocal::span;
 use super::field::normal;
@@ -6,28 +8,32 @@ use crate::image::Plane;
 use rand::{Rng, RngExt};
 use std::f64::consts::{PI, TAU};
 
-/// Steps along a vessel, in its widths.
+/// Length of a step along a vessel, in its widths.
 const STEP: f64 = 0.25;
-/// How much its direction changes over one width, radians.
+/// Standard deviation of the change of direction over one width, in radians.
 const WINDING: f64 = 0.12;
-/// Mean length between two branches, in widths.
+/// Mean length between two branchings, in widths.
 const BRANCHING: f64 = 14.;
-/// Narrowest branch, in spacings.
+/// Width of the narrowest branch, in spacings.
 const NARROWEST: f64 = 0.4;
-/// Widths of the branches over that of their stem: Murray's (1926) cubes, 0.8³ + 0.79³ = 1.
+/// Widths of the two branches, relative to their stem: the cubes add up to about 1 (0.8³ + 0.79³).
+///
+/// Source: Murray (1926), <https://doi.org/10.1073/pnas.12.3.207>.
 const BRANCHES: [f64; 2] = [0.8, 0.79];
-/// Most pieces of a tree, so that it ends.
+/// Most pieces of one tree of vessels, so that it ends.
 const MOST_PIECES: usize = 64;
 
-/// Where a vessel begins, which way it runs, and how wide it is, px.
+/// Start of a piece of vessel, with its direction in radians and its width in px.
 struct Piece {
     start: Point,
     heading: f64,
     width: f64,
 }
 
-/// How deep inside a vessel every pixel lies: 1 on its axis, 0 outside. Vessels come in from the border, wind and
-/// branch until they leave.
+/// Returns how deep inside a vessel each pixel lies: 1 on its axis, 0 outside.
+///
+/// Vessels come in from the border, wind, and branch until they leave the image or become too
+/// narrow.
 pub(super) fn depth(options: &RenderOptions, spacing: f64, rng: &mut dyn Rng) -> Plane {
     let (width, height) = (options.width, options.height);
     let mut plane = Plane::zeros((height, width));
@@ -49,7 +55,7 @@ pub(super) fn depth(options: &RenderOptions, spacing: f64, rng: &mut dyn Rng) ->
     plane
 }
 
-/// A place on the border, heading inwards.
+/// Returns the start of a vessel on the border, heading inwards.
 fn entrance(width: usize, height: usize, vessel: f64, rng: &mut dyn Rng) -> Piece {
     let (w, h) = (width as f64, height as f64);
     let along = rng.random_range(0. ..2. * (w + h));
@@ -62,7 +68,9 @@ fn entrance(width: usize, height: usize, vessel: f64, rng: &mut dyn Rng) -> Piec
     Piece { start, heading: inwards + rng.random_range(-0.6..0.6), width: vessel }
 }
 
-/// Draws a vessel up to its branching; where that is and which way it runs there, or nothing if it has left the image.
+/// Draws a piece of vessel, and returns its end and its direction there.
+///
+/// `None` is returned if it has left the image.
 fn draw(plane: &mut Plane, piece: &Piece, rng: &mut dyn Rng) -> Option<(Point, f64)> {
     let (height, width) = plane.dim();
     let radius = 0.5 * piece.width;
@@ -81,7 +89,8 @@ fn draw(plane: &mut Plane, piece: &Piece, rng: &mut dyn Rng) -> Option<(Point, f
             for y in rows {
                 for x in columns.clone() {
                     let (dx, dy) = ((x as f64 - p.x) / radius, (y as f64 - p.y) / radius);
-                    // light crosses a round vessel along a chord
+                    // Light crosses a round vessel along a chord, so its depth falls off as the
+                    // chord's length does.
                     let chord = (1. - dx * dx - dy * dy).max(0.).sqrt() as f32;
                     let pixel = &mut plane[[y, x]];
                     *pixel = pixel.max(chord);

@@ -1,3 +1,5 @@
+//! Heights of the cones in a simulated image, and how well each can be seen.
+
 use super::RenderOptions;
 use super::field::{SlowField, normal};
 use super::spacing::CellSizes;
@@ -8,20 +10,21 @@ use serde::Serialize;
 /// Contrast, relative to the average cone, below which a cone counts as dim.
 pub(super) const DIM: f64 = 0.3;
 
-/// What an observer could know of a cone.
+/// Class of a cone by what an observer could know of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ConeClass {
-    /// It stands out.
+    /// The cone stands out.
     Cone,
-    /// It has less than 0.3 of the average contrast: drawn so, or behind a vessel, or cut near its tip.
+    /// The cone has less than 0.3 of the average contrast: drawn so, behind a vessel, or cut near
+    /// its tip.
     Dim,
-    /// It is not drawn at all.
+    /// The cone is not drawn at all.
     Missing,
 }
 
 impl ConeClass {
-    /// As it is written in tables.
+    /// Returns the name that is written in tables.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Cone => "cone",
@@ -31,17 +34,17 @@ impl ConeClass {
     }
 }
 
-/// How well a cone can be seen.
+/// Contrast of a cone, and the class that follows from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Visibility {
-    /// Its contrast relative to that of the average cone.
+    /// Contrast of the cone, relative to that of the average cone.
     pub contrast: f64,
-    /// What that makes of it.
+    /// Class that follows from the contrast.
     pub class: ConeClass,
 }
 
 impl Visibility {
-    /// Of a cone of the given contrast; none of it is missing.
+    /// Returns the visibility of a cone of the given contrast; a cone without contrast is missing.
     pub(super) fn of(contrast: f64) -> Self {
         let class = match contrast {
             c if c <= 0. => ConeClass::Missing,
@@ -52,8 +55,10 @@ impl Visibility {
     }
 }
 
-/// Heights of the cones over their surround: log-normal, mean 1. Of the variance of the logarithm three quarters are the
-/// cone's own, one its neighbours share. Then dim cones lose most of it, and missing ones all.
+/// Draws the heights of the cones over their surround: log-normal, with mean 1.
+///
+/// Three quarters of the variance of the logarithm are the cone's own, and one quarter is shared by
+/// its neighbours. Then dim cones lose most of their height, and missing ones all of it.
 pub(super) fn heights(
     points: &[Point],
     cells: &CellSizes,

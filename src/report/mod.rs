@@ -1,4 +1,28 @@
 //! Tables and figures. Does not know how the numbers were made.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::prelude::*;
+//! use conemosaic::report::{MarkKind, OverlayMark, encode_png, metrics, overlay};
+//!
+//! // an image with its cones marked, as the bytes of a PNG
+//! let image = read("fixtures/images/split_sparse.png".as_ref())?;
+//! let found = detect(&image, &DetectOptions::default())?;
+//! let mark = |cone: &Detection| {
+//!     let Point { x, y } = cone.centre;
+//!     OverlayMark { x, y, radius: 3., kind: MarkKind::Detection }
+//! };
+//! let marks: Vec<OverlayMark> = found.cones.iter().map(mark).collect();
+//! let png = encode_png(&overlay(&image, &marks, found.spacing))?;
+//! assert!(png.starts_with(&b"\x89PNG"[..]));
+//!
+//! // the definition of every column of summary.csv
+//! for metric in metrics() {
+//!     let words = &metric.column.words;
+//!     println!("{} ({}): {}", words.name, words.unit, words.definition);
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod cell;
 mod convert;

@@ -2,11 +2,14 @@ use crate::geometry::power::{Domain, Raster, RasterError};
 use crate::geometry::{Point, Polygon};
 use std::sync::Arc;
 
-/// Least density, as a share of the greatest: an empty region would cut cells on either side off from each other.
+/// Least density, as a share of the greatest: an empty region would separate the cells on its two
+/// sides.
 const LEAST: f64 = 1e-3;
 
-/// How many points a region is to have, relative to others: a raster over the bounds of the window, constant within
-/// each of its cells, from the upper left. Values below 1/1000 of the greatest count as that.
+/// Relative density of points over the bounds of a window.
+///
+/// It is a raster whose first cell is the upper left one, and is constant within each cell. Values
+/// below 1/1000 of the greatest are raised to that.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Density {
     columns: usize,
@@ -15,23 +18,25 @@ pub struct Density {
 }
 
 impl Density {
-    /// Values row by row, in any unit.
+    /// Creates a density from values given row by row, in any unit.
     ///
     /// # Errors
     /// If their number is not `columns` × `rows`, one is negative or not finite, or all are 0.
     pub fn new(columns: usize, rows: usize, values: &[f64]) -> Result<Self, RasterError> {
         let greatest = values.iter().copied().fold(0., f64::max);
-        // what is wrong with them is found here, so that a window can always be given to them
+        // the values are checked on a unit square here, so that `over` cannot fail for them later
         Raster::new(&Domain::rectangle(1., 1.), columns, rows, values.to_vec())?;
         let values = values.iter().map(|v| (v / greatest).max(LEAST)).collect();
         Ok(Self { columns, rows, values })
     }
 
-    /// The values of a function of (x, y), each 0 to 1 across the bounds of the window, in the middles of the cells of a
+    /// Creates a density from a function of (x, y), evaluated at the centres of the cells of a
     /// raster.
     ///
+    /// x and y run from 0 to 1 across the bounds of the window.
+    ///
     /// # Errors
-    /// As [`Density::new`].
+    /// Those of [`Density::new`].
     pub fn from_fn(columns: usize, rows: usize, f: impl Fn(f64, f64) -> f64) -> Result<Self, RasterError> {
         let middle = |i: usize, count: usize| (i as f64 + 0.5) / count as f64;
         let values: Vec<f64> = (0..rows)
@@ -41,12 +46,16 @@ impl Density {
         Self::new(columns, rows, &values)
     }
 
+    /// Returns the density as a raster over this domain.
     pub(super) fn over(&self, domain: &Domain) -> Option<Raster> {
         Raster::new(domain, self.columns, self.rows, self.values.to_vec()).ok()
     }
 
-    /// How much of its mass lies within a polygon over whose bounds it is spread, by the middles of its cells; at least
-    /// what one cell of even density would have.
+    /// Returns the share of the density's mass that lies inside a polygon.
+    ///
+    /// The density is spread over the polygon's bounds, and a cell counts as inside if its centre
+    /// is. The result is at least the share of one cell of an even density, so that it can be
+    /// divided by.
     pub(super) fn share(&self, polygon: &Polygon) -> f64 {
         let b = polygon.bounds();
         let middle = |i: usize, count: usize, side: f64| (i as f64 + 0.5) / count as f64 * side;

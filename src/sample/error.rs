@@ -1,17 +1,17 @@
 use super::Parameter;
 use thiserror::Error;
 
-/// Points that could not be made.
+/// Reason why points could not be made.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SampleError {
     /// No sampler has that name.
     #[error("there is no sampler “{name}”{hint}: there are {names}")]
     Unknown {
-        /// What was asked for.
+        /// Name that was asked for.
         name: String,
-        /// Every name there is.
+        /// Names of all samplers, separated by commas.
         names: String,
-        /// The name that may have been meant, as a question; empty if none resembles it.
+        /// Suggestion of a similar name, as a question; empty if no name is similar.
         hint: String,
     },
     /// The sampler has no parameter of that name.
@@ -19,11 +19,11 @@ pub enum SampleError {
     UnknownParameter {
         /// Name of the sampler.
         sampler: &'static str,
-        /// What was to be set.
+        /// Name of the parameter that was to be set.
         name: String,
-        /// The name that may have been meant, as a question; empty if none resembles it.
+        /// Suggestion of a similar name, as a question; empty if no name is similar.
         hint: String,
-        /// What can be set.
+        /// Sentence about the parameters that can be set.
         known: String,
     },
     /// A parameter cannot have that value.
@@ -33,19 +33,19 @@ pub enum SampleError {
         sampler: &'static str,
         /// Name of the parameter.
         parameter: &'static str,
-        /// What it was to be.
+        /// Value that was asked for.
         value: String,
-        /// What it can be.
+        /// Description of the values that are allowed.
         expected: String,
     },
-    /// Cells could not be made equal.
+    /// The power cells could not be given equal masses.
     #[error(
         "{sampler}: the masses of {n} cells stay {error:.1e} (relative) apart: use another n or seed, or a smoother density"
     )]
     Unequal {
         /// Name of the sampler.
         sampler: &'static str,
-        /// Number of points.
+        /// Number of cells and points.
         n: usize,
         /// Greatest relative deviation of a mass.
         error: f64,
@@ -53,25 +53,25 @@ pub enum SampleError {
     /// More points than fit into memory.
     #[error("{n} points were asked for: at most {max} can be made")]
     TooMany {
-        /// Asked for.
+        /// Number of points asked for.
         n: usize,
-        /// The most there can be.
+        /// Largest number of points that can be made.
         max: usize,
     },
-    /// A window so long and thin that a pattern in it has no meaning.
+    /// The window is so long and thin that a pattern in it has no meaning.
     #[error("the window is {aspect:.3e} times as long as wide: at most {max:.0e} is possible")]
     TooThin {
-        /// Longer side over shorter side.
+        /// Ratio of the longer side to the shorter one.
         aspect: f64,
-        /// The most it can be.
+        /// Largest ratio that is allowed.
         max: f64,
     },
-    /// A curve to be reached is none.
+    /// The rows given as a target curve do not describe one.
     #[error("{what} {problem}")]
     Target {
-        /// Which kind of curve.
+        /// Kind of the curve, as the subject of the message.
         what: &'static str,
-        /// What is wrong with it.
+        /// Description of the problem, as the predicate of the message.
         problem: String,
     },
     /// Every attempt ran full before the last point was placed.
@@ -81,16 +81,17 @@ pub enum SampleError {
     NoRoom {
         /// Name of the sampler.
         sampler: &'static str,
-        /// Asked for.
+        /// Number of points asked for.
         n: usize,
-        /// The most points any attempt placed.
+        /// Largest number of points that any attempt placed.
         placed: usize,
-        /// How often it began anew.
+        /// Number of attempts that were made.
         attempts: usize,
     },
 }
 
-/// Names that differ by more letters are other words.
+/// Most edits between a name and its misspelling; names that differ by more are taken for other
+/// words.
 const MISSPELT: usize = 3;
 
 impl SampleError {

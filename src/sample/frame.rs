@@ -2,26 +2,31 @@ use super::SampleError;
 use crate::geometry::{Point, Rectangle, Window};
 use crate::mosaic::hexagonal_spacing;
 
+/// Largest number of points that may be asked for.
 const MAX_POINTS: usize = 100_000_000;
+/// Largest ratio of the longer to the shorter side of a window.
 const MAX_ASPECT: f64 = 1e6;
 
-/// What every sampler asks of its window: it works on [0, width) × [0, height) and places the result there.
+/// Bounds of a window, in which every sampler works: [0, width) × [0, height), from the upper left
+/// corner.
+///
+/// [`Frame::place`] takes the result into the window.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
-    /// Horizontal side.
+    /// Horizontal side, in the window's unit.
     pub width: f64,
-    /// Vertical side.
+    /// Vertical side, in the window's unit.
     pub height: f64,
-    /// Whether opposite edges are glued.
+    /// Opposite edges are glued together.
     pub torus: bool,
     bounds: Rectangle,
 }
 
 impl Frame {
-    /// The bounds of a window.
+    /// Creates the frame for the bounds of a window.
     ///
     /// # Errors
-    /// If `n` points or a window of this shape are beyond all samplers.
+    /// If `n` points, or a window of this shape, are beyond all samplers.
     pub fn new(n: usize, window: &Window) -> Result<Self, SampleError> {
         let bounds = window.bounds();
         let (width, height) = (bounds.width(), bounds.height());
@@ -35,12 +40,15 @@ impl Frame {
         Ok(Self { width, height, torus: window.is_torus(), bounds })
     }
 
-    /// Hexagonal spacing of `n` points; 0 without points.
+    /// Returns the hexagonal spacing of `n` points in the frame; 0 without points.
     pub fn spacing(&self, n: usize) -> f64 {
         hexagonal_spacing(n, self.width * self.height).unwrap_or(0.)
     }
 
-    /// The point at (x, y) from the upper left corner. Rounding must not carry it over the right or lower edge.
+    /// Returns the point of the window at (x, y) from the frame's upper left corner.
+    ///
+    /// The result is clamped to the half-open bounds, as rounding must not carry a point over the
+    /// right or lower edge.
     pub fn place(&self, x: f64, y: f64) -> Point {
         let inside = |v: f64, low: f64, high: f64| (low + v).clamp(low, high.next_down());
         Point::new(

@@ -2,10 +2,13 @@ use super::{Frame, SampleError, Sampler};
 use crate::geometry::Point;
 use rand::{Rng, RngExt};
 
-/// One uniform point in each of n cells of equal area (Cook 1986, jittered sampling).
+/// One uniform point in each of n cells of equal area: jittered sampling.
 ///
-/// The window is cut into about √(n h/w) rows, each row into cells; rows with a cell more are higher, so all
-/// cells have the area A/n. A square number in a square window gives the √n × √n grid.
+/// The window is cut into about √(n h/w) rows (h and w are its sides), and each row into cells.
+/// Rows with one more cell are higher, so all cells have the area A/n. A square number in a square
+/// window gives the √n × √n grid.
+///
+/// Source: Cook (1986), <https://doi.org/10.1145/7529.8927>.
 #[derive(Clone, Copy, Debug)]
 pub struct Jittered;
 

@@ -1,24 +1,33 @@
+//! Lloyd's relaxation: random points become more regular as they move to the centroids of their
+//! cells.
+
 use super::relaxed_region::{Region, Relaxes};
 use super::{Configure, Density, Frame, SampleError, Sampler, Settable, Setting, Watch};
 use crate::geometry::power::PowerSites;
 use crate::geometry::{Point, Window};
 use rand::Rng;
 
-/// Random points, each moved to the centroid of its Voronoi cell, for a number of steps (Lloyd 1982): with many, a centroidal
-/// Voronoi tessellation (Du, Faber & Gunzburger 1999).
+/// Random points, each moved to the centroid of its Voronoi cell, for a number of steps.
 ///
-/// Neighbours even out in a few steps; variations of density across the window, left of the random points, take about 3n.
+/// With many steps the result is a centroidal Voronoi tessellation. Distances between neighbours
+/// even out within a few steps. Variations of density across the window, which the random start
+/// leaves, take about 3n steps.
+///
+/// Sources: Lloyd (1982), <https://doi.org/10.1109/TIT.1982.1056489>; Du, Faber and Gunzburger
+/// (1999), <https://doi.org/10.1137/S0036144599352836>.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lloyd {
-    /// How often all points are moved.
+    /// Number of times all points are moved.
     pub steps: usize,
-    /// How dense points are to be (their density then goes with its square root, as centroidal tessellations do); evenly
-    /// without.
+    /// Relative density that weights the centroids; `None` for an even one.
+    ///
+    /// The density of the points goes with its square root, as in centroidal tessellations in the
+    /// plane.
     pub density: Option<Density>,
 }
 
 impl Lloyd {
-    /// 20 steps, even density.
+    /// Default setting: 20 steps, even density.
     pub const DEFAULT: Self = Self { steps: 20, density: None };
 }
 
@@ -142,7 +151,7 @@ mod tests {
 
     #[test]
     fn a_step_moves_each_point_to_the_centroid_of_its_cell() {
-        // after many, cells of points near rest hardly differ from hexagons in number of sides
+        // after many steps, the cells of points near rest are nearly all six-sided
         let six = |steps| voronoi(&pattern(steps, 3), &Window::unit_torus()).summary().six_sided_percent;
         assert!(six(300).unwrap() > 70. && six(0).unwrap() < 35., "{:?} {:?}", six(300), six(0));
     }

@@ -1,9 +1,36 @@
-//! Point processes behind one trait. A new one is one file here, and its module, name and place in
-//! the registry below.
+//! Random point patterns to compare mosaics with: point processes behind one trait, [`Sampler`].
 //!
-//! All work in any window. Distances of the Poisson-disk samplers are those of the torus in every
-//! window, so the pattern has no border of its own; a bounded window then cuts it off as an image
-//! cuts off a mosaic. A polygon is cut out of a pattern of its bounds.
+//! Every sampler works in any window. Distances in the Poisson-disk samplers are those of the torus
+//! in every window, so the pattern has no border of its own; a bounded window then cuts the pattern
+//! off as an image cuts off a mosaic. A polygon is cut out of a pattern that fills its bounds.
+//!
+//! A new sampler is one new file here, plus its module, its name and its place in the registry
+//! `SAMPLERS` below.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::geometry::Rectangle;
+//! use conemosaic::prelude::*;
+//! use conemosaic::sample::{sampler, samplers};
+//! use rand::SeedableRng;
+//!
+//! let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(4);
+//! let torus = Window::Torus(Rectangle::new(0., 0., 1., 1.)?);
+//! let points = sampler("bnot")?.sample(64, &torus, &mut rng)?;
+//! assert_eq!(points.len(), 64);
+//!
+//! // the same method with another parameter, in a polygon
+//! let lattice = sampler("triangular")?.configure(&[("jitter", "0.1")])?;
+//! let corners = [(0., 0.), (100., 0.), (50., 80.)].map(|(x, y)| Point::new(x, y));
+//! let triangle = Window::polygon(vec![corners.to_vec()])?;
+//! let inside = lattice.sample(200, &triangle, &mut rng)?;
+//! assert!(inside.iter().all(|&p| triangle.contains(p)));
+//!
+//! for sampler in samplers() {
+//!     println!("{:<16} {}", sampler.name(), sampler.about());
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod bnot;
 mod density;
@@ -37,8 +64,9 @@ pub use uniform::Uniform;
 
 use self::sampler::{cut, nearest_in_number};
 
-/// In the order in which they are listed: from the least to the most regular of those by default,
-/// then the others.
+/// Registry of all samplers, in the order in which they are listed.
+///
+/// The samplers used by default come first, from the least to the most regular, then the others.
 static SAMPLERS: &[&dyn Sampler] = &[
     &Uniform,
     &Jittered,
@@ -59,14 +87,16 @@ static SAMPLERS: &[&dyn Sampler] = &[
     &Deering::DEFAULT,
 ];
 
-/// Every sampler there is.
+/// Returns every sampler there is.
 pub fn samplers() -> &'static [&'static dyn Sampler] {
     SAMPLERS
 }
 
-/// Returns the samplers of these names, each once and in the setting that mosaics are compared
-/// with: `all` stands for every one, `none` for none of those before it, and no name at all for
-/// those by default.
+/// Returns the samplers with these names, each once and in the setting that mosaics are compared
+/// with.
+///
+/// The name `all` stands for every sampler. `none` drops all those named before it. Without any
+/// name the samplers by default are returned.
 ///
 /// # Errors
 /// If there is no such sampler; the error lists the names.
@@ -93,17 +123,19 @@ pub fn samplers_named(names: &[String]) -> Result<Vec<&'static dyn Sampler>, Sam
     Ok(found)
 }
 
-/// The samplers that mosaics are compared with if none are named, each in the setting for that.
+/// Returns the samplers that mosaics are compared with if none are named.
+///
+/// Each is in the setting that mosaics are compared with.
 pub fn samplers_by_default() -> Vec<&'static dyn Sampler> {
     SAMPLERS.iter().copied().filter(|s| s.by_default()).map(as_reference).collect()
 }
 
-/// The setting of a sampler that mosaics are compared with.
+/// Returns the sampler in the setting that mosaics are compared with.
 pub fn as_reference(sampler: &'static dyn Sampler) -> &'static dyn Sampler {
     sampler.as_reference().unwrap_or(sampler)
 }
 
-/// The sampler of that name.
+/// Returns the sampler of that name.
 ///
 /// # Errors
 /// If there is none; the error lists the names and the one closest to what was asked for.
@@ -160,8 +192,8 @@ mod tests {
         assert!(samplers().iter().all(|s| message.contains(s.name())), "{message}");
     }
 
-    /// METHODS §3: n = 1024 in the unit square, 12 seeds, all points, population deviation, plain
-    /// distance.
+    /// Conditions of METHODS §3: n = 1024 in the unit square, 12 seeds, all points, population
+    /// deviation, plain distance.
     #[test]
     fn regularity_index_of_random_samplers_is_the_published_one() {
         for (name, expected, tolerance) in [
@@ -210,7 +242,7 @@ mod tests {
         let polygon = Window::polygon(vec![ring]).unwrap();
         let rectangle = Window::rectangle(0., 0., 2., 2.).unwrap();
         for s in samplers().iter().copied().map(as_reference) {
-            // rows of a lattice that the sides of the L take or leave hold 12 to 40 points
+            // the sides of the L take or leave whole rows of a lattice, which hold 12 to 40 points
             let most = if matches!(s.name(), "square" | "triangular") { 30 } else { 3 };
             let n = s.sample(600, &polygon, &mut seeded(1)).unwrap().len();
             assert!(n.abs_diff(600) <= most, "{}: {n}", s.name());
@@ -246,7 +278,7 @@ mod tests {
             if s.exact() || n == 0 {
                 prop_assert_eq!(points.len(), n);
             } else if n >= 50 {
-                // few rows of a lattice close on a narrow torus: their number jumps
+                // a lattice of few rows must close on a narrow torus, so the number of points jumps
                 prop_assert!((points.len() as f64 / n as f64).ln().abs() < 0.6, "{} of {}", points.len(), n);
             } else {
                 prop_assert!(points.len() <= 2 * n + 10);

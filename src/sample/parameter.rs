@@ -1,21 +1,21 @@
 use super::{SampleError, Sampler};
 
-/// A number that a sampler takes, as users read of it.
+/// Description of one parameter of a sampler, as users read it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
-    /// Name: lower case, words joined by hyphens.
+    /// Name in lower case, with words joined by hyphens.
     pub name: &'static str,
     /// Unit, or the thing counted; empty for a plain number.
     pub unit: &'static str,
     /// Least and greatest value, both allowed.
     pub range: (f64, f64),
-    /// Only whole numbers are allowed.
+    /// Restriction to whole numbers.
     pub whole: bool,
-    /// The value that holds if it is not set; `None` where that is no number.
+    /// Value that holds if none is set; `None` where that is not a number.
     pub default: Option<f64>,
-    /// Words for what holds instead of a number.
+    /// Words for the default where it is not a number.
     pub unset: &'static str,
-    /// Effect, and where the default comes from.
+    /// Effect of the parameter, and the source of its default.
     pub meaning: &'static str,
 }
 
@@ -47,24 +47,26 @@ impl Parameter {
     }
 }
 
-/// A row of a sampler's table of parameters: what users read of one, and the field that it is. Its
-/// default stands nowhere but in the sampler.
+/// Row of a sampler's table of parameters: the text that users read, and access to the field.
+///
+/// The default is read from the sampler, so it stands in one place only.
 pub struct Setting<S> {
-    /// See [`Parameter::name`].
+    /// Name of the parameter, see [`Parameter::name`].
     pub name: &'static str,
-    /// See [`Parameter::unit`].
+    /// Unit of the parameter, see [`Parameter::unit`].
     pub unit: &'static str,
-    /// See [`Parameter::range`].
+    /// Range of allowed values, see [`Parameter::range`].
     pub range: (f64, f64),
-    /// See [`Parameter::whole`].
+    /// Restriction to whole numbers, see [`Parameter::whole`].
     pub whole: bool,
-    /// See [`Parameter::unset`]; empty if there always is a number.
+    /// Words for a default that is not a number, see [`Parameter::unset`]; empty if there always is
+    /// a number.
     pub unset: &'static str,
-    /// See [`Parameter::meaning`].
+    /// Effect of the parameter, see [`Parameter::meaning`].
     pub meaning: &'static str,
-    /// Returns the value that holds, if it is a number.
+    /// Getter that returns the present value, or `None` if it is not a number.
     pub get: fn(&S) -> Option<f64>,
-    /// Sets a value of the range.
+    /// Setter for a value within the range.
     pub set: fn(&mut S, f64),
 }
 
@@ -75,23 +77,29 @@ impl<S> Setting<S> {
     }
 }
 
-/// A sampler with parameters. With it, [`Sampler::settable`] is `Some(self)`.
+/// Sampler that has parameters.
+///
+/// Its [`Sampler::settable`] returns `Some(self)`.
 pub trait Settable: Sampler + Clone + 'static {
-    /// The parameters, set in this order: a later one overrules what an earlier one sets besides
-    /// its own.
+    /// Table of the parameters.
+    ///
+    /// They are set in this order: a later parameter overrules a field that an earlier one sets
+    /// besides its own.
     const SETTINGS: &'static [Setting<Self>];
 }
 
-/// Work of every [`Settable`] sampler, whatever its type.
+/// Description and setting of parameters, for every [`Settable`] sampler whatever its type.
 pub trait Configure {
     /// Returns the parameters, in the order of the table, with this sampler's values as defaults.
     fn described(&self) -> Vec<Parameter>;
 
-    /// Returns the same sampler with other parameters, given as (name, value); the last holds of
-    /// two of one name.
+    /// Returns the same sampler with other parameters, given as (name, value).
+    ///
+    /// If a name is given twice, the last value holds.
     ///
     /// # Errors
-    /// If a name is none of a parameter, or a value is not a number in its range; the message says what could be set.
+    /// If a name belongs to no parameter, or a value is not a number in its range; the message says
+    /// what can be set.
     fn configured(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError>;
 }
 
@@ -140,7 +148,7 @@ mod tests {
         fn settable(&self) -> Option<&dyn Configure> {
             Some(self)
         }
-        /// Shows what is set.
+        /// Returns one point that shows the parameters set.
         fn fill(&self, _: usize, _: &Frame, _: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
             Ok(vec![Point::new(self.steps.map_or(-1., |s| s as f64), self.length)])
         }

@@ -1,23 +1,28 @@
+//! Regions in which the relaxing samplers ([`Lloyd`](super::Lloyd), [`Bnot`](super::Bnot)) move
+//! points.
+
 use super::{Density, Frame, SampleError, Sampler, Watch, cut};
 use crate::geometry::power::{Domain, Raster};
 use crate::geometry::{Point, Polygon, Window};
 use rand::{Rng, RngExt};
 
-/// Places tried for one point before a window is said to have none.
+/// Places tried for one point before the window is said to have no room.
 const MOST_TRIES: usize = 1_000_000;
 
-/// Where points are relaxed: a rectangle, a torus or a convex polygon, moved to the origin, and how dense they are to be.
+/// Region in which points are relaxed, with the density that they are to have.
+///
+/// It is a rectangle, a torus or a convex polygon, moved so that its bounds begin at the origin.
 pub(super) struct Region {
     pub(super) domain: Domain,
     pub(super) density: Option<Raster>,
     frame: Frame,
     polygon: Option<Polygon>,
-    /// Cells of the density, each with the mass of those before it.
+    /// Cumulative mass of the density's cells: each entry includes its own cell.
     cumulated: Vec<f64>,
 }
 
 impl Region {
-    /// The bounds of a frame.
+    /// Creates the region of a frame's bounds.
     pub(super) fn new(frame: &Frame, density: Option<&Density>) -> Self {
         let domain = match frame.torus {
             true => Domain::Torus { width: frame.width, height: frame.height },
@@ -26,7 +31,7 @@ impl Region {
         Self::of(*frame, domain, None, density)
     }
 
-    /// A polygon, if it is convex.
+    /// Creates the region of a polygon, or `None` if the polygon is not convex.
     ///
     /// # Errors
     /// If `n` points in bounds of this shape are beyond all samplers.
@@ -53,7 +58,10 @@ impl Region {
         Self { domain, density, frame, polygon, cumulated }
     }
 
-    /// Independent points, distributed as the density is.
+    /// Draws `n` independent points, distributed as the density.
+    ///
+    /// # Errors
+    /// If [`MOST_TRIES`] places in the bounds all miss the region.
     pub(super) fn scatter(
         &self,
         sampler: &'static str,
@@ -67,14 +75,14 @@ impl Region {
         (0..n).map(|placed| one(placed, rng)).collect()
     }
 
-    /// Whether it lies inside; on a torus, everything does.
+    /// Returns whether a place lies inside the region; on a torus, every place does.
     pub(super) fn contains(&self, [x, y]: [f64; 2]) -> bool {
         let within = |polygon: &Polygon| polygon.contains_strictly(self.frame.place(x, y));
         let bounds = (0. ..self.frame.width).contains(&x) && (0. ..self.frame.height).contains(&y);
         self.frame.torus || (bounds && self.polygon.as_ref().is_none_or(within))
     }
 
-    /// A place in the bounds.
+    /// Draws a place in the bounds, distributed as the density.
     fn draw(&self, rng: &mut dyn Rng) -> [f64; 2] {
         let (u, v): (f64, f64) = (rng.random(), rng.random());
         let (Some(raster), Some(whole)) = (&self.density, self.cumulated.last()) else {
@@ -90,27 +98,29 @@ impl Region {
         ]
     }
 
-    /// Distance of neighbours in a triangular lattice of `n` points.
+    /// Returns the distance of neighbours in a triangular lattice of `n` points in the region.
     pub(super) fn spacing(&self, n: usize) -> f64 {
         crate::mosaic::hexagonal_spacing(n, self.domain.area()).unwrap_or(1.)
     }
 
-    /// Middle of the bounds.
+    /// Returns the middle of the bounds.
     pub(super) fn centre(&self) -> [f64; 2] {
         [self.frame.width / 2., self.frame.height / 2.]
     }
 
-    /// Points of the window.
+    /// Takes places of the region to points of the window, wrapped round a torus.
     pub(super) fn place(&self, points: &[[f64; 2]]) -> Vec<Point> {
         let wrapped = points.iter().map(|p| self.domain.wrapped(*p));
         wrapped.map(|[x, y]| self.frame.place(x, y)).collect()
     }
 }
 
-/// A sampler that moves points about in a [`Region`].
+/// Sampler that moves points in a [`Region`] until they are regular.
 pub(super) trait Relaxes: Sampler {
+    /// Returns the density that the points are to have; `None` for an even one.
     fn density(&self) -> Option<&Density>;
 
+    /// Returns `n` random points of `region` after relaxation, in the window's coordinates.
     fn relax_in(
         &self,
         n: usize,
@@ -119,7 +129,9 @@ pub(super) trait Relaxes: Sampler {
         progress: &mut Watch<'_>,
     ) -> Result<Vec<Point>, SampleError>;
 
-    /// What [`Sampler::sample_watched`] does: convex polygons are filled, others cut out of their filled bounds.
+    /// Does the work of [`Sampler::sample_watched`].
+    ///
+    /// Convex polygons are filled directly; other polygons are cut out of their filled bounds.
     fn relax_window(
         &self,
         n: usize,

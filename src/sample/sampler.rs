@@ -3,45 +3,51 @@ use crate::geometry::{Point, Polygon, Window};
 use rand::Rng;
 use std::fmt;
 
-/// A way to put n points into a window.
+/// Method that places about n points in a window.
 pub trait Sampler: fmt::Debug + Send + Sync {
-    /// The name users type: lower case, words joined by hyphens.
+    /// Returns the name that users type: lower case, words joined by hyphens.
     fn name(&self) -> &'static str;
 
-    /// One line: what it makes, its parameters, its source.
+    /// Returns one line about the pattern, the parameters and the source.
     fn about(&self) -> &'static str;
 
-    /// About `n` points of `frame` (exactly `n` where [`Sampler::exact`] says so), in the half-open
-    /// ranges of its bounds. The same generator state gives the same points.
+    /// Returns about `n` points of `frame`, in the half-open ranges of its bounds.
+    ///
+    /// The number is exactly `n` where [`Sampler::exact`] says so. The same generator state gives
+    /// the same points.
     ///
     /// # Errors
-    /// If `n` is out of the method's range, or it found no room for `n` points.
+    /// If `n` is out of the method's range, or the method found no room for `n` points.
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError>;
 
-    /// Returns whether exactly the n points asked for are made, instead of the nearest number or
-    /// one left to chance; `false` unless a sampler says so. A polygon is cut out of a pattern, so
-    /// that none is exact there but those that fill it.
+    /// Returns whether exactly the `n` points asked for are made.
+    ///
+    /// Otherwise the number is the nearest possible one or is left to chance. The default is
+    /// `false`. A polygon is cut out of a pattern, so in a polygon only those samplers are exact
+    /// that fill it directly.
     fn exact(&self) -> bool {
         false
     }
 
-    /// Returns whether nothing tells the seam of a torus; `true` unless a sampler says otherwise.
+    /// Returns whether the pattern on a torus has no visible seam; `true` by default.
     fn periodic(&self) -> bool {
         true
     }
 
-    /// Returns whether points stand in rows along the sides of the window, so that how the window
-    /// lies matters to them; `false` unless a sampler says so.
+    /// Returns whether points stand in rows along the sides of the window, so that its orientation
+    /// matters; `false` by default.
     fn in_rows(&self) -> bool {
         false
     }
 
-    /// Returns the sampler as one with parameters: `Some(self)` for those that are [`Settable`](super::Settable).
+    /// Returns the sampler as one with parameters.
+    ///
+    /// Samplers that are [`Settable`](super::Settable) return `Some(self)`.
     fn settable(&self) -> Option<&dyn Configure> {
         None
     }
 
-    /// Returns what can be set by [`Sampler::configure`].
+    /// Returns the parameters that [`Sampler::configure`] can set.
     fn parameters(&self) -> Vec<Parameter> {
         self.settable().map_or(Vec::new(), Configure::described)
     }
@@ -56,28 +62,31 @@ pub trait Sampler: fmt::Debug + Send + Sync {
         self.settable().map_or_else(none, |sampler| sampler.configured(settings))
     }
 
-    /// The same method for points as dense as `density` says, if it can; otherwise `None`.
+    /// Returns the same method for points with this density, or `None` if the method cannot vary
+    /// it.
     fn with_density(&self, _density: &Density) -> Option<Box<dyn Sampler>> {
         None
     }
 
-    /// Returns whether mosaics are compared with it unless others are named: samplers that retinas
-    /// come near to, and independent points for scale. Their mean curves come with the program
-    /// (`scripts/make-curves`).
+    /// Returns whether mosaics are compared with this sampler unless others are named.
+    ///
+    /// These are the samplers that retinas come close to, and independent points for scale. Their
+    /// mean curves come with the program (`scripts/make-curves`).
     fn by_default(&self) -> bool {
         false
     }
 
-    /// The setting of it that mosaics are compared with, where that is not the default one.
+    /// Returns the setting that mosaics are compared with, or `None` if that is the default one.
     fn as_reference(&self) -> Option<&'static dyn Sampler> {
         None
     }
 
-    /// [`Sampler::fill`] for methods that take long: `progress` hears of steps done, of how many at
-    /// most.
+    /// Does the work of [`Sampler::fill`] and reports progress, for methods that take long.
+    ///
+    /// `progress` is called with the number of steps done and the largest number there can be.
     ///
     /// # Errors
-    /// As [`Sampler::fill`].
+    /// Those of [`Sampler::fill`].
     fn fill_watched(
         &self,
         n: usize,
@@ -88,23 +97,24 @@ pub trait Sampler: fmt::Debug + Send + Sync {
         self.fill(n, frame, rng)
     }
 
-    /// [`Sampler::sample_watched`] without a listener.
+    /// Returns the points of [`Sampler::sample_watched`] without reporting progress.
     ///
     /// # Errors
-    /// As there.
+    /// Those of [`Sampler::sample_watched`].
     fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         self.sample_watched(n, window, rng, &mut |_, _| ())
     }
 
-    /// About `n` points of `window`, by [`Sampler::fill`]: the bounds of a rectangle or torus are
-    /// filled.
+    /// Returns about `n` points of `window`, by [`Sampler::fill`] for the bounds of a rectangle or
+    /// torus.
     ///
-    /// A polygon is cut out of a pattern of the same density in its bounds. How many points it
-    /// holds is left to chance; patterns are drawn until their number is within .5 % of `n`, at
-    /// most 32, and the nearest is taken.
+    /// A polygon is cut out of a pattern of the same density in its bounds. The number of points
+    /// inside it is left to chance: at most 32 patterns are drawn, until the number is within .5 %
+    /// of `n`, and the nearest is taken.
     ///
     /// # Errors
-    /// If `n` or the window is out of the method's range, or it found no room for the points.
+    /// If `n` or the window is out of the method's range, or the method found no room for the
+    /// points.
     fn sample_watched(
         &self,
         n: usize,
@@ -125,11 +135,13 @@ pub trait Sampler: fmt::Debug + Send + Sync {
     }
 }
 
-/// What hears of a sampler's progress: steps done, and of how many at most.
+/// Listener to a sampler's progress, called with the steps done and the most steps there can be.
 pub type Watch<'a> = dyn FnMut(usize, usize) + 'a;
 
-/// The pattern nearest to `n` points in number that a polygon cuts out of fillings of its bounds,
-/// of whose points it holds about `share`.
+/// Fills the bounds of a polygon several times and returns the cut-out whose number of points is
+/// nearest to `n`.
+///
+/// `share` is the expected fraction of the points in the bounds that lie inside the polygon.
 pub(super) fn cut(
     n: usize,
     polygon: &Polygon,
@@ -146,8 +158,9 @@ pub(super) fn cut(
     })
 }
 
-/// Of at most `tries` patterns the one whose number of points is nearest to `n`; one that is near
-/// enough ends the search.
+/// Returns the pattern, of at most `tries`, whose number of points is nearest to `n`.
+///
+/// The first pattern that is near enough (`CLOSE`) ends the search.
 pub(super) fn nearest_in_number(
     n: usize,
     tries: usize,
@@ -167,7 +180,7 @@ pub(super) fn nearest_in_number(
     Ok(best.map(|(_, points)| points).unwrap_or_default())
 }
 
-/// Most patterns drawn to cut a polygon out of, and how near, as a share of n, a number must come
-/// to end the search.
+/// Most patterns drawn to cut a polygon out of.
 const CUTS: usize = 32;
+/// Deviation from n, as a share of n, that is near enough to end the search.
 const CLOSE: f64 = 0.005;

@@ -1,26 +1,37 @@
+//! Aggregation index of Clark and Evans, with two corrections for the border of the window.
+
 use super::functions::FirstDistance;
 use crate::geometry::{NearestNeighbours, Window};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Distances at which G is taken for the cdf rule, as in spatstat.
+/// Number of distances at which G is taken for the cdf rule, as in spatstat.
 const ROWS: usize = 513;
 
-/// The aggregation index of Clark & Evans (1954): mean nearest-neighbour distance over that of independent points of the same
-/// density, 1/(2√λ). 1 for independent points, 2.149 for the triangular lattice. `None` for fewer than two points.
+/// Aggregation index of Clark & Evans (1954), <https://doi.org/10.2307/1931034>.
+///
+/// It is the mean nearest-neighbour distance divided by that of independent points of the same
+/// density, 1/(2√λ): 1 for independent points, 2.149 for the triangular lattice. All values are
+/// `None` for fewer than two points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ClarkEvans {
-    /// All points, no correction: too large, as neighbours beyond the border are not seen.
+    /// Index of all points without correction: too large, because neighbours beyond the border are
+    /// not seen.
     pub naive: Option<f64>,
-    /// Donnelly (1978): the expectation corrected by the border, 1/(2√λ) + (.0514 + .0412/√n) · perimeter/n. He found it by
-    /// simulation in rectangles; in polygons, where spatstat gives none, it is an approximation. `None` on a torus.
+    /// Index by Donnelly (1978): the expectation is corrected for the border,
+    /// 1/(2√λ) + (.0514 + .0412/√n) · perimeter/n.
+    ///
+    /// Donnelly found the correction by simulation in rectangles. In polygons, where spatstat gives
+    /// none, it is an approximation. `None` on a torus.
     pub donnelly: Option<f64>,
-    /// Mean of the Kaplan–Meier estimate of G over its 513 left grid ends to √(ln 10⁵/(πλ)). `None` too where no point is nearer
-    /// to its neighbour than to the border.
+    /// Index from the mean of the Kaplan–Meier estimate of G.
+    ///
+    /// G is taken at 513 distances from 0 to √(ln 10⁵/(πλ)), and each step of it counts at its left
+    /// end. Also `None` if no point is nearer to its neighbour than to the border.
     pub cdf: Option<f64>,
 }
 
-/// `borders`: distance of every point to the border.
+/// Computes the index; `borders` are the distances of all points to the border.
 pub(super) fn clark_evans(window: &Window, nearest: &NearestNeighbours, borders: &[f64]) -> ClarkEvans {
     let n = nearest.distances.len() as f64;
     if nearest.distances.is_empty() {

@@ -1,18 +1,23 @@
+//! Delaunay triangulation of any points, including coinciding, extreme and non-finite ones.
+
 use crate::geometry::{Point, Rectangle};
 use spade::{DelaunayTriangulation, Point2};
 
-/// A Delaunay triangulation, in coordinates in which the longer side of the window is 1.
+/// Delaunay triangulation, in coordinates in which the longer side of the window is 1.
 pub(super) struct Delaunay {
-    /// Index and place of the point that each vertex is.
+    /// Index and position of the point at each vertex.
     pub(super) sites: Vec<(usize, [f64; 2])>,
+    /// Triangulation whose vertices are `sites`, in the same order.
     pub(super) triangulation: DelaunayTriangulation<Point2<f64>>,
 }
 
-/// Triangulates points, less those that are not finite or coincide with an earlier one. `None` where the points are
-/// beyond what can be triangulated.
+/// Triangulates the points, except those that are not finite or coincide with an earlier point.
+///
+/// Returns `None` if the points exceed what the triangulation accepts.
 pub(super) fn delaunay(points: &[Point], bounds: &Rectangle) -> Option<Delaunay> {
     let side = bounds.width().max(bounds.height());
-    // The triangulation takes a limited range of numbers only: the window becomes the unit square, subnormal 0.
+    // The triangulation accepts a limited range of numbers only. So the window is scaled to the
+    // unit square, and subnormal numbers become 0.
     let unit = |v: f64, low: f64| {
         let t = (v - low) / side;
         if t.abs() < 1e-30 { 0. } else { t }

@@ -1,3 +1,11 @@
+//! Density recovery profile: the density of other points around the average point, by distance
+//! (Rodieck 1991, <https://doi.org/10.1017/S095252380001049X>).
+//!
+//! 1. Count the pairs of points by distance, in annuli of equal width.
+//! 2. Divide each count by the area of its annuli that lies in the window.
+//! 3. Sum the points that are missing up to the first annulus above the mean density. The effective
+//!    radius is that of an empty disk in which as many points are missing.
+
 use super::StatsError;
 use super::edge_weight::{EdgeWeights, MAX_WEIGHT};
 use super::error::all_inside;
@@ -8,29 +16,31 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// More bins than this are refused: they would hold next to nothing.
+/// Largest number of annuli; with more, each would hold next to no points.
 const MOST_BINS: f64 = 100_000.;
-/// Points from which on the rows of the search run in parallel.
+/// Number of points from which the rows of the search run in parallel.
 const PARALLEL_FROM: usize = 8192;
 
-/// How wide the annuli of a density recovery profile are.
+/// Rule for the width of the annuli of a density recovery profile.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BinWidth {
-    /// So wide that Rodieck's reliability factor k = D·w·√(πA) has this value, .1–1000. Independent points put k² others into
-    /// the first annulus, summed over all reference points. 4 is what Metricks uses.
+    /// Width at which Rodieck's reliability factor k = D·w·√(πA) has this value, .1–1000.
+    ///
+    /// Independent points put k² others into the first annulus, summed over all reference points.
+    /// The program Metricks uses 4.
     Reliability(f64),
-    /// This width, in the unit of the coordinates; positive.
+    /// Width in the unit of the coordinates; positive.
     Length(f64),
 }
 
-/// How to measure a density recovery profile.
+/// Options of a density recovery profile.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DensityRecoveryOptions {
-    /// Width of the annuli; by default reliability 4, in hexagonal spacings 2.1/√n.
+    /// Width of the annuli; the default, reliability 4, is 2.1/√n hexagonal spacings.
     pub bin_width: BinWidth,
-    /// How far the profile goes, in hexagonal spacings of the pattern: .5–50, default 4.
+    /// Largest distance of the profile, in hexagonal spacings of the pattern: .5–50, default 4.
     pub r_max: f64,
 }
 
@@ -41,8 +51,10 @@ impl Default for DensityRecoveryOptions {
 }
 
 impl DensityRecoveryOptions {
+    /// Checks that every option is in its range.
+    ///
     /// # Errors
-    /// If an option is out of its range; the error says the range.
+    /// Returns [`StatsError::Option`] with the permitted range if an option is outside it.
     pub fn validate(&self) -> Result<(), StatsError> {
         let check = |ok: bool, option, value, range| {
             if ok { Ok(()) } else { Err(StatsError::Option { option, value, range }) }
@@ -64,42 +76,52 @@ impl DensityRecoveryOptions {
     }
 }
 
-/// Density around the average point as a function of distance, and what follows from its dip near 0. Lengths are in the unit
-/// of the coordinates.
+/// Density around the average point as a function of distance, and the measures of its dip near 0.
+///
+/// Lengths are in the unit of the coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DensityRecovery {
-    /// Width w of the annuli: annulus i holds distances from iw up to, but not at, (i + 1)w.
+    /// Width w of the annuli: annulus i holds distances from iw up to but excluding (i + 1)w.
     pub bin_width: f64,
-    /// Their middle radii.
+    /// Middle radii of the annuli.
     pub r: Vec<f64>,
-    /// Points per squared unit in each, the annuli corrected by the share of them that lies in the window.
+    /// Points per squared unit in each annulus, corrected for the share of the annuli that lies in
+    /// the window.
     pub density: Vec<f64>,
     /// Mean density D = n/A, to which the profile recovers.
     pub mean_density: f64,
-    /// Radius of the disk that, empty at the mean density, lacks as many points as the profile does up to its first annulus
-    /// above D: √(V/(πD)). `None` if no annulus is above D.
+    /// Radius √(V/(πD)) of an empty disk in which as many points V are missing as in the profile.
+    ///
+    /// V is summed up to the first annulus above D. `None` if no annulus is above D.
     pub effective_radius: Option<f64>,
-    /// The largest effective radius at this density, that of the triangular lattice: √(√(4/3)/D), its spacing.
+    /// Largest effective radius at this density: √(√(4/3)/D), the spacing of the triangular
+    /// lattice.
     pub maximum_radius: f64,
-    /// Packing factor (effective radius / maximum radius)²: 0 for independent points, 1 for the triangular lattice.
+    /// Packing factor (effective radius / maximum radius)²: 0 for independent points, 1 for the
+    /// triangular lattice.
     pub packing: Option<f64>,
     /// Reliability factor k = D·w·√(πA).
     pub reliability: f64,
 }
 
-/// Density recovery profile of Rodieck (1991): how many others lie in the annuli around each point, over the area of those
-/// annuli that is in the window. That is the whole area times the isotropised set covariance at the middle radius – in a w × h
-/// rectangle 1 − 2r(w+h)/(πwh) + r²/(πwh), his equation, in a polygon the same function of its outline, on a torus 1.
+/// Computes the density recovery profile of Rodieck (1991).
 ///
-/// The profile ends at `r_max`, or before: at the shorter side of a rectangle or torus, beyond which that equation does not hold,
-/// and in a polygon where it can hardly be left (covariance .01). With few points nothing or a single annulus may be left of it,
-/// and there is no effective radius. Points that coincide are at distance 0, in the first annulus.
+/// It is the number of other points in the annuli around each point, divided by the area of those
+/// annuli that lies in the window. That area is the whole area times the isotropised set covariance
+/// at the middle radius. In a w × h rectangle this is Rodieck's equation,
+/// 1 − 2r(w+h)/(πwh) + r²/(πwh). In a polygon it is the same function of the outline; on a torus
+/// it is 1.
 ///
-/// Linear in n: pairs are counted up to the end of the profile only.
+/// The profile ends at `r_max` or earlier: at the shorter side of a rectangle or torus, beyond
+/// which the equation does not hold, and in a polygon where hardly any pair fits (covariance .01).
+/// With few points, no annulus or a single one may remain, and then there is no effective radius.
+/// Points that coincide are at distance 0, in the first annulus.
+///
+/// The time is linear in n, since pairs are counted up to the end of the profile only.
 ///
 /// # Errors
-/// If an option is out of its range or asks for more than 10⁵ annuli, there are fewer than two points, or one is not inside the
-/// window.
+/// Returns [`StatsError`] if an option is out of its range or asks for more than 10⁵ annuli, if
+/// there are fewer than two points, or if a point is not inside the window.
 pub fn density_recovery(
     points: &[Point],
     window: &Window,
@@ -134,7 +156,7 @@ pub fn density_recovery(
         .take_while(|&r| r <= weights.covariance_reach() && covariance(r) > 1. / MAX_WEIGHT)
         .collect();
 
-    // every pair was visited once, and counts from both of its ends
+    // Every pair was visited once but counts from both of its ends, hence the factor 2.
     let counts = counts(points, window, width, r.len());
     let annulus = |bin: usize| PI * width * width * (2 * bin + 1) as f64;
     let density: Vec<f64> = r
@@ -162,7 +184,7 @@ pub fn density_recovery(
     })
 }
 
-/// Pairs of points in each of the first annuli.
+/// Counts the pairs of points in each of the first `bins` annuli.
 fn counts(points: &[Point], window: &Window, width: f64, bins: usize) -> Vec<u64> {
     let none = || vec![0u64; bins];
     if bins == 0 {
@@ -181,7 +203,7 @@ fn counts(points: &[Point], window: &Window, width: f64, bins: usize) -> Vec<u64
     if points.len() < PARALLEL_FROM {
         return of_rows(0..grid.rows());
     }
-    // whole numbers: their sum is the same in any order
+    // Counts are whole numbers, so their sum is the same in any order.
     (0..grid.rows()).into_par_iter().map(|row| of_rows(row..row + 1)).reduce(none, |mut sum, part| {
         sum.iter_mut().zip(part).for_each(|(s, p)| *s += p);
         sum
@@ -205,7 +227,7 @@ mod tests {
         DensityRecoveryOptions { bin_width: BinWidth::Length(width), r_max }
     }
 
-    /// Rows of 20 points, 24 of them, at distance 1, on a torus that they fill.
+    /// Returns a triangular lattice of spacing 1 on a torus that it fills: 24 rows of 20 points.
     fn triangular() -> (Vec<Point>, Window) {
         let row = 0.75f64.sqrt();
         let points = (0..480)
@@ -220,7 +242,7 @@ mod tests {
         let (points, window) = triangular();
         for width in [0.003, 0.03, 0.3] {
             let found = density_recovery(&points, &window, &of_width(width, 1.5)).unwrap();
-            // all annuli that end before the spacing are empty
+            // Exactly the annuli that end before the spacing are empty.
             let empty = (1. / width).floor() * width;
             assert!((found.effective_radius.unwrap() - empty).abs() < 1e-9, "{width}: {found:?}");
             assert!((found.maximum_radius - 1.).abs() < 1e-12);
@@ -237,7 +259,8 @@ mod tests {
             let bounds = window.bounds();
             let mut points = pattern("uniform", 12_000, &Window::Rectangle(bounds), k as u64);
             points.retain(|&p| window.contains(p));
-            // out to .6 of the shorter side or more, where half of the annuli is hidden
+            // The profile reaches .6 of the shorter side or more, where half of each annulus is
+            // hidden.
             let options = DensityRecoveryOptions { bin_width: BinWidth::Reliability(200.), r_max: 45. };
             let found = density_recovery(&points, window, &options).unwrap();
             assert!(found.r.len() > 20, "{}", found.r.len());
@@ -275,7 +298,8 @@ mod tests {
         for factor in [0.5, 2., 4.] {
             let other = of_width(by_default.bin_width * factor, 4.);
             let other = density_recovery(&points, &window, &other).unwrap();
-            // a radius that ends with the last empty annulus is known to the width of one
+            // The radius ends with the last empty annulus, so it is known to the width of one
+            // annulus.
             let off = other.effective_radius.unwrap() - by_default.effective_radius.unwrap();
             assert!(off.abs() <= by_default.bin_width.max(other.bin_width), "{factor}: {off}");
         }
@@ -295,11 +319,12 @@ mod tests {
         for bad in [of_width(0., 4.), of_width(f64::NAN, 4.), of_width(0.1, f64::NAN), of_width(1e-9, 4.)] {
             assert!(matches!(density_recovery(&[p, p], &window, &bad), Err(StatsError::Option { .. })));
         }
-        // two points at opposite corners are no annulus apart
+        // Two points at opposite corners are so far apart that no annulus is left.
         let apart = [Point::new(0., 0.), Point::new(1., 1.)];
         let found = density_recovery(&apart, &window, &of_width(0.1, 1.)).unwrap();
         assert_eq!((found.effective_radius, found.packing), (None, None));
-        // coinciding points: the first annulus is above the mean, nothing is missing before it
+        // For coinciding points the first annulus is above the mean, and nothing is missing before
+        // it.
         let found = density_recovery(&[p; 3], &window, &of_width(0.1, 1.)).unwrap();
         assert_eq!((found.effective_radius, found.packing), (Some(0.), Some(0.)));
     }
@@ -318,7 +343,8 @@ mod tests {
     proptest! {
         #[test]
         fn counts_are_those_of_all_pairs(
-            // A coarse lattice of coordinates, so that points coincide, lie on a line and on the border.
+            // On a coarse lattice of coordinates points coincide, lie on a line and lie on the
+            // border.
             raw in prop::collection::vec((0..12u8, 0..12u8), 2..40), torus: bool, scale in -12..12i32,
         ) {
             let scale = 10f64.powi(scale);

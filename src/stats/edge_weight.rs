@@ -1,21 +1,33 @@
+//! Edge corrections for pairs of points: weights that compensate for pairs hidden beyond the border
+//! of the window.
+//!
+//! - Set covariance: one factor per distance, averaged over directions.
+//! - Translation: one weight per pair, from the vector between its points (Ohser & Stoyan 1981,
+//!   <https://doi.org/10.1002/bimj.4710230602>).
+//! - Isotropic: one weight per pair, from the circles around both points (Ripley 1976,
+//!   <https://doi.org/10.2307/3212829>).
+
 use crate::geometry::{Point, Rectangle, Window};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// The largest weight of a pair, as in spatstat: a pair that could hardly have been seen must not rule the curve.
+/// Largest weight of a pair, as in spatstat: a pair that is rarely observable must not dominate the
+/// curve.
 pub(super) const MAX_WEIGHT: f64 = 100.;
 
-/// What makes up for the pairs that a window hides. Weights are at most [`MAX_WEIGHT`].
+/// Edge corrections for the pairs of one window, with weights of at most [`MAX_WEIGHT`].
 pub(super) struct EdgeWeights<'a> {
     window: &'a Window,
     bounds: Rectangle,
 }
 
 impl<'a> EdgeWeights<'a> {
+    /// Prepares the corrections for `window`.
     pub(super) fn new(window: &'a Window) -> Self {
         Self { window, bounds: window.bounds() }
     }
 
-    /// So far the isotropised set covariance is known: in a rectangle up to the shorter side, in a polygon everywhere.
+    /// Returns the largest distance at which [`Self::covariance`] holds: the shorter side of a
+    /// rectangle or torus, infinity for a polygon.
     pub(super) fn covariance_reach(&self) -> f64 {
         match self.window {
             Window::Polygon(_) => f64::INFINITY,
@@ -23,7 +35,10 @@ impl<'a> EdgeWeights<'a> {
         }
     }
 
-    /// The isotropised set covariance at `r`, as a share of the area: 1 − 2r(w+h)/(πwh) + r²/(πwh) of a rectangle.
+    /// Returns the set covariance at distance `r`, averaged over directions, as a share of the
+    /// area.
+    ///
+    /// For a rectangle this is 1 − 2r(w+h)/(πwh) + r²/(πwh).
     pub(super) fn covariance(&self, r: f64) -> f64 {
         match self.window {
             Window::Polygon(polygon) => polygon.covariance().isotropised(r).max(1. / MAX_WEIGHT),
@@ -34,7 +49,8 @@ impl<'a> EdgeWeights<'a> {
         }
     }
 
-    /// Area of the window over that of its intersection with itself moved by (dx, dy).
+    /// Returns the area of the window divided by that of its intersection with itself shifted by
+    /// (dx, dy).
     #[inline]
     pub(super) fn translation(&self, dx: f64, dy: f64) -> f64 {
         let seen = match self.window {
@@ -47,13 +63,15 @@ impl<'a> EdgeWeights<'a> {
         1. / seen.max(1. / MAX_WEIGHT)
     }
 
-    /// Mean inverse share, inside the window, of the circles of radius `d` around either point.
+    /// Returns the inverse share of the circle of radius `d` that lies in the window, averaged over
+    /// the circles around both points.
     pub(super) fn isotropic(&self, a: Point, b: Point, d: f64) -> f64 {
         let weight = |p: Point| 1. / self.share_of_circle(p, d).max(1. / MAX_WEIGHT);
         0.5 * (weight(a) + weight(b))
     }
 
-    /// Share of the circle of radius `d` around `p`, a point inside, that lies in the window.
+    /// Returns the share of the circle of radius `d` around `p`, a point inside, that lies in the
+    /// window.
     pub(super) fn share_of_circle(&self, p: Point, d: f64) -> f64 {
         match self.window {
             Window::Polygon(polygon) if polygon.border_distance(p) >= d => 1.,
@@ -65,8 +83,10 @@ impl<'a> EdgeWeights<'a> {
     }
 }
 
-/// Share of the circle of radius `d` around a point that lies in the rectangle, given the point's distances to the
-/// sides in order around it. Each side nearer than d hides an arc; arcs of adjacent sides may overlap.
+/// Returns the share of the circle of radius `d` around a point that lies in a rectangle.
+///
+/// `sides` are the point's distances to the four sides, in order around the rectangle. Each side
+/// nearer than `d` hides an arc, and the arcs of adjacent sides may overlap.
 fn share_of_circle(d: f64, sides: [f64; 4]) -> f64 {
     let half = sides.map(|side| if side < d { (side.max(0.) / d).acos() } else { 0. });
     let hidden: f64 = half.iter().map(|a| 2. * a).sum();

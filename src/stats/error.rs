@@ -1,27 +1,27 @@
 use crate::geometry::{Point, Window};
 use thiserror::Error;
 
-/// A statistic that cannot be computed.
+/// Reason why a statistic cannot be computed.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum StatsError {
     /// An option is out of its range.
     #[error("{option} is {value}: {range}")]
     Option {
-        /// Which one.
+        /// Name of the option.
         option: &'static str,
-        /// What it was.
+        /// Value that was given.
         value: f64,
-        /// What it must be.
+        /// Description of the permitted values.
         range: &'static str,
     },
-    /// Too few points.
+    /// There are too few points.
     #[error("{statistic} needs at least {needed} points, there are {found}")]
     TooFewPoints {
-        /// What was to be computed.
+        /// Name of the statistic.
         statistic: &'static str,
-        /// The least it can do with.
+        /// Smallest number of points that the statistic accepts.
         needed: usize,
-        /// What there was.
+        /// Number of points that were given.
         found: usize,
     },
     /// A point is not finite or lies outside the window.
@@ -31,30 +31,30 @@ pub enum StatsError {
     Outside {
         /// 0-based index of the point.
         index: usize,
-        /// Its x.
+        /// The point's x coordinate.
         x: f64,
-        /// Its y.
+        /// The point's y coordinate.
         y: f64,
     },
-    /// The window is a polygon.
+    /// The window is a polygon, but the statistic is defined in rectangles only.
     #[error(
         "{statistic} needs a rectangular window: give the rectangle X0, Y0, X1, Y1 that is to be measured"
     )]
     NotRectangular {
-        /// What was to be computed.
+        /// Name of the statistic.
         statistic: &'static str,
     },
-    /// Torus correction asked for in a window with a border.
+    /// The torus correction was requested for a window with a border.
     #[error(
         "the torus correction needs a torus window, this one has a border: choose another edge correction"
     )]
     NotATorus,
 }
 
-/// That every point is finite and in the window.
+/// Checks that every point is finite and lies in the window.
 ///
 /// # Errors
-/// [`StatsError::Outside`] of the first that is not.
+/// Returns [`StatsError::Outside`] for the first point that is not finite or not in the window.
 pub(super) fn all_inside(points: &[Point], window: &Window) -> Result<(), StatsError> {
     let outside = |p: &Point| !(p.is_finite() && window.contains(*p));
     match points.iter().enumerate().find(|(_, p)| outside(p)) {

@@ -4,18 +4,23 @@ use serde::{Deserialize, Serialize};
 /// Bounds on the number of bins: fewer hide the shape, more show only noise.
 const BINS: (usize, usize) = (5, 60);
 
-/// How many values fall between successive edges. Bins hold their lower edge, the last one both.
+/// Numbers of values between successive edges.
+///
+/// A bin includes its lower edge; the last bin includes both edges.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Histogram {
-    /// One more than there are bins, rising; empty without values.
+    /// Edges of the bins in rising order, one more than there are bins; empty without values.
     pub edges: Vec<f64>,
-    /// Values in each bin.
+    /// Number of values in each bin.
     pub counts: Vec<usize>,
 }
 
 impl Histogram {
-    /// Bins of equal width from the least to the greatest value; values that are not finite are left out. The width is
-    /// 2 × interquartile range / ∛n (Freedman & Diaconis 1981), bounded to 5–60 bins. Equal values make one bin.
+    /// Counts the values in bins of equal width from the smallest to the largest value.
+    ///
+    /// Values that are not finite are left out. The width is 2 × interquartile range / ∛n, with the
+    /// number of bins bounded to 5–60 (Freedman & Diaconis 1981,
+    /// <https://doi.org/10.1007/BF01025868>). Equal values make one bin.
     pub fn new(values: &[f64]) -> Self {
         let mut sorted: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
         sorted.sort_by(f64::total_cmp);
@@ -29,14 +34,16 @@ impl Histogram {
         }
         let quantile = |q: f64| nearest_rank(&sorted, q).unwrap_or(low);
         let width = 2. * (quantile(0.75) - quantile(0.25)) / (sorted.len() as f64).cbrt();
-        // Without a spread of the middle half, 1 + log₂ n bins (Sturges 1926).
+        // Without a spread in the middle half that width is 0; then 1 + log₂ n bins (Sturges 1926,
+        // <https://doi.org/10.1080/01621459.1926.10502161>).
         let ideal =
             if width > 0. { (range / width).ceil() } else { 1. + (sorted.len() as f64).log2().ceil() };
         let bins = (ideal.min(BINS.1 as f64) as usize).max(BINS.0);
         let edges: Vec<f64> = (0..=bins).map(|i| low + range * i as f64 / bins as f64).collect();
         let mut counts = vec![0; bins];
         for v in sorted {
-            // Rounding of the division must not disagree with the edges as stored.
+            // Bins are searched by the stored edges: a division could round to the neighbouring
+            // bin.
             let bin = edges[1..bins].partition_point(|&e| e <= v);
             counts[bin] += 1;
         }
@@ -51,7 +58,8 @@ mod tests {
 
     #[test]
     fn bins_follow_freedman_and_diaconis() {
-        // 1000 even values on 0..1: interquartile range just below ½, width just below 1/10.
+        // 1000 evenly spaced values on 0..1: interquartile range just below ½, width just below
+        // 1/10.
         let values: Vec<f64> = (0..1000).map(|i| f64::from(i) / 999.).collect();
         assert_eq!(Histogram::new(&values).counts.len(), 11);
         assert_eq!(Histogram::new(&values[..2]).counts.len(), 5);

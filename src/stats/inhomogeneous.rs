@@ -1,3 +1,11 @@
+//! Second-order functions of patterns whose density varies: the inhomogeneous pair correlation
+//! function and K, and the pair correlation function of locally scaled distances.
+//!
+//! 1. Estimate the intensity λ at every point.
+//! 2. Visit all pairs within reach, each with its translation weight.
+//! 3. For g and K divide the weight by λ_i λ_j; for the locally scaled g divide the distance by the
+//!    local spacing instead.
+
 use super::edge_weight::EdgeWeights;
 use super::error::all_inside;
 use super::intensity::{default_intensity_bandwidth, intensity_at_points};
@@ -9,7 +17,7 @@ use crate::mosaic::hexagonal_spacing;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// Fewest points: fewer say nothing of an intensity.
+/// Smallest number of points: fewer do not determine an intensity.
 const FEWEST: usize = 20;
 
 /// Second-order functions of a pattern whose density varies.
@@ -21,38 +29,45 @@ pub struct Inhomogeneous {
     pub g: Vec<f64>,
     /// Inhomogeneous K, in squared units of the coordinates: πr² for independent points.
     pub k: Vec<f64>,
-    /// Pair correlation function of distances in *local* spacings: of a mosaic whose spacing follows its density.
+    /// Pair correlation function of distances in *local* spacings, for mosaics whose spacing
+    /// follows their density.
     pub g_scaled: Vec<f64>,
-    /// The hexagonal spacing of the mean density, in units of the coordinates.
+    /// Hexagonal spacing at the mean density, in units of the coordinates.
     pub spacing: f64,
     /// Standard deviation of the kernel that estimated the intensity, in units of the coordinates.
     pub bandwidth: f64,
-    /// Least and greatest intensity at a point, per squared unit.
+    /// Smallest and greatest intensity at a point, per squared unit of the coordinates.
     pub intensity: (f64, f64),
 }
 
 impl Inhomogeneous {
-    /// The functions over `r`, and their names in tables.
+    /// Returns the functions over `r`, each with its name in tables.
     pub fn columns(&self) -> [(&'static str, &[f64]); 3] {
         [("g_inhomogeneous", &self.g), ("g_locally_scaled", &self.g_scaled), ("k_inhomogeneous", &self.k)]
     }
 }
 
-/// Second-order functions of a pattern with a trend in its density.
+/// Computes second-order functions of a pattern with a trend in its density.
 ///
-/// With λ the intensity at the points (Gaussian kernel with edge correction, without the point itself, of standard
-/// deviation `bandwidth`; default an eighth of the window's shorter side, at least 2.5 spacings; scaled so that Σ 1/λ = A):
+/// Let λ be the intensity at the points, estimated with a Gaussian kernel with edge correction that
+/// leaves out the point itself. The kernel's standard deviation is `bandwidth`, in units of the
+/// coordinates; it must be at least one hexagonal spacing. The default is an eighth of the window's
+/// shorter side, at least 2.5 spacings. The intensity is scaled so that Σ 1/λ is the area A. Then
 ///
-/// g(r) = A Σ_{i≠j} k_σ(r − |x_i − x_j|) w_ij/(λ_i λ_j) / ((A² − Σ 1/λ²) 2πr), and K(r) likewise with the pairs up to r
-/// (Baddeley, Møller & Waagepetersen 2000), w_ij translation weights. For equal λ this g is [`super::pcf`] with that
-/// correction.
+/// g(r) = A Σ_{i≠j} k_σ(r − |x_i − x_j|) w_ij/(λ_i λ_j) / ((A² − Σ 1/λ²) 2πr),
 ///
-/// Both assume that a trend thins a pattern and leaves its distances. Where instead spacing follows density, as in
-/// cone mosaics around the fovea, distances are to be taken in local spacings √(2/(√3 √(λ_i λ_j))): `g_scaled` (locally
-/// scaled processes, Hahn, Jensen, van Lieshout & Nielsen 2003).
+/// with translation weights w_ij, and K(r) likewise with the pairs up to r (Baddeley, Møller &
+/// Waagepetersen 2000, <https://doi.org/10.1111/1467-9574.00144>). For equal λ this g is
+/// [`super::pcf`] with the translation correction.
+///
+/// Both functions assume that a trend thins the pattern without changing its distances. In cone
+/// mosaics around the fovea, spacing follows density instead. There, distances should be measured
+/// in local spacings √(2/(√3 √(λ_i λ_j))), as `g_scaled` does (locally scaled processes: Hahn,
+/// Jensen, van Lieshout & Nielsen 2003).
 ///
 /// # Errors
-/// If an option is out of range, there are fewer than 20 points, or one is not inside the window.
+/// Returns [`StatsError`] if an option is out of range, there are fewer than 20 points, or a point
+/// is not inside the window.
 pub fn inhomogeneous(
     points: &[Point],
     window: &Window,
@@ -75,12 +90,12 @@ pub fn inhomogeneous(
     let greatest = intensity.iter().copied().fold(0., f64::max);
     let least = intensity.iter().copied().fold(f64::INFINITY, f64::min);
 
-    // local spacings may be wider than the mean one
+    // Local spacings may be wider than the mean spacing, so the search must reach farther.
     let mean = n as f64 / area;
     let widest = (mean / least).sqrt().max(1.);
     let reach = spacing * widest * (options.r_max + options.kernel.reach() * options.bandwidth);
     let bounds = window.bounds();
-    // on a torus each pair once round counts, on the shortest way
+    // On a torus each pair counts once, along the shortest way.
     let reach = if window.is_torus() { reach.min(0.5 * bounds.width().min(bounds.height())) } else { reach };
     let grid = PairGrid::new(points, window, window.is_torus(), reach);
     let intensity = grid.sorted(&intensity);
@@ -100,7 +115,7 @@ pub fn inhomogeneous(
         }
     });
 
-    // every unordered pair was visited once: twice that are ordered
+    // Every unordered pair was visited once; the formula counts both orders.
     let squares: f64 = intensity.iter().map(|l| 1. / (l * l)).sum();
     let pairs = (area * area - squares).max(f64::MIN_POSITIVE) / 2.;
     let around = |r: f64| TAU * r * spacing;
@@ -131,7 +146,7 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
-    /// Density falls three times from left to right.
+    /// Slope of the density, which falls to a third from left to right.
     const SLOPE: f64 = 2. / 3.;
 
     fn pattern(name: &str, n: usize, seed: u64) -> Vec<Point> {
@@ -146,7 +161,8 @@ mod tests {
         points
     }
 
-    /// Largest difference of the means over seeds from `expected`, at distances from .4 spacings on.
+    /// Returns the largest deviation of the mean over seeds from `expected`, at distances of at
+    /// least .4 spacings.
     fn worst(curves: &[Vec<f64>], r: &[f64], expected: impl Fn(f64) -> f64) -> f64 {
         let mean = |bin: usize| curves.iter().map(|c| c[bin]).sum::<f64>() / curves.len() as f64;
         let bins = (0..r.len()).filter(|&bin| r[bin] > 0.4);
@@ -192,7 +208,7 @@ mod tests {
     fn where_spacing_follows_density_the_scaled_function_is_that_of_the_even_pattern() {
         let window = Window::unit_square();
         let options = PcfOptions { edge: EdgeCorrection::Translation, ..PcfOptions::default() };
-        // a smooth map that widens spacing along both axes alike on the diagonal
+        // The map is smooth and widens spacing equally along both axes on the diagonal.
         let widen = |t: f64| (t + 0.9 * t * t) / 1.9;
         let (mut plain, mut scaled, mut even) = (Vec::new(), Vec::new(), Vec::new());
         for seed in 0..8 {

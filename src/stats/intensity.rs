@@ -1,31 +1,49 @@
+//! Kernel estimate of the intensity (density that varies from place to place) at the points of a
+//! pattern.
+//!
+//! 1. Spread each point linearly over the four nearest nodes of a grid with six nodes per
+//!    bandwidth.
+//! 2. Smooth the grid with a Gaussian, and likewise the share of each node's cell that lies in the
+//!    window.
+//! 3. Read both at each point, subtract the point's own contribution and divide by the smoothed
+//!    share (edge correction of Diggle 1985, <https://doi.org/10.2307/2347366>).
+//! 4. Raise values below 1 % of the mean to it, then scale so that Σ 1/λ is the area of the window.
+
 use crate::geometry::{Point, Window};
 use crate::mosaic::hexagonal_spacing;
 
-/// The default bandwidth: this share of the window's shorter side, as in spatstat, but at least so many spacings: fewer
-/// would follow single points.
+/// Default bandwidth as a share of the window's shorter side, as in spatstat.
 const SHARE_OF_SIDE: f64 = 1. / 8.;
+/// Smallest default bandwidth, in hexagonal spacings; a smaller one would follow single points.
 const LEAST_SPACINGS: f64 = 2.5;
-/// Grid nodes a bandwidth, and bandwidths after which the kernel ends.
+/// Number of grid nodes per bandwidth.
 const NODES: f64 = 6.;
+/// Distance at which the kernel is cut off, in bandwidths.
 const REACH: f64 = 4.;
-/// Rows that the cover of a node's cell is summed over.
+/// Number of horizontal lines per cell along which the share of the cell in the window is
+/// integrated.
 const ROWS: usize = 8;
-/// The least intensity, as a share of the mean.
+/// Lower bound on the intensity, as a share of the mean.
 const LEAST_SHARE: f64 = 0.01;
 
-/// Standard deviation of the kernel where none is given, in units of the coordinates: an eighth of the shorter side of
-/// the window, at least 2.5 hexagonal spacings.
+/// Returns the default standard deviation of the intensity kernel, in units of the coordinates.
+///
+/// It is an eighth of the shorter side of the window, but at least 2.5 hexagonal spacings.
 pub fn default_intensity_bandwidth(n: usize, window: &Window) -> f64 {
     let bounds = window.bounds();
     let spacing = hexagonal_spacing(n, window.area()).unwrap_or_default();
     (SHARE_OF_SIDE * bounds.width().min(bounds.height())).max(LEAST_SPACINGS * spacing)
 }
 
-/// Intensity λ(x) at every point, in points per squared unit, from the *other* points: a Gaussian kernel of standard
-/// deviation `bandwidth` over them, divided by its share within the window (Diggle 1985; leave-one-out as in Baddeley,
-/// Møller & Waagepetersen 2000), scaled so that Σ 1/λ is the window's area, at least 1 % of the mean.
+/// Estimates the intensity λ(x) at every point from the *other* points, in points per squared unit.
 ///
-/// The sums are made on a grid of six nodes a bandwidth, linear in the number of points; that errs by less than 1 %.
+/// The kernel is a Gaussian of standard deviation `bandwidth`, divided by its share within the
+/// window (Diggle 1985). Leaving out the point itself follows Baddeley, Møller & Waagepetersen
+/// (2000), <https://doi.org/10.1111/1467-9574.00144>. Values are raised to at least 1 % of the mean
+/// and then scaled so that Σ 1/λ is the window's area.
+///
+/// The sums are taken on a grid of six nodes per bandwidth, in time linear in the number of points;
+/// the error is below 1 %.
 pub(super) fn intensity_at_points(points: &[Point], window: &Window, bandwidth: f64) -> Vec<f64> {
     let grid = Grid::new(window, bandwidth);
     let mut counts = vec![0.; grid.columns * grid.rows];
@@ -50,31 +68,36 @@ pub(super) fn intensity_at_points(points: &[Point], window: &Window, bandwidth: 
     intensity
 }
 
-/// What a point gives to its own place, along one axis: spread over two nodes, smoothed, and read from both.
+/// Returns the contribution of a point to the value read at its own place, along one axis.
+///
+/// The point, at the fraction `t` between two nodes, is spread over both, smoothed, and read from
+/// both.
 fn own_share(kernel: &[f64], t: f64) -> f64 {
     let next = kernel.get(1).copied().unwrap_or_default();
     ((1. - t) * (1. - t) + t * t) * kernel[0] + 2. * t * (1. - t) * next
 }
 
-/// Nodes over the window's bounds, one more on every side; on a torus they close on themselves.
+/// Grid of nodes over the window's bounds, with one more node on every side; on a torus it is
+/// periodic.
 struct Grid {
     origin: (f64, f64),
     step: (f64, f64),
     columns: usize,
     rows: usize,
     torus: bool,
-    /// Weights at 0, 1, 2 … nodes along x and y; over both sides their sum is 1.
+    /// Kernel weights at 0, 1, 2 … nodes along x and along y; summed over both sides they give 1.
     kernel: (Vec<f64>, Vec<f64>),
 }
 
-/// The node before a point, and how far the point is on the way to the next, along each axis.
+/// Position of a point on the grid: the node before it and the fraction of the way to the next,
+/// along each axis.
 struct Place {
     x: (usize, f64),
     y: (usize, f64),
 }
 
 impl Place {
-    /// The four nodes around the point, and their weights.
+    /// Returns the four nodes around the point with their weights.
     fn corners(&self, grid: &Grid) -> impl Iterator<Item = (usize, f64)> + use<> {
         let (columns, rows) = (grid.columns, grid.rows);
         let ((column, t), (row, u)) = (self.x, self.y);
@@ -86,6 +109,7 @@ impl Place {
 }
 
 impl Grid {
+    /// Lays a grid over the window, fine enough for the bandwidth.
     fn new(window: &Window, bandwidth: f64) -> Self {
         let bounds = window.bounds();
         let torus = window.is_torus();
@@ -105,6 +129,7 @@ impl Grid {
         Self { origin: (x, y), step: (step_x, step_y), columns, rows, torus, kernel: (kernel_x, kernel_y) }
     }
 
+    /// Returns the position of a point on the grid.
     fn place(&self, p: Point) -> Place {
         let along = |v: f64, from: f64, step: f64, nodes: usize| {
             let at = ((v - from) / step).max(0.);
@@ -117,7 +142,7 @@ impl Grid {
         }
     }
 
-    /// How much of each node's cell lies in the window.
+    /// Returns the share of each node's cell that lies in the window.
     fn cover(&self, window: &Window) -> Vec<f64> {
         let bounds = window.bounds();
         let mut cover = vec![1.; self.columns * self.rows];
@@ -147,6 +172,7 @@ impl Grid {
         cover
     }
 
+    /// Convolves a field with the kernel, first along x, then along y.
     fn smoothed(&self, field: &[f64]) -> Vec<f64> {
         let mut across = vec![0.; field.len()];
         for (from, to) in field.chunks(self.columns).zip(across.chunks_mut(self.columns)) {
@@ -162,7 +188,7 @@ impl Grid {
         down
     }
 
-    /// Σ kernel · value around `at`; beyond the ends of a bounded grid there is nothing.
+    /// Returns Σ kernel · value around `at`; nodes beyond the ends of a bounded grid count as 0.
     fn weighed(&self, kernel: &[f64], at: usize, nodes: usize, value: impl Fn(usize) -> f64) -> f64 {
         let mut sum = kernel[0] * value(at);
         for (k, weight) in kernel.iter().enumerate().skip(1) {
@@ -192,7 +218,7 @@ mod tests {
         sampler("uniform").unwrap().sample(n, window, &mut ChaCha8Rng::seed_from_u64(4)).unwrap()
     }
 
-    /// Every pair, exact kernel, the share of the kernel within the window by counting.
+    /// Sums every pair with the exact kernel; the share of the kernel within the window is counted.
     fn direct(points: &[Point], window: &Window, bandwidth: f64) -> Vec<f64> {
         let bounds = window.bounds();
         let kernel = |a: Point, b: Point| {

@@ -7,20 +7,21 @@ use super::{
 use crate::mosaic::Mosaic;
 use serde::{Deserialize, Serialize, Serializer};
 
-/// How a mosaic is measured.
+/// Options for measuring a mosaic.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MeasureOptions {
-    /// Divisor of variances: n − 1 (default), or n for the tables of Lanaro et al.
+    /// Divisor of variances: n − 1 (default), or n as in the tables of Lanaro et al.
     pub deviation: Deviation,
     /// Kernel, grid and edge correction of the pair correlation function.
     pub pcf: PcfOptions,
 }
 
-/// The statistics of one mosaic: its scalars, and the series that they are taken from. Lengths are in the
-/// mosaic's unit.
+/// Statistics of one mosaic: its scalars and the series from which they are computed.
+///
+/// Lengths are in the mosaic's unit.
 #[derive(Clone, Debug, Serialize)]
 pub struct Measures {
-    /// All scalars.
+    /// Every statistic that is a single number or a few numbers.
     pub summary: Summary,
     /// Nearest neighbour of every point.
     pub neighbours: NearestNeighbours,
@@ -28,21 +29,21 @@ pub struct Measures {
     pub borders: Vec<f64>,
     /// Histogram of the nearest-neighbour distances of all points.
     pub histogram: Histogram,
-    /// The Voronoi cell of every point.
+    /// Voronoi cell of every point, in the order of the points.
     pub cells: Voronoi,
-    /// Directions of nearest neighbours and anisotropy.
+    /// Directions of the nearest neighbours, and anisotropy.
     pub orientation: Orientation,
-    /// Density recovery profile with the default options, or why there is none.
+    /// Density recovery profile with the default options, or the reason why there is none.
     #[serde(serialize_with = "value_or_reason")]
     pub density_recovery: Result<DensityRecovery, StatsError>,
-    /// Second-order functions that allow for a trend, where it is significant.
+    /// Second-order functions that allow for a trend; `None` unless the trend is significant.
     pub inhomogeneous: Option<Inhomogeneous>,
-    /// Pair correlation function, or why there is none.
+    /// Pair correlation function, or the reason why there is none.
     #[serde(serialize_with = "value_or_reason")]
     pub pcf: Result<Pcf, StatsError>,
 }
 
-/// Serialises a statistic as itself, or as `{"missing": "why"}`.
+/// Serialises a statistic as itself, or as `{"missing": "reason"}` if there is none.
 fn value_or_reason<T: Serialize, S: Serializer>(
     found: &Result<T, StatsError>,
     serializer: S,
@@ -53,9 +54,11 @@ fn value_or_reason<T: Serialize, S: Serializer>(
     }
 }
 
-/// Measures all statistics of a mosaic, each with its own edge rule. 2.5 ms for 300 points, 1.2 s for
-/// 100 000 on two cores, of which orientation takes .02 ms and 14 ms, density recovery .1 ms and 57 ms,
-/// the modal spacing .6 ms and 145 ms.
+/// Measures all statistics of a mosaic, each with its own edge correction.
+///
+/// Takes 2.5 ms for 300 points and 1.2 s for 100 000 on two cores. Orientation accounts for .02 ms
+/// and 14 ms of this, density recovery for .1 ms and 57 ms, and the modal spacing for .6 ms and
+/// 145 ms.
 pub fn measure(mosaic: &Mosaic, options: &MeasureOptions) -> Measures {
     let (points, window) = (mosaic.points(), mosaic.window());
     let neighbours = nearest_neighbours(points, window);

@@ -1,7 +1,28 @@
-//! Statistics of point patterns. Knows nothing of samplers or files.
+//! Statistics of point patterns.
 //!
-//! Every statistic takes the points and the window they could have been seen in; points must be finite and inside
-//! it, as those of a [`Mosaic`](crate::mosaic::Mosaic) are.
+//! Every statistic takes the points and the window in which they were observed. Points must be
+//! finite and lie inside the window, as those of a [`Mosaic`](crate::mosaic::Mosaic) do. The module
+//! knows nothing of samplers or files.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::prelude::*;
+//! use conemosaic::sample::sampler;
+//! use rand::SeedableRng;
+//!
+//! let window = Window::rectangle(0., 0., 300., 300.)?;
+//! let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+//! let points = sampler("dart-throwing")?.sample(500, &window, &mut rng)?;
+//! let (mosaic, _) = Mosaic::new(points, window, LengthUnit::Pixel, None)?;
+//!
+//! let measures = measure(&mosaic, &MeasureOptions::default());
+//! let summary = &measures.summary;
+//! println!("regularity index {:.2}", summary.nearest.ri.unwrap_or(f64::NAN));
+//! println!("six-sided cells {:.0} %", summary.voronoi.six_sided_percent.unwrap_or(f64::NAN));
+//! let g = measures.pcf?;
+//! assert_eq!(g.options.radii().len(), g.g.len());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod clark_evans;
 mod delaunay;

@@ -3,18 +3,21 @@ use crate::geometry::{NearestNeighbours, Point, Window};
 use serde::{Deserialize, Serialize};
 use strum::{Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
 
-/// Points whose distance to the border is at least the distance to their nearest neighbour: for them no neighbour
-/// beyond the border could have been nearer. All points of a torus.
+/// Returns, for each point, whether it is at least as far from the border as from its nearest
+/// neighbour.
+///
+/// For such interior points no neighbour beyond the border could have been nearer. On a torus all
+/// points are interior.
 pub fn interior(points: &[Point], window: &Window, nearest: &NearestNeighbours) -> Vec<bool> {
     interior_by(&window.border_distances(points), nearest).collect()
 }
 
-/// [`interior`], given the distance of every point to the border.
+/// Returns the flags of [`interior`], given the distance of every point to the border.
 pub(super) fn interior_by(borders: &[f64], nearest: &NearestNeighbours) -> impl Iterator<Item = bool> {
     borders.iter().zip(&nearest.distances).map(|(b, d)| b >= d)
 }
 
-/// The divisor of the variance.
+/// Divisor of the variance.
 #[derive(
     Clone,
     Copy,
@@ -37,15 +40,15 @@ pub(super) fn interior_by(borders: &[f64], nearest: &NearestNeighbours) -> impl 
     parse_err_fn = UnknownChoice::among::<Deviation>
 )]
 pub enum Deviation {
-    /// n − 1: of a sample.
+    /// Divisor n − 1, for the variance of a sample.
     #[default]
     Sample,
-    /// n: of the population, as in the tables of Lanaro et al.
+    /// Divisor n, for the variance of a population, as in the tables of Lanaro et al.
     Population,
 }
 
 impl Deviation {
-    /// Returns the word for it in options and tables.
+    /// Returns the name of the divisor in options and tables.
     pub fn name(self) -> &'static str {
         self.into()
     }
@@ -54,20 +57,25 @@ impl Deviation {
 /// Mean, standard deviation and their ratio.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Moments {
-    /// How many values.
+    /// Number of values, including any that are not finite.
     pub n: usize,
-    /// μ; `None` without values.
+    /// Mean μ; `None` without values.
     pub mean: Option<f64>,
-    /// σ; `None` with fewer values than its divisor needs.
+    /// Standard deviation σ; `None` with fewer values than its divisor needs.
     pub sd: Option<f64>,
-    /// μ/σ, of nearest-neighbour distances the regularity (conformity) index (Wässle & Riemann 1978, Cook 1996). `None`
-    /// without σ, and where σ is nothing but rounding (below 10⁻¹² μ): all values are equal, and the index of a perfect
-    /// lattice is no number.
+    /// Ratio μ/σ: for nearest-neighbour distances, the regularity (conformity) index.
+    ///
+    /// Sources: Wässle & Riemann (1978), <https://doi.org/10.1098/rspb.1978.0026>; Cook (1996).
+    ///
+    /// `None` without σ, and where σ is below 10⁻¹² μ. Then σ is only rounding and all values are
+    /// equal: the index of a perfect lattice is not defined.
     pub ri: Option<f64>,
 }
 
 impl Moments {
-    /// The same values with the other divisor; `None` where that is not positive.
+    /// Converts the moments from one divisor to the other.
+    ///
+    /// `sd` and `ri` become `None` if either divisor is not positive.
     pub fn with_divisor(self, from: Deviation, to: Deviation) -> Self {
         let divisor = |d: Deviation| match d {
             Deviation::Sample => self.n.saturating_sub(1) as f64,
@@ -80,10 +88,10 @@ impl Moments {
     }
 }
 
-/// Relative deviation below which values are equal up to rounding.
+/// Relative standard deviation below which values count as equal up to rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Moments of `values`; all `None` if one is not finite.
+/// Computes the moments of `values`; all are `None` if a value is not finite.
 pub fn moments(values: &[f64], deviation: Deviation) -> Moments {
     let n = values.len();
     if n == 0 || values.iter().any(|v| !v.is_finite()) {

@@ -1,77 +1,118 @@
+//! Orientation and anisotropy of a mosaic: directions of nearest neighbours, the ellipse of the
+//! vectors to neighbouring cells, and the orientation of hexagons.
+//!
+//! 1. Take the axis from each interior point to its nearest neighbour, and the mean of exp(2iθ).
+//! 2. Test that mean with Rayleigh's test; points linked through nearest neighbours form one group,
+//!    since they share axes.
+//! 3. Average the second moments of the vectors from bound cells to their neighbours, and convert
+//!    them to an ellipse.
+//! 4. Take the phase of ψ6 of each bound cell, and of their mean, as the orientation of hexagons.
+
 use super::{NearestNeighbours, Voronoi};
 use crate::geometry::{Point, Window};
 use serde::{Deserialize, Serialize};
 
-/// Width of the bins of [`NearestAxes::counts`], degrees.
+/// Width of the bins of [`NearestAxes::counts`], in degrees.
 pub const AXIS_BIN: f64 = 10.;
+/// Number of bins that cover 180°.
 const AXIS_BINS: usize = 18;
-/// Fewest groups of points that a p-value is given for: with fewer its distribution is not that of a p-value.
+/// Smallest number of groups of points with a p-value: with fewer, it would not be distributed like
+/// a p-value.
 const FEWEST_GROUPS: usize = 10;
-/// Below this part of what they are means of, differences and sums of directions are nothing but rounding.
+/// Relative size below which differences and sums of directions are only rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// In which directions a mosaic is ordered, and in which it is stretched.
+/// Directions in which a mosaic is ordered and in which it is stretched.
 ///
-/// All angles are in degrees, counter-clockwise from the positive x axis (to the right) as a reader of the picture sees it:
-/// although y points down in coordinates, 90° is up. Axes have no sense, so that 0° and 180° are the same.
+/// All angles are in degrees, counter-clockwise from the positive x axis (to the right) as seen in
+/// the picture: although y points down in coordinates, 90° is up. Axes have no sense, so 0° and
+/// 180° are the same.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Orientation {
     /// Directions of the nearest neighbours.
     pub nearest: NearestAxes,
-    /// Ellipse of the ways to the neighbours; `None` without bound cells.
+    /// Ellipse of the vectors from cells to their neighbours; `None` without bound cells.
     pub ellipse: Option<NeighbourEllipse>,
-    /// For every point the orientation of its hexagon: phase of ψ6 over 6, 0–60°, the direction of a neighbour where they stand
-    /// regularly around. `None` where the cell is not bound or ψ6 is 0, as in a square.
+    /// Orientation of the hexagon around each point: the phase of ψ6 divided by 6, 0–60°.
+    ///
+    /// Where the neighbours are regularly arranged, it is the direction of a neighbour. `None`
+    /// where the cell is not bound or ψ6 is 0, as in a square.
     pub hexagons: Vec<Option<f64>>,
-    /// The same of the mean ψ6 of the bound cells, whose modulus ([`super::VoronoiSummary::psi6_global`]) says how far they agree.
+    /// Orientation of the mean ψ6 of the bound cells, 0–60°.
+    ///
+    /// The modulus of that mean ([`super::VoronoiSummary::psi6_global`]) tells how far the cells
+    /// agree.
     pub hexagon_direction: Option<f64>,
 }
 
-/// The axes from points to their nearest neighbours.
+/// Axes from points to their nearest neighbours.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NearestAxes {
-    /// For every point the direction of its nearest neighbour as an axis, 0–180°. `None` where there is no neighbour or it
-    /// coincides with the point. Of several that are equally near it is one, so that in a perfect lattice these numbers say nothing.
+    /// Axis from every point to its nearest neighbour, 0–180°.
+    ///
+    /// `None` where there is no neighbour or it coincides with the point. If several neighbours are
+    /// equally near, it is the axis of one of them; in a perfect lattice these numbers are
+    /// therefore arbitrary.
     pub degrees: Vec<Option<f64>>,
-    /// Axes in the numbers below: of interior points only (at least as far from the border as from their neighbour), since near the
-    /// border neighbours beyond it are missed, and more of them in one direction than in others.
+    /// Number of axes in the fields below, which count interior points only.
+    ///
+    /// Interior points are at least as far from the border as from their neighbour. Near the
+    /// border, neighbours beyond it are missed, and more of them in one direction than in others.
     pub n: usize,
-    /// How many of these point in 0–10°, 10–20° … 170–180°.
+    /// Numbers of these axes in 0–10°, 10–20° … 170–180°.
     pub counts: [usize; AXIS_BINS],
-    /// Length of the mean of exp(2iθ): 0 for axes spread evenly, 1 for parallel ones (Mardia & Jupp 2000, ch. 9). Of n independent
-    /// axes it is about .9/√n by chance. `None` without axes.
+    /// Length of the mean of exp(2iθ): 0 for evenly spread axes, 1 for parallel ones.
+    ///
+    /// For n independent axes it is about .9/√n by chance. `None` without axes. Source: Mardia &
+    /// Jupp (2000), chapter 9, <https://doi.org/10.1002/9780470316979>.
     pub resultant: Option<f64>,
-    /// The mean axis, 0–180°; `None` where the resultant is 0.
+    /// Mean axis, 0–180°; `None` where the resultant is 0.
     pub direction: Option<f64>,
-    /// Chance of such a resultant where all directions are alike, by Rayleigh's test with the variance of groups: points that are
-    /// linked through nearest neighbours share axes (each other's nearest neighbours the same one) and count as one. For
-    /// axes that are not linked it is that test itself. Uniform for independent points; in a regular mosaic the axes of a whole
-    /// patch of lattice agree, and of 200 simulated ones without direction, of some 320 cones, 18 % were below .05. `None` for
-    /// fewer than 10 groups.
+    /// Probability of a resultant at least this long if no direction is preferred.
+    ///
+    /// It is Rayleigh's test with the variance of groups: points that are linked through nearest
+    /// neighbours share axes (mutual nearest neighbours even have the same one) and count as one.
+    /// For axes that are not linked it is Rayleigh's test itself.
+    ///
+    /// The p-value is uniform for independent points. In a regular mosaic the axes of a whole patch
+    /// of lattice agree: of 200 simulated mosaics without direction, of some 320 cones, 18 % were
+    /// below .05. `None` for fewer than 10 groups.
     pub p_value: Option<f64>,
 }
 
-/// The ellipse with the second moments of the ways from cells to their neighbours, those beyond the sides of their Voronoi cells;
-/// mean over the bound cells. A bound cell may still miss a neighbour beyond the border.
+/// Ellipse with the second moments of the vectors from cells to their neighbours, averaged over the
+/// bound cells.
+///
+/// The neighbours are the points beyond the sides of a Voronoi cell. A bound cell may still miss a
+/// neighbour beyond the border.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NeighbourEllipse {
-    /// Cells that it is a mean of.
+    /// Number of cells in the mean.
     pub cells: usize,
-    /// Longer half axis, in the unit of the coordinates: √2 times the root mean square along it. Both half axes of a triangular
-    /// lattice are its spacing.
+    /// Longer semi-axis, in the unit of the coordinates: √2 times the root mean square along it.
+    ///
+    /// For a triangular lattice both semi-axes are its spacing.
     pub major: f64,
-    /// Shorter half axis.
+    /// Shorter semi-axis, in the unit of the coordinates.
     pub minor: f64,
-    /// Longer over shorter half axis, at least 1. Of a triangular lattice stretched by up to √3 (beyond, it has other
-    /// neighbours) it is that stretch. By chance it is 1.02 (median) to 1.045 (95 %) in simulated mosaics of 320 cones without
-    /// direction, and nearer to 1 as 1/√n.
+    /// Ratio of the longer to the shorter semi-axis, at least 1.
+    ///
+    /// For a triangular lattice stretched by up to √3 it is that stretch; beyond, the lattice has
+    /// other neighbours. By chance it is 1.02 (median) to 1.045 (95 %) in simulated mosaics of 320
+    /// cones without direction, and approaches 1 as 1/√n.
     pub anisotropy: f64,
-    /// Direction of the longer half axis, 0–180°; `None` where both are equal.
+    /// Direction of the longer semi-axis, 0–180°; `None` where both are equal.
     pub direction: Option<f64>,
 }
 
-/// Orientation and anisotropy of a mosaic (Curcio & Sloan 1992; Cooper et al. 2016), from its nearest neighbours, which of
-/// its points are [`interior`](super::interior), and its cells. Linear in n; never fails: what is not defined is `None`.
+/// Computes the orientation and anisotropy of a mosaic.
+///
+/// The inputs are its nearest neighbours, the flags of its [`interior`](super::interior) points,
+/// and its cells. The time is linear in n. The function never fails: values that are not defined
+/// are `None`.
+///
+/// Sources: Curcio & Sloan (1992), <https://doi.org/10.1017/S0952523800009639>; Cooper et al.
+/// (2016), <https://doi.org/10.1167/iovs.16-19072>.
 pub fn orientation(
     points: &[Point],
     window: &Window,
@@ -90,23 +131,25 @@ pub fn orientation(
     }
 }
 
-/// Phase over `fold` of a sum of exp(i·fold·θ), as an angle counter-clockwise, 0 to 360°/fold; `None` if its modulus is not above
-/// `least`.
+/// Returns the phase of a sum of exp(i·fold·θ), divided by `fold`, as a counter-clockwise angle.
+///
+/// The angle is from 0 to 360°/fold; `None` if the modulus of the sum is not above `least`.
 fn phase([re, im]: [f64; 2], fold: f64, least: f64) -> Option<f64> {
     let turn = 360. / fold;
-    // y points down, angles of coordinates run clockwise
+    // In coordinates y points down and angles run clockwise, hence the minus sign.
     let angle = (-im.atan2(re).to_degrees() / fold).rem_euclid(turn);
-    // of a tiny negative angle the remainder may round to the whole turn
+    // The remainder of a tiny negative angle may round up to the whole turn.
     (re.hypot(im) > least).then_some(if angle < turn { angle } else { 0. })
 }
 
+/// Measures the axes to nearest neighbours and tests whether they prefer a direction.
 fn nearest_axes(
     points: &[Point],
     window: &Window,
     nearest: &NearestNeighbours,
     interior: &[bool],
 ) -> NearestAxes {
-    // exp(2iθ), θ clockwise as in coordinates
+    // exp(2iθ), with θ clockwise as in coordinates.
     let axis = |i: usize| {
         let &j = nearest.indices.get(i)?;
         let [dx, dy] = window.displacement(points[i], *points.get(j)?);
@@ -144,11 +187,14 @@ fn nearest_axes(
     }
 }
 
-/// Chance that n independent unit vectors without direction have a sum whose square is n·z or more (Wilkie 1983).
+/// Returns the probability that the sum of n independent unit vectors without preferred direction
+/// has a squared length of at least n·z (Wilkie 1983).
 fn rayleigh(n: f64, z: f64) -> f64 {
     ((1. + 4. * n + 4. * n * (n - z).max(0.)).sqrt() - (1. + 2. * n)).exp().min(1.)
 }
 
+/// Averages the second moments of the bound cells and converts them to an ellipse; `None` without
+/// bound cells.
 fn ellipse(cells: &Voronoi) -> Option<NeighbourEllipse> {
     let bound = || cells.cells.iter().filter(|c| c.bound).filter_map(|c| c.second_moments);
     let count = bound().count();
@@ -165,7 +211,7 @@ fn ellipse(cells: &Voronoi) -> Option<NeighbourEllipse> {
     })
 }
 
-/// Which points are linked.
+/// Disjoint sets of linked points; each entry points to a lower or equal index of its set.
 struct Groups(Vec<usize>);
 
 impl Groups {
@@ -173,6 +219,7 @@ impl Groups {
         Self((0..n).collect())
     }
 
+    /// Returns the representative of the set of point `i`, shortening the path to it.
     fn of(&mut self, mut i: usize) -> usize {
         while self.0[i] != i {
             self.0[i] = self.0[self.0[i]];
@@ -181,9 +228,11 @@ impl Groups {
         i
     }
 
+    /// Joins the sets of two points.
     fn join(&mut self, i: usize, j: usize) {
         let (a, b) = (self.of(i), self.of(j));
-        // the lower index stands for the group, so that it does not depend on the order of links
+        // The lowest index represents the group, so the result does not depend on the order of
+        // links.
         self.0[a.max(b)] = a.min(b);
     }
 }
@@ -204,8 +253,12 @@ mod tests {
         orientation(points, window, &nearest, &interior, &voronoi(points, window))
     }
 
-    /// A triangular lattice of spacing 1 with rows at `rows` degrees, stretched by `stretch` along the axis at `axis` degrees (both
-    /// counter-clockwise in the picture), in a 24 × 18 window and around it, so that cells at its border are those of the lattice.
+    /// Returns a triangular lattice of spacing 1, stretched along an axis, in a 24 × 18 window and
+    /// around it.
+    ///
+    /// The rows are at `rows` degrees and the stretch is `stretch` along the axis at `axis`
+    /// degrees, both counter-clockwise in the picture. The lattice continues beyond the window, so
+    /// that cells at its border are those of the lattice.
     fn lattice(rows: f64, stretch: f64, axis: f64) -> (Vec<Point>, Window) {
         let turned = |[x, y]: [f64; 2], by: f64| {
             let (sin, cos) = by.to_radians().sin_cos();
@@ -218,7 +271,7 @@ mod tests {
             .map(|(i, j)| [i + 0.5 * j, j * 0.75f64.sqrt()])
             .map(|p| turned(turned(p, rows), -axis))
             .map(|[x, y]| turned([x * stretch, y], axis))
-            // up is down in coordinates
+            // Up in the picture is down in coordinates.
             .map(|[x, y]| Point::new(x, -y))
             .filter(|&p| around.contains(p))
             .collect();
@@ -258,14 +311,15 @@ mod tests {
     #[test]
     fn pairs_in_one_direction_have_that_axis() {
         let window = Window::rectangle(0., 0., 400., 40.).unwrap();
-        // up to the right, half of them the other way round, once across the edge of a torus
+        // Pairs point up to the right, half of them from the other end, and one crosses the edge of
+        // the torus.
         let mut points: Vec<Point> = (0..20).map(|k| Point::new(10. + 19. * f64::from(k), 20.)).collect();
         points.extend(points.clone().iter().map(|p| Point::new(p.x + 3f64.sqrt(), p.y - 1.)));
         let found = of(&points, &window).nearest;
         assert_eq!((found.n, found.counts[2] + found.counts[3]), (40, 40));
         assert!((found.resultant.unwrap() - 1.).abs() < 1e-9);
         assert!((found.direction.unwrap() - 30.).abs() < 1e-9, "{found:?}");
-        // 20 groups, not 40
+        // Mutual neighbours are linked, so there are 20 groups, not 40.
         assert!((found.p_value.unwrap() / rayleigh(20., 20.) - 1.).abs() < 1e-6);
         let torus = Window::Torus(Rectangle::new(0., 0., 400., 40.).unwrap());
         let across = [Point::new(399., 20.), Point::new(0., 19.)];
@@ -294,7 +348,7 @@ mod tests {
                     .collect();
                 p.sort_by(f64::total_cmp);
                 let worst = (0..600).map(|i| (p[i] - (i as f64 + 0.5) / 600.).abs()).fold(0., f64::max);
-                // Kolmogorov and Smirnov's distance is above 1.63/√600 = .067 once in a hundred times
+                // The Kolmogorov–Smirnov distance exceeds 1.63/√600 = .067 once in a hundred times.
                 assert!(worst < 0.067, "window {k}, {n} points: {worst}");
                 let rare = p.iter().filter(|&&p| p < 0.05).count();
                 assert!((15..=45).contains(&rare), "window {k}, {n} points: {rare} of 600 below .05");
@@ -304,7 +358,7 @@ mod tests {
 
     #[test]
     fn independent_points_that_are_pulled_apart_along_one_axis_are_told() {
-        // a minimal distance along x: neighbours stand above each other
+        // A minimal distance along x leaves nearest neighbours above or below each other.
         let mut rng = ChaCha8Rng::seed_from_u64(5);
         let points: Vec<Point> = (0..400)
             .map(|k| Point::new(f64::from(k % 20) + 0.2 * rng.random::<f64>(), 20. * rng.random::<f64>()))
@@ -332,7 +386,7 @@ mod tests {
         let line: Vec<Point> = (1..9).map(|i| Point::new(0.1 * f64::from(i), 0.5)).collect();
         let found = of(&line, &window);
         assert_eq!((found.nearest.direction, found.ellipse), (Some(0.), None));
-        // a square has no hexagon
+        // For a square ψ6 is 0, so there is no hexagon.
         let square: Vec<Point> = (0..25).map(|i| Point::new(f64::from(i % 5), f64::from(i / 5))).collect();
         let found = of(&square, &Window::rectangle(-0.5, -0.5, 4.5, 4.5).unwrap());
         assert!(found.ellipse.is_some_and(|e| e.direction.is_none()));

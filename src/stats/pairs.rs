@@ -1,12 +1,21 @@
+//! Grid search for all pairs of points that are no farther apart than a given reach.
+//!
+//! 1. Sort the points by cell of a grid whose cells are at least a third of the reach wide.
+//! 2. For each point, scan the rest of its cell, the cells to its right and the rows below, as far
+//!    as the reach. Looking in one half of the plane only visits every pair once.
+//! 3. On a torus, cells beyond the edge are those of the opposite side, shifted by the window's
+//!    width or height.
+
 use crate::geometry::{Point, Window};
 
-/// Cells a radius is cut into along each side.
+/// Number of grid cells along the length of one reach.
 const CELLS_PER_REACH: f64 = 3.;
 
-/// Points sorted into square-ish cells, to visit every pair nearer than a reach in time linear in the number of pairs.
+/// Points sorted by grid cell, for visiting all pairs within reach in time linear in their number.
 ///
-/// On a torus pairs are those of a point and every image of another one within reach, so that a reach beyond half the
-/// window still sees the whole disk around each point; a point and its own images are no pair.
+/// On a torus, a point is paired with every image of another point within reach. A reach beyond
+/// half the window therefore still covers the whole disk around each point. A point and its own
+/// images are not paired.
 pub(super) struct PairGrid {
     x0: f64,
     y0: f64,
@@ -15,21 +24,23 @@ pub(super) struct PairGrid {
     torus: bool,
     columns: usize,
     rows: usize,
-    /// Where each cell begins in the sorted points; one more than there are cells.
+    /// Index of each cell's first sorted point; one entry more than there are cells.
     starts: Vec<usize>,
     xs: Vec<f64>,
     ys: Vec<f64>,
-    /// Which of the points given each sorted point is.
+    /// Original index of each sorted point.
     given: Vec<usize>,
     reach: f64,
 }
 
 impl PairGrid {
-    /// Cells for pairs nearer than `reach`. Points must lie in the window.
+    /// Sorts the points, which must lie in the window, into cells for pairs no farther apart than
+    /// `reach`.
     pub(super) fn new(points: &[Point], window: &Window, torus: bool, reach: f64) -> Self {
         let bounds = window.bounds();
         let (x0, y0, width, height) = (bounds.x0(), bounds.y0(), bounds.width(), bounds.height());
-        // No more cells than points, but for a row and a column.
+        // Smaller cells than one per point would only cost time, hence the second bound on their
+        // side.
         let side = (reach / CELLS_PER_REACH).max((width * height / points.len().max(1) as f64).sqrt());
         let cells_along = |length: f64| ((length / side) as usize).clamp(1, points.len().max(1));
         let (columns, rows) = (cells_along(width), cells_along(height));
@@ -58,25 +69,28 @@ impl PairGrid {
         Self { x0, y0, width, height, torus, columns, rows, starts, xs, ys, given, reach }
     }
 
+    /// Returns the number of rows of cells.
     pub(super) fn rows(&self) -> usize {
         self.rows
     }
 
-    /// The points given, in the order in which they are visited.
+    /// Returns values given per point in the order in which the grid holds the points.
     pub(super) fn sorted<T: Copy>(&self, of_points: &[T]) -> Vec<T> {
         self.given.iter().map(|&index| of_points[index]).collect()
     }
 
-    /// A sorted point.
+    /// Returns a point by its index in sorted order.
     pub(super) fn point(&self, i: usize) -> Point {
         Point::new(self.xs[i], self.ys[i])
     }
 
-    /// Visits each pair once, from the point that lies in one of the cell rows `rows`: both as sorted points, and the way
-    /// from the first to the second.
+    /// Visits each pair once, for first points that lie in the cell rows `rows`.
+    ///
+    /// `pair` receives the indices of both points in sorted order and the vector from the first to
+    /// the second.
     pub(super) fn visit(&self, rows: std::ops::Range<usize>, mut pair: impl FnMut(usize, usize, f64, f64)) {
         let (cell_width, cell_height) = (self.width / self.columns as f64, self.height / self.rows as f64);
-        // Rounding must not leave out a pair at the very reach.
+        // Rounding must not exclude a pair at exactly the reach.
         let reach = self.reach * (1. + 1e-9);
         let reach2 = self.reach * self.reach;
         let mut scan = |from: usize, first: usize, last: usize, shift_x: f64, shift_y: f64| {
@@ -94,7 +108,8 @@ impl PairGrid {
                 let cell = row * self.columns + column;
                 for i in self.starts[cell]..self.starts[cell + 1] {
                     let (x, y) = (self.xs[i] - self.x0, self.ys[i] - self.y0);
-                    // Half of the plane: the rest of this row to the right, then the rows below.
+                    // Half of the plane suffices: the rest of this row to the right, then the rows
+                    // below.
                     scan(i, i + 1, self.starts[cell + 1], 0., 0.);
                     let right = ((x + reach) / cell_width).floor() as isize;
                     self.segments(row, column as isize + 1, right, |first, last, shift| {
@@ -122,7 +137,8 @@ impl PairGrid {
         }
     }
 
-    /// Scans sorted points `first..last`, without point `i` (which is among them only as its own image).
+    /// Scans the sorted points `first..last` except point `i`, which occurs there only as its own
+    /// image.
     #[inline]
     fn scan_others(
         &self,
@@ -141,7 +157,10 @@ impl PairGrid {
         }
     }
 
-    /// Runs of sorted points in columns `left..=right` of a row, each with the shift of its turn round the torus.
+    /// Calls `run` on each run of sorted points in columns `left..=right` of a row.
+    ///
+    /// `run` receives the first index, the end index and the shift along x, which is a multiple of
+    /// the width on a torus.
     #[inline]
     fn segments(&self, row: usize, left: isize, right: isize, mut run: impl FnMut(usize, usize, f64)) {
         let columns = self.columns as isize;

@@ -1,28 +1,37 @@
+//! Spearman's rank correlation with a permutation test.
+
 use rand::Rng;
 use rand::seq::SliceRandom;
 
-/// Fewest pairs for which a correlation is tested: of 4, even a perfect one has p = 0.08.
+/// Smallest number of pairs for which a correlation is tested: with 4, even a perfect one has
+/// p = 0.08.
 pub const FEWEST_PAIRS: usize = 5;
-/// Up to this many pairs all orders are tried, beyond it a sample of them.
+/// Largest number of pairs for which all orders are tried; with more, a random sample of orders.
 const MOST_EXACT: usize = 8;
-/// Orders tried beyond that.
+/// Number of random orders that are tried with more pairs.
 const PERMUTATIONS: usize = 9_999;
 
-/// How far two quantities rise together.
+/// Strength and significance of a monotonic relation between two quantities.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RankCorrelation {
-    /// Pairs.
+    /// Number of pairs of values.
     pub n: usize,
     /// Spearman's ρ, from −1 to 1; ties share their mean rank.
     pub rho: f64,
-    /// Chance of a correlation at least as strong, of either sign, were the two independent: by permutation.
+    /// Probability, by permutation, of a correlation at least as strong of either sign if the two
+    /// quantities are independent.
     pub p_value: f64,
 }
 
-/// Spearman's rank correlation (Spearman 1904) with a two-sided permutation test: all n! orders for at most 8 pairs,
-/// otherwise 9 999 drawn from `rng`, the observed one counted with them.
+/// Computes Spearman's rank correlation and tests it by permutation, two-sided.
 ///
-/// `None` for fewer than [`FEWEST_PAIRS`] pairs, values that are not finite, or where one side does not vary.
+/// All n! orders are tried for at most 8 pairs. With more pairs 9 999 orders are drawn from `rng`,
+/// and the observed order counts as one more.
+///
+/// Returns `None` for fewer than [`FEWEST_PAIRS`] pairs, for values that are not finite, or if one
+/// of the quantities does not vary.
+///
+/// Source: Spearman (1904), <https://doi.org/10.2307/1412159>.
 pub fn rank_correlation(pairs: &[(f64, f64)], rng: &mut dyn Rng) -> Option<RankCorrelation> {
     let n = pairs.len();
     if n < FEWEST_PAIRS || pairs.iter().any(|(x, y)| !(x.is_finite() && y.is_finite())) {
@@ -37,7 +46,7 @@ pub fn rank_correlation(pairs: &[(f64, f64)], rng: &mut dyn Rng) -> Option<RankC
     }
     let product = |y: &[f64]| x.iter().zip(y).map(|(a, b)| a * b).sum::<f64>();
     let observed = product(&y);
-    // centred ranks are multiples of ½: sums of their products are exact
+    // Centred ranks are multiples of ½, so sums of their products are exact and ties compare equal.
     let as_strong = |y: &[f64]| usize::from(product(y).abs() >= observed.abs());
     let p_value = if n <= MOST_EXACT {
         let (mut strong, mut all) = (0, 0);
@@ -58,15 +67,16 @@ pub fn rank_correlation(pairs: &[(f64, f64)], rng: &mut dyn Rng) -> Option<RankC
     Some(RankCorrelation { n, rho: observed / norm, p_value })
 }
 
-/// Ranks less their mean; ties share their mean rank.
+/// Returns the ranks minus their mean; ties share their mean rank.
 fn centred_ranks(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let values: Vec<f64> = values.collect();
     let count = |of: &dyn Fn(f64) -> bool| values.iter().filter(|&&v| of(v)).count() as f64;
-    // so many are smaller, less so many that are larger: twice the centred rank
+    // The number of smaller values minus that of larger values is twice the centred rank.
     values.iter().map(|&v| (count(&|o| o < v) - count(&|o| o > v)) / 2.).collect()
 }
 
-/// Every order of the first `k` values (Heap 1963).
+/// Visits every order of the first `k` values (Heap 1963,
+/// <https://doi.org/10.1093/comjnl/6.3.293>).
 fn each_order(values: &mut [f64], k: usize, visit: &mut impl FnMut(&[f64])) {
     if k <= 1 {
         visit(values);

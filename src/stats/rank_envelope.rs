@@ -1,16 +1,22 @@
-/// What an observed curve is worth among simulated ones: the global test and envelope by extreme rank length.
+//! Global envelope test by extreme rank length: one p-value for a whole observed curve among
+//! simulated ones (Myllymäki et al. 2017, J. R. Stat. Soc. B 79, 381–404,
+//! <https://doi.org/10.1111/rssb.12172>).
+
+/// Result of comparing an observed curve with simulated ones: the global p-value and envelope.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RankEnvelope {
-    /// Chance that a curve of the simulated process is as extreme as the observed one, by its extreme rank length.
+    /// Probability that a curve of the simulated process is at least as extreme as the observed
+    /// one, by extreme rank length.
     pub p_value: f64,
-    /// Lower edge of the envelope, one value a bin.
+    /// Lower edge of the envelope, one value per bin.
     pub low: Vec<f64>,
-    /// Upper edge of the envelope, one value a bin.
+    /// Upper edge of the envelope, one value per bin.
     pub high: Vec<f64>,
 }
 
 impl RankEnvelope {
-    /// Stretches of bins, each from its first to its last index, in which `curve` is outside the envelope.
+    /// Returns the stretches in which `curve` is outside the envelope, each as its first and last
+    /// bin.
     pub fn outside(&self, curve: &[f64]) -> Vec<(usize, usize)> {
         let mut stretches: Vec<(usize, usize)> = Vec::new();
         for (bin, value) in curve.iter().enumerate() {
@@ -26,15 +32,20 @@ impl RankEnvelope {
     }
 }
 
-/// The global envelope test by extreme rank length (Myllymäki et al. 2017, J. R. Stat. Soc. B 79, 381–404).
+/// Tests an observed curve against simulated ones by extreme rank length.
 ///
-/// In every bin each curve, observed or simulated, has a rank counted from its nearer end, ties sharing their mean rank.
-/// A curve's ranks in rising order are compared word by word as in a dictionary: the smaller, the more extreme. The
-/// p-value is the share of curves at least as extreme as the observed one. The envelope at `level` is the hull of the
-/// curves that are left when the most extreme ones, at most that share of all, are taken away; the observed curve lies
-/// within it in every bin if and only if its p-value is above `level` (up to ties).
+/// In every bin each curve, observed or simulated, has a rank counted from its nearer end; ties
+/// share their mean rank. The ranks of a curve, in rising order, are compared with those of the
+/// others in lexicographic order: the smaller, the more extreme. The p-value is the share of curves
+/// at least as extreme as the observed one.
 ///
-/// `None` without simulations, or if curves differ in length.
+/// The envelope at `level` is the hull of the curves that remain when the most extreme ones, at
+/// most that share of all, are removed. The observed curve lies within it in every bin if and only
+/// if its p-value is above `level` (up to ties).
+///
+/// Returns `None` without simulations, or if the curves differ in length.
+///
+/// Source: Myllymäki et al. (2017), <https://doi.org/10.1111/rssb.12172>.
 pub fn rank_envelope(observed: &[f64], simulated: &[&[f64]], level: f64) -> Option<RankEnvelope> {
     let curves: Vec<&[f64]> = [observed].into_iter().chain(simulated.iter().copied()).collect();
     let (count, bins) = (curves.len(), observed.len());
@@ -49,7 +60,8 @@ pub fn rank_envelope(observed: &[f64], simulated: &[&[f64]], level: f64) -> Opti
         while first < count {
             let value = curves[order[first]][bin];
             let tied = order[first..].iter().take_while(|&&c| curves[c][bin] == value).count();
-            // twice the rank, so that the mean rank of ties is whole; from 2 to 2·count from either end
+            // Twice the rank is stored, so that the mean rank of ties is whole: 2 to 2·count from
+            // either end.
             let from_below = 2 * first + tied + 1;
             let rank = from_below.min(2 * (count + 1) - from_below);
             order[first..first + tied].iter().for_each(|&c| ranks[c].push(rank));
@@ -79,7 +91,7 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
     use rand_distr::{Distribution, StandardNormal};
 
-    /// Curves whose neighbouring bins hang together.
+    /// Simulates curves in which neighbouring bins are correlated.
     fn curves(count: usize, seed: u64) -> Vec<Vec<f64>> {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut curve = || {
@@ -103,7 +115,7 @@ mod tests {
     #[test]
     fn one_curve_in_twenty_of_the_same_process_is_rejected() {
         let rejected = (0..400).filter(|&seed| test(&curves(100, seed)).p_value <= 0.05).count();
-        // 20 expected, standard deviation 4.4
+        // 20 are expected, with a standard deviation of 4.4.
         assert!((8..=34).contains(&rejected), "{rejected}");
     }
 

@@ -1,27 +1,42 @@
+//! Regions of interest: boxes grown around a centre until they hold enough cells, and boxes that
+//! slide over a window.
+//!
+//! A box is grown in three steps:
+//!
+//! 1. Enlarge it by a factor of 1.2 until it holds enough bound cells.
+//! 2. If it leaves the window first, find the largest box that still fits.
+//! 3. Bisect the scale between the last box that was too small and the first that was large enough.
+
 use super::{StatsError, voronoi};
 use crate::geometry::{Point, Rectangle, Window};
 
-/// A box grows by this factor until it holds enough, and then shrinks again to within the precision.
+/// Factor by which a box is enlarged in each step, until it holds enough cells.
 const STEP: f64 = 1.2;
+/// Relative precision of the final size of a grown box.
 const PRECISION: f64 = 1e-4;
-/// More boxes than this are refused.
+/// Largest number of sliding boxes; requests for more are refused.
 const MOST: f64 = 100_000.;
-/// Share of its area by which a box within a window may differ from one that is cut: rounding.
+/// Relative difference of area up to which a box counts as lying inside a polygon: rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// A region of interest about its place in a mosaic.
+/// Region of interest that was grown around its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grown {
-    /// The box.
+    /// Box that the region covers.
     pub frame: Rectangle,
-    /// Whether it holds as many bound cells as were asked for.
+    /// Flag that the box holds as many bound cells as requested.
     pub enough: bool,
 }
 
-/// Grows a box about its centre, its sides in proportion, until the points in it have `needed` bound cells among
-/// themselves (their own Voronoi cells, strictly inside the box: those of a mosaic of its own), to 1/10 000 of its size. A
-/// box that has them already stays; one that reaches the border of the window first ends there. A bound cell stays bound
-/// when a box grows, so that the least such box is well defined.
+/// Grows a box about its centre until the points in it have `needed` bound cells.
+///
+/// The sides keep their proportion, and the size is exact to 1/10 000. The cells are the Voronoi
+/// cells of the points in the box alone, as if it were a mosaic of its own; a cell is bound if it
+/// lies strictly inside the box.
+///
+/// A box that already has enough cells stays as it is. A box that reaches the border of the window
+/// first ends there, with `enough` false. A bound cell stays bound when a box grows, so the
+/// smallest sufficient box is well defined.
 pub fn grown(points: &[Point], window: &Window, frame: Rectangle, needed: usize) -> Grown {
     let bound = |frame: &Rectangle| bound_cells(points, window, frame);
     let enough = |frame: &Rectangle| bound(frame) >= needed;
@@ -48,7 +63,7 @@ pub fn grown(points: &[Point], window: &Window, frame: Rectangle, needed: usize)
             low = high;
             continue;
         }
-        // not enough at low, enough at high
+        // The box at scale `low` holds too few cells, the box at `high` enough.
         while high - low > PRECISION * low {
             let middle = (low + high) / 2.;
             if scaled(&frame, middle).is_some_and(|b| enough(&b)) { high = middle } else { low = middle }
@@ -58,7 +73,9 @@ pub fn grown(points: &[Point], window: &Window, frame: Rectangle, needed: usize)
     }
 }
 
-/// The largest factor for which `holds`, between one for which it does and one for which it does not.
+/// Returns the largest factor for which `holds` is true, by bisection.
+///
+/// `holds` must be true at `low` and false at `high`.
 fn last(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     while high - low > PRECISION * 1e-3 * low {
         let middle = (low + high) / 2.;
@@ -67,13 +84,14 @@ fn last(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     low
 }
 
+/// Returns the box enlarged about its centre by `factor`; `None` if its corners are not finite.
 fn scaled(frame: &Rectangle, factor: f64) -> Option<Rectangle> {
     let (x, y) = ((frame.x0() + frame.x1()) / 2., (frame.y0() + frame.y1()) / 2.);
     let (dx, dy) = (frame.width() / 2. * factor, frame.height() / 2. * factor);
     Rectangle::new(x - dx, y - dy, x + dx, y + dy).ok()
 }
 
-/// Whether the box lies in the window.
+/// Returns whether the box lies entirely in the window.
 pub fn lies_in(frame: &Rectangle, window: &Window) -> bool {
     match window {
         Window::Rectangle(b) | Window::Torus(b) => {
@@ -85,24 +103,29 @@ pub fn lies_in(frame: &Rectangle, window: &Window) -> bool {
     }
 }
 
+/// Counts the bound Voronoi cells of the points in the box, taken as a mosaic of its own.
 fn bound_cells(points: &[Point], window: &Window, frame: &Rectangle) -> usize {
     let Some(window) = window.within(frame) else { return 0 };
     let inside: Vec<Point> = points.iter().copied().filter(|&p| window.contains(p)).collect();
     voronoi(&inside, &window).cells.iter().filter(|cell| cell.bound).count()
 }
 
-/// Boxes of `side` at steps of `step` from the upper left corner of a window, as many as lie in its bounds, row by row,
-/// each with its row and column from 1; lengths in units of the coordinates. None where the window is smaller.
+/// Returns boxes of side `side` at steps of `step`, from the upper left corner of a window.
+///
+/// There are as many as fit in the bounds, row by row, each with its row and column counted from 1.
+/// Lengths are in units of the coordinates. The list is empty if the window is smaller than one
+/// box.
 ///
 /// # Errors
-/// If a length is not positive, or there would be more than 100 000 boxes.
+/// Returns [`StatsError::Option`] if a length is not positive or there would be more than 100 000
+/// boxes.
 pub fn sliding(bounds: &Rectangle, side: f64, step: f64) -> Result<Vec<([usize; 2], Rectangle)>, StatsError> {
     for (option, value) in [("side of the regions", side), ("step of the regions", step)] {
         if !(value.is_finite() && value > 0.) {
             return Err(StatsError::Option { option, value, range: "a positive length" });
         }
     }
-    // a hair of room, so that a side that divides the window's fits to the end
+    // The small allowance lets the last box fit where `side` divides the window exactly.
     let along = |length: f64| ((length - side) / step + 1e-9).floor() + 1.;
     let (columns, rows) = (along(bounds.width()).max(0.), along(bounds.height()).max(0.));
     if columns * rows > MOST {
@@ -148,7 +171,7 @@ mod tests {
             assert!(bound_cells(&points, &window, &smaller) < 40);
             assert!((found.frame.width() / found.frame.height() - 2.).abs() < 1e-9);
             assert!((found.frame.x0() + found.frame.x1() - 2. * x).abs() < 1e-12);
-            // what it holds already is enough
+            // A box that holds enough cells stays as it is.
             assert_eq!(grown(&points, &window, found.frame, 20).frame, found.frame);
         }
     }
@@ -158,7 +181,7 @@ mod tests {
         let points = uniform(400, 6);
         let found = grown(&points, &Window::unit_square(), frame(0.05, 0.4, 0.15, 0.5), 100);
         assert!(!found.enough && found.frame.x0() >= 0. && found.frame.x0() < 1e-5, "{found:?}");
-        // a box that sticks out has nowhere to grow
+        // A box that sticks out of the window has no room to grow.
         let out = frame(-0.1, 0.4, 0.1, 0.6);
         assert_eq!(grown(&points, &Window::unit_square(), out, 100), Grown { frame: out, enough: false });
         let ring = |a: f64, b: f64| [(a, a), (b, a), (b, b), (a, b)].map(|(x, y)| Point::new(x, y)).to_vec();

@@ -6,48 +6,55 @@ use super::{
 use crate::mosaic::Mosaic;
 use serde::{Deserialize, Serialize};
 
-/// Every statistic of a mosaic that is one number or a few, not a series: what a row of `summary.csv`
-/// and `metrics.json` hold. Lengths are in the unit of the mosaic.
+/// Statistics of a mosaic that are single numbers, not series.
 ///
-/// A new statistic is a field here and a line in `Summary::of`; records and files take it over.
+/// They fill one row of `summary.csv` and one record of `metrics.json`. Lengths are in the unit of
+/// the mosaic.
+///
+/// A new statistic needs one field here and one line in `Summary::of`; records and files then
+/// contain it without further changes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
-    /// Points per squared unit.
+    /// Density in points per squared unit of the mosaic.
     pub density: f64,
-    /// Hexagonal spacing of that density; `None` without points.
+    /// Hexagonal spacing at that density; `None` without points.
     pub spacing: Option<f64>,
     /// Divisor of the variances of nearest-neighbour distances.
     pub deviation: Deviation,
     /// Nearest-neighbour distances of all points.
     pub nearest: Moments,
-    /// The same of points whose distance to the border is at least that to their nearest neighbour.
+    /// Nearest-neighbour distances of interior points: those at least as far from the border as
+    /// from their nearest neighbour.
     pub nearest_interior: Moments,
-    /// The same of points whose Voronoi cell lies strictly inside the window.
+    /// Nearest-neighbour distances of points whose Voronoi cell lies strictly inside the window.
     pub nearest_bound: Moments,
-    /// Mean nearest-neighbour distance over that of independent points.
+    /// Mean nearest-neighbour distance divided by that of independent points.
     pub clark_evans: ClarkEvans,
-    /// Voronoi cells strictly inside the window.
+    /// Statistics of the Voronoi cells that lie strictly inside the window.
     pub voronoi: VoronoiSummary,
     /// Density recovery profile with the default options; `None` for fewer than two points.
     pub density_recovery: Option<RecoverySummary>,
-    /// Directions of neighbours.
+    /// Directions of the nearest neighbours, and anisotropy.
     pub orientation: OrientationSummary,
-    /// Ring of the power spectrum of the points; `None` where it has none.
+    /// Ring of the points' power spectrum; `None` if the spectrum has none.
     pub modal: Option<ModalSpacing>,
     /// Variation of density across the window.
     pub trend: Trend,
 }
 
-/// Scalars of a density recovery profile, see [`DensityRecovery`]. Lengths in the unit of the mosaic.
+/// Scalars of a density recovery profile, defined in [`DensityRecovery`].
+///
+/// Lengths are in the unit of the mosaic.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RecoverySummary {
-    /// Width of the annuli.
+    /// Width of the annuli, in the unit of the mosaic.
     pub bin_width: f64,
-    /// Effective radius.
+    /// Effective radius; `None` if no annulus exceeds the mean density.
     pub effective_radius: Option<f64>,
-    /// Packing factor.
+    /// Packing factor, 0 for independent points and 1 for the triangular lattice; `None` without an
+    /// effective radius.
     pub packing: Option<f64>,
-    /// Reliability factor.
+    /// Rodieck's reliability factor k.
     pub reliability: f64,
 }
 
@@ -62,21 +69,22 @@ impl From<&DensityRecovery> for RecoverySummary {
     }
 }
 
-/// Scalars of an [`Orientation`]: angles in degrees, counter-clockwise from the x axis as the picture is
-/// seen.
+/// Scalars of an [`Orientation`].
+///
+/// Angles are in degrees, counter-clockwise from the x axis as seen in the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OrientationSummary {
-    /// Interior points whose nearest neighbour has a direction.
+    /// Number of interior points whose nearest neighbour has a direction.
     pub axes: usize,
-    /// Length of the mean of exp(2iθ) of these directions.
+    /// Length of the mean of exp(2iθ) over these directions θ.
     pub resultant: Option<f64>,
-    /// Their mean axis, 0–180°.
+    /// Mean axis of these directions, 0–180°.
     pub direction: Option<f64>,
-    /// Chance of such a resultant where all directions are alike.
+    /// Probability of a resultant at least this long if no direction is preferred.
     pub p_value: Option<f64>,
-    /// Ellipse of the vectors to the neighbours.
+    /// Ellipse of the vectors from cells to their neighbours.
     pub ellipse: Option<NeighbourEllipse>,
-    /// Orientation of the hexagons, 0–60°.
+    /// Common orientation of the hexagons, 0–60°.
     pub hexagon_direction: Option<f64>,
 }
 
@@ -93,20 +101,25 @@ impl From<&Orientation> for OrientationSummary {
     }
 }
 
-/// The series that scalars are taken from, one value per point.
+/// Series from which the scalars are computed, one value per point.
 pub(super) struct Series<'a> {
+    /// Nearest neighbour of every point.
     pub neighbours: &'a NearestNeighbours,
     /// Distance of every point to the border.
     pub borders: &'a [f64],
-    /// Points at least as far from the border as from their nearest neighbour.
+    /// Flags of the points that are at least as far from the border as from their nearest
+    /// neighbour.
     pub interior: &'a [bool],
+    /// Voronoi cell of every point.
     pub cells: &'a Voronoi,
+    /// Directions and anisotropy of the pattern.
     pub orientation: &'a Orientation,
+    /// Density recovery profile, if there is one.
     pub recovery: Option<&'a DensityRecovery>,
 }
 
 impl Summary {
-    /// Takes all scalars of a mosaic from its series.
+    /// Computes all scalars of a mosaic from its series.
     pub(super) fn of(mosaic: &Mosaic, deviation: Deviation, series: &Series) -> Self {
         let (points, window) = (mosaic.points(), mosaic.window());
         let distances = &series.neighbours.distances;

@@ -1,3 +1,10 @@
+//! Voronoi cells of a pattern and the statistics of their areas, sides and neighbours.
+//!
+//! 1. Triangulate the points (Delaunay); on a torus, together with images around the window.
+//! 2. Collect each cell's corners from the circumcentres around its point, merging those that
+//!    coincide.
+//! 3. Compute area, number of sides and neighbours; clip the cells that reach beyond the window.
+
 use super::delaunay::{Delaunay, delaunay};
 use super::{Deviation, Moments, moments};
 use crate::geometry::{Point, Window, clipped_cell_area};
@@ -7,81 +14,98 @@ use serde::{Deserialize, Serialize};
 use spade::handles::{VertexHandle, VoronoiVertex};
 use spade::{Point2, Triangulation};
 
-/// Voronoi vertices nearer than this share of the spacing are one: a side of no length is no side.
+/// Distance, as a share of the spacing, below which Voronoi vertices are merged: a side of no
+/// length is no side.
 const SAME_VERTEX: f64 = 1e-7;
-/// Points from which on all threads make cells.
+/// Number of points from which cells are computed on all threads.
 const SPREAD_FROM: usize = 8192;
-/// How far, in spacings, the pattern of a torus is repeated beyond its edges at first.
+/// Distance, in spacings, to which the pattern of a torus is first repeated beyond its edges.
 const MARGIN: f64 = 5.;
 
 type Vertex<'a> = VertexHandle<'a, Point2<f64>, (), (), ()>;
 
-/// The part of the plane nearer to a point than to any other.
+/// Voronoi cell: the part of the plane nearer to one point than to any other.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cell {
-    /// In squared units of the coordinates, not clipped; `None` where the cell is infinite, and for a point that
-    /// coincides with an earlier one (which has the cell).
+    /// Area in squared units of the coordinates, not clipped to the window.
+    ///
+    /// `None` where the cell is infinite, and for a point that coincides with an earlier one (which
+    /// has the cell).
     pub area: Option<f64>,
-    /// Sides of positive length; 0 where there is no area.
+    /// Number of sides of positive length; 0 where there is no area.
     pub sides: usize,
-    /// Cooper et al. (2016): the cell is finite and every vertex lies strictly inside the window.
+    /// Flag of a bound cell: it is finite and every vertex lies strictly inside the window.
+    ///
+    /// Source: Cooper et al. (2016), <https://doi.org/10.1167/iovs.16-19072>.
     pub bound: bool,
-    /// Area of the part inside the window, in squared units of the coordinates (spatstat's Dirichlet area); of infinite
-    /// cells too. `None` for a point that coincides with an earlier one.
+    /// Area of the part inside the window, in squared units of the coordinates (Dirichlet area in
+    /// spatstat).
+    ///
+    /// Infinite cells have one too. `None` for a point that coincides with an earlier one.
     pub clipped_area: Option<f64>,
-    /// Inter-cell distance: mean distance to the points beyond its sides, its neighbours in the Delaunay triangulation.
+    /// Inter-cell distance: mean distance to the points beyond the cell's sides, its Delaunay
+    /// neighbours.
     pub inter_cell: Option<f64>,
-    /// Distance to the farthest of them.
+    /// Distance to the farthest of these neighbours.
     pub furthest: Option<f64>,
-    /// Bond-orientational order ψ6: mean of exp(6iθ) over the directions θ to them, real and imaginary part.
+    /// Bond-orientational order ψ6: mean of exp(6iθ) over the directions θ to the neighbours, as
+    /// real and imaginary part.
+    ///
+    /// Source: Nelson & Halperin (1979), <https://doi.org/10.1103/PhysRevB.19.2457>.
     pub psi6: Option<[f64; 2]>,
-    /// Second moments of the ways to them, means of dx², dx·dy and dy², in squared units of the coordinates.
+    /// Second moments of the vectors to the neighbours: means of dx², dx·dy and dy², in squared
+    /// units of the coordinates.
     pub second_moments: Option<[f64; 3]>,
-    /// How far the cell reaches from its point to the left, up, to the right and down, in units of the coordinates; `None`
-    /// where there is no area.
+    /// Reach of the cell from its point to the left, up, to the right and down, in units of the
+    /// coordinates.
+    ///
+    /// `None` where there is no area.
     pub extent: Option<[f64; 4]>,
 }
 
 /// Voronoi cells of a pattern.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Voronoi {
-    /// One a point, in the order of the points.
+    /// One cell per point, in the order of the points.
     pub cells: Vec<Cell>,
 }
 
-/// Numbers over the bound cells of a pattern.
+/// Summary of the bound cells of a pattern.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VoronoiSummary {
-    /// Cells in all: as many as points.
+    /// Number of all cells, which is that of the points.
     pub n: usize,
-    /// Bound cells.
+    /// Number of bound cells.
     pub bound: usize,
-    /// Per cent of the bound cells that have six sides; `None` without bound cells.
+    /// Percentage of the bound cells that have six sides; `None` without bound cells.
     pub six_sided_percent: Option<f64>,
-    /// Areas, in squared units of the coordinates.
+    /// Areas of the bound cells, in squared units of the coordinates.
     pub area: Moments,
-    /// Standard deviation of the areas over their mean.
+    /// Coefficient of variation of the areas: standard deviation divided by mean.
     pub area_cv: Option<f64>,
-    /// Numbers of sides.
+    /// Numbers of sides of the bound cells.
     pub sides: Moments,
-    /// Bound cells over their total area, in points per squared unit of the coordinates.
+    /// Number of bound cells divided by their total area, in points per squared unit of the
+    /// coordinates.
     pub density: Option<f64>,
     /// Inter-cell distances of the bound cells, in units of the coordinates.
     pub inter_cell: Moments,
     /// Distances to the farthest neighbours of the bound cells, in units of the coordinates.
     pub furthest: Moments,
-    /// Inter-cell distances of all cells: those at the border have neighbours along the hull that are none.
+    /// Inter-cell distances of all cells, in units of the coordinates.
+    ///
+    /// Cells at the border count points along the convex hull that are not true neighbours.
     pub inter_cell_all: Moments,
-    /// Distances to the farthest neighbours of all cells.
+    /// Distances to the farthest neighbours of all cells, in units of the coordinates.
     pub furthest_all: Moments,
     /// Mean modulus of ψ6 of the bound cells: 1 where every cell is a regular hexagon.
     pub psi6_mean: Option<f64>,
-    /// Modulus of their mean ψ6: 1 where all hexagons have one orientation.
+    /// Modulus of the mean ψ6 of the bound cells: 1 where all hexagons have the same orientation.
     pub psi6_global: Option<f64>,
 }
 
 impl Voronoi {
-    /// Numbers over the bound cells; standard deviations with n − 1.
+    /// Summarises the bound cells; standard deviations have the divisor n − 1.
     pub fn summary(&self) -> VoronoiSummary {
         let bound: Vec<&Cell> = self.cells.iter().filter(|c| c.bound).collect();
         let areas: Vec<f64> = bound.iter().filter_map(|c| c.area).collect();
@@ -112,10 +136,24 @@ impl Voronoi {
     }
 }
 
-/// Voronoi cells by Delaunay triangulation. On a torus the pattern is repeated around the window and every cell is
-/// bound.
+/// Computes the Voronoi cells of a pattern from its Delaunay triangulation.
 ///
-/// Points that are not finite have no cell; where all points lie on a line every cell is infinite.
+/// On a torus the pattern is repeated around the window, and every cell is bound. Points that are
+/// not finite have no cell. If all points lie on a line, every cell is infinite.
+///
+/// # Examples
+/// ```
+/// use conemosaic::prelude::*;
+/// use conemosaic::stats::voronoi;
+///
+/// let window = Window::rectangle(0., 0., 5., 5.)?;
+/// let place = |i: usize| Point::new((i % 5) as f64 + 0.5, (i / 5) as f64 + 0.5);
+/// let points: Vec<Point> = (0..25).map(place).collect();
+/// let summary = voronoi(&points, &window).summary();
+/// assert_eq!(summary.bound, 9); // the cells at the border are left out
+/// assert!((summary.area.mean.ok_or("no bound cells")? - 1.).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn voronoi(points: &[Point], window: &Window) -> Voronoi {
     let bounds = window.bounds();
     let Some(spacing) = hexagonal_spacing(points.len(), window.area()) else {
@@ -139,19 +177,22 @@ pub fn voronoi(points: &[Point], window: &Window) -> Voronoi {
         }
         cells(&repeated, points.len(), window, spacing)
     };
-    // No image beyond the margin could reach a cell whose vertices are all within half of it.
+    // No image beyond the margin can reach a cell whose vertices are all within half of it.
     let margin = MARGIN * spacing;
     let (cells, farthest) = repeated_to(margin);
     if 2. * farthest <= margin {
         return Voronoi { cells };
     }
-    // The pattern and its eight neighbours always suffice: a cell lies in the w × h rectangle around its point, since
-    // the point's own images take the rest, and so does that of a neighbour.
+    // The pattern and its eight neighbours always suffice. A cell lies in the w × h rectangle
+    // around its point, since the point's own images take the rest, and the same holds for the cell
+    // of a neighbour.
     Voronoi { cells: repeated_to(f64::INFINITY).0 }
 }
 
-/// Cells of the first `n` points, and the greatest distance of a vertex of theirs from its point (infinite if one is not
-/// finite).
+/// Returns the cells of the first `n` points and the greatest distance from a point to a vertex of
+/// its cell.
+///
+/// That distance is infinite if a cell is.
 fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell>, f64) {
     const NONE: Cell = Cell {
         area: None,
@@ -171,7 +212,7 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
         return (cells, 0.);
     };
     let same = SAME_VERTEX * spacing / side;
-    // the cell, and the distance of its farthest corner
+    // Returns the cell and the distance of its farthest corner.
     let cell_of = |(index, site): &(usize, [f64; 2]), vertex: Vertex| {
         let mut corners: Vec<[f64; 2]> = Vec::with_capacity(8);
         let mut finite = true;
@@ -214,7 +255,8 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
         let twice: f64 = (0..corners.len())
             .map(|i| {
                 let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
-                // Relative to the point, so that far windows do not cancel.
+                // Coordinates relative to the point avoid cancellation in windows far from the
+                // origin.
                 (a[0] - site[0]) * (b[1] - site[1]) - (b[0] - site[0]) * (a[1] - site[1])
             })
             .sum();
@@ -239,7 +281,7 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
         cell.clipped_area = Some(if whole { area } else { clipped_cell_area(window, at, &adjacent) });
         (cell, reach * side)
     };
-    // the first n points come first
+    // The sites keep the order of the points, so those of the first n points come first.
     let wanted = sites.partition_point(|(i, _)| *i < n);
     let (sites, vertices) = (&sites[..wanted], &triangulation.vertices().take(wanted).collect::<Vec<_>>());
     let found: Vec<(Cell, f64)> = if wanted < SPREAD_FROM {
@@ -255,7 +297,7 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
     (cells, farthest)
 }
 
-/// Distances and directions from a cell's point to the points beyond its sides.
+/// Fills in the distances and directions from a cell's point to the points beyond its sides.
 fn describe_neighbours(cell: &mut Cell, at: Point, neighbours: &[Point]) {
     if neighbours.is_empty() {
         return;
@@ -277,6 +319,7 @@ fn describe_neighbours(cell: &mut Cell, at: Point, neighbours: &[Point]) {
     cell.second_moments = Some(second.map(|v| v / n));
 }
 
+/// Returns the distance between two positions.
 fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
@@ -323,7 +366,7 @@ mod tests {
             .map(|i| outside[i])
             .collect();
         assert!(lost.len() > 10 && whole.cells.iter().zip(&framed.cells).all(|(a, b)| a.area == b.area));
-        // only cells at the hole reach into it
+        // Only cells next to the hole reach into it.
         assert!(lost.iter().all(|&p| frame.border_distance(p) < 0.15), "{lost:?}");
     }
 
@@ -355,7 +398,7 @@ mod tests {
                 let area: f64 = cells.iter().filter_map(|c| c.area).sum();
                 assert!((area / bounds.area() - 1.).abs() < 1e-9, "{n}: {area}");
                 let sides: usize = cells.iter().map(|c| c.sides).sum();
-                // A single point has the rectangle of its own images.
+                // The cell of a single point is the rectangle between its own images.
                 assert_eq!(sides, if n == 1 { 4 } else { 6 * n });
             }
         }

@@ -1,10 +1,10 @@
-//! The arrows that ARCHITECTURE.md draws are the imports that the source has.
+//! The imports of the source are the arrows that ARCHITECTURE.md draws.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Modules that each module may import, itself aside.
+/// Modules that each module may import besides itself.
 const ALLOWED: &[(&str, &[&str])] = &[
     ("choice", &[]),
     ("files", &[]),
@@ -17,7 +17,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("detect", &["choice", "image", "geometry", "numeric", "mosaic"]),
     ("compare", &["choice", "geometry", "numeric", "mosaic", "stats", "sample"]),
     ("render", &["image", "geometry", "numeric", "mosaic"]),
-    // writes down the results of all of them: needs their types
+    // writes down the results of all of these, and needs their types
     ("report", &["image", "geometry", "numeric", "mosaic", "stats", "sample", "compare", "detect"]),
     (
         "batch",
@@ -28,12 +28,12 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ),
 ];
 
-/// Files and folders below `src` whose strings may name flags of the command line: the command line itself, and tables
-/// and pages that say which command writes them.
+/// Files and folders below `src` whose strings may name flags of the command line: the command line
+/// itself, and the tables and pages that say which command writes them.
 const FLAGS: &[&str] = &["cli", "report/tables", "report/metrics", "report/landmarks.rs"];
 
-/// What may hold two hyphens before a letter elsewhere: how to build the program, and the colours of a page's
-/// style sheet.
+/// Strings that may hold two hyphens before a letter elsewhere: the command that builds the
+/// program, and the colours of a page's style sheet.
 const STRINGS: &[&str] = &["cargo install --path . --features onnx", "var(--", ":root {"];
 
 fn source() -> PathBuf {
@@ -51,7 +51,7 @@ fn files_below(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// Path below `src`, in parts, and code of every file, without comments and tests.
+/// Returns the path below `src`, in parts, and the code of every file, without comments and tests.
 fn code() -> Vec<(Vec<String>, String)> {
     let mut files = Vec::new();
     files_below(&source(), &mut files);
@@ -72,12 +72,13 @@ fn identifier(text: &str) -> &str {
     &text[..end]
 }
 
-/// Names that follow `prefix` in a path or begin one in braces after it; with `paths_only` those alone that a
-/// path goes on from.
+/// Returns the names that follow `prefix` in a path, or that begin a path in braces after it.
+///
+/// With `paths_only`, only names after which the path goes on are returned.
 fn named_after(code: &str, prefix: &str, paths_only: bool) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     for (at, _) in code.match_indices(prefix) {
-        // super::super::x names another folder
+        // in super::super::x the second `super` names another folder
         if code[..at].ends_with("::") {
             continue;
         }
@@ -128,7 +129,7 @@ fn what_may_be_imported_goes_one_way() {
     }
 }
 
-/// Follows what is imported from a file by its name, not what comes through the face of the folder, its mod.rs.
+/// Only imports from a file by its name are followed, not those through the `mod.rs` of the folder.
 #[test]
 fn files_of_one_folder_import_each_other_one_way() {
     let mut folders: BTreeMap<String, BTreeMap<String, BTreeSet<String>>> = BTreeMap::new();
@@ -145,7 +146,8 @@ fn files_of_one_folder_import_each_other_one_way() {
         folders.entry(folder).or_default().insert(file.clone(), names);
     }
     for (folder, mut files) in folders {
-        // takes off what imports nothing that is left: what stays are circles and what hangs on them
+        // removes files that import no other file still listed: circles remain, and files that lead
+        // into them
         loop {
             let left: BTreeSet<String> = files.keys().cloned().collect();
             let before = files.len();
@@ -154,7 +156,7 @@ fn files_of_one_folder_import_each_other_one_way() {
                 break;
             }
         }
-        // the same from above: what none that is left imports
+        // the same from above: removes files that no other file still listed imports
         loop {
             let wanted: BTreeSet<String> = files.values().flatten().cloned().collect();
             let before = files.len();

@@ -1,4 +1,4 @@
-//! Graders held against each other.
+//! `agree`: graders compared with each other.
 
 use crate::common::{Place, number};
 
@@ -14,7 +14,7 @@ fn graders_are_paired_by_image_and_their_differences_told() {
         (row["column"].as_str(), row["first"].as_str(), row["second"].as_str()),
         ("density", "one", "two")
     );
-    // differences −1, 1, −3
+    // the differences are −1, 1 and −3
     assert!(number(&row, "n") == 3. && (number(&row, "difference") + 1.).abs() < 1e-12);
     assert!((number(&row, "sd") - 2.).abs() < 1e-12);
     assert!((number(&row, "limit_low") + 1. + 1.96 * 2.).abs() < 1e-12);
@@ -73,7 +73,8 @@ fn a_run_and_a_grader_are_compared_by_names_without_units() {
     place.ok(&["agree", "run", "marked", "--out", "all", "-q"]);
     let all = place.table("all/agreement.csv");
     assert!(all.iter().any(|r| r["column"] == "nn_mean_px") && !all.iter().any(|r| r["column"] == "nn_mean"));
-    // an earlier version's names, and a grader in µm without a scale
+    // a table of an earlier version has other names; a grader in µm without a scale cannot be
+    // compared
     place.write("old.csv", "file,unit,spacing,density\na,px,7,0.02\nb,px,7.5,0.019\nc,px,8,0.017\n");
     place.ok(&["agree", "run", "old.csv", "--metrics", "spacing_density,density", "--out", "old", "-q"]);
     assert_eq!(place.table("old/agreement.csv")[1]["column"], "density_per_px2");
@@ -101,7 +102,7 @@ fn tables_that_cannot_be_compared_are_refused_with_a_remedy() {
     }
 }
 
-/// Three eyes of three images each: an eye's images err alike.
+/// Numbers of three eyes with three images each. The images of an eye have the same error.
 const FIRST: &str =
     "name,nn_mean_um\nA_1,10\nA_2,12\nA_3,14\nB_1,20\nB_2,22\nB_3,24\nC_1,30\nC_2,32\nC_3,34\n";
 const SECOND: &str =
@@ -118,7 +119,7 @@ fn images_of_one_subject_do_not_count_as_independent() {
     assert!(grouped.stdout.contains("9 images of 3 groups"), "{}", grouped.stdout);
     let [alone, grouped] =
         ["alone", "grouped"].map(|out| place.table(&format!("{out}/agreement.csv")).remove(0));
-    // differences 1, −2 and 5 of the three eyes: bias 4/3 either way
+    // the differences are 1, −2 and 5 for the three eyes: the bias is 4/3 with groups and without
     for row in [&alone, &grouped] {
         assert!((number(row, "difference") - 4. / 3.).abs() < 1e-12);
     }
@@ -126,7 +127,8 @@ fn images_of_one_subject_do_not_count_as_independent() {
     let width = |row: &std::collections::BTreeMap<String, String>| {
         number(row, "difference_high") - number(row, "difference_low")
     };
-    // t(2) √(1/3) over t(8) √(1/9) of the same deviation but for its divisor
+    // t(2) √(1/3) against t(8) √(1/9) times the standard deviation, which differs only by its
+    // divisor
     assert!(width(&grouped) > 3. * width(&alone), "{} {}", width(&grouped), width(&alone));
     assert!(grouped["icc_agreement_low"].is_empty() && !alone["icc_agreement_low"].is_empty());
     let error = place.refused(&["agree", "one.csv", "two.csv", "--group-by", "X", "--out", "out"]);

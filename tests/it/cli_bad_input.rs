@@ -1,9 +1,10 @@
-//! Wrong arguments and broken files: one clear line, the right exit code, nothing half written.
+//! Wrong arguments and broken files give one clear line and the right exit code, and leave nothing
+//! half written.
 
 use crate::common::Place;
 use std::fs;
 
-/// A grey PNG of one value.
+/// Returns a grey PNG of a single value.
 fn flat_png(width: u32, height: u32, value: u8) -> Vec<u8> {
     let mut bytes = Vec::new();
     let image = image::GrayImage::from_pixel(width, height, image::Luma([value]));
@@ -21,7 +22,7 @@ fn float_tiff(pages: usize, value: impl Fn(usize) -> f32) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// A folder of one good image and every kind of bad one.
+/// Makes a folder of one good image and every kind of bad one.
 fn mixed() -> Place {
     let place = Place::new();
     place.image("mixed/good.png", 1);
@@ -34,7 +35,7 @@ fn mixed() -> Place {
     place.write("mixed/constant.png", flat_png(64, 64, 77));
     place.write("mixed/nan.tif", float_tiff(1, |i| if i == 70 { f32::NAN } else { i as f32 }));
     place.write("mixed/pages.tif", float_tiff(3, |i| i as f32));
-    // a 0 × 0 PNG: the size in the header set to nothing
+    // a PNG of 0 × 0 px: the size in its header is set to zero
     let mut zero = flat_png(1, 1, 0);
     zero[16..24].fill(0);
     place.write("mixed/zero.png", zero);

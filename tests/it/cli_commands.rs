@@ -1,4 +1,5 @@
-//! `measure`, `compare`, `validate`, `sample`, `render` and the help, run as a user runs them.
+//! The commands `measure`, `compare`, `validate`, `sample`, `render` and the help, run as a user
+//! runs them.
 
 use crate::common::{Place, number, shared, table};
 use std::collections::BTreeMap;
@@ -14,7 +15,7 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// μ/σ of nearest-neighbour distances, every pair, σ with n.
+/// Returns μ/σ of the nearest-neighbour distances, from every pair of points; σ has the divisor n.
 fn regularity(points: &[[f64; 2]]) -> f64 {
     let n = points.len() as f64;
     let nearest: Vec<f64> = (0..points.len())
@@ -29,7 +30,8 @@ fn regularity(points: &[[f64; 2]]) -> f64 {
     mean / (nearest.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / n).sqrt()
 }
 
-/// g(r) in the unit square: every pair, untruncated Gaussian of .1 s, isotropised set covariance.
+/// Returns g(r) in the unit square from every pair: an untruncated Gaussian of 0.1 s, and the
+/// isotropised set covariance.
 fn correlation(points: &[[f64; 2]], r_in_spacings: f64) -> f64 {
     let n = points.len() as f64;
     let s = (2. / (3f64.sqrt() * n)).sqrt();
@@ -312,7 +314,7 @@ fn render_makes_many_images_and_says_what_each_is_made_from() {
         assert!((0.01..0.05).contains(&number(row, "noise")));
     }
     assert_ne!(rows[0]["noise"], rows[1]["noise"]);
-    // any of them again from its seed
+    // each of the images can be made again from its seed
     let again =
         ["render", "--preset", "parafovea", "--noise", "0.01..0.05", "--seed", "2", "--out", "again.png"];
     place.ok(&[&again[..], &size].concat());
@@ -347,7 +349,7 @@ fn validate_says_what_it_leaves_out_and_what_is_missing() {
     assert_eq!(["tp", "fn", "fp"].map(|c| rows[0][c].as_str()), ["6", "0", "0"]);
     assert_eq!(["tp", "fn", "fp"].map(|c| rows[1][c].as_str()), ["3", "3", "0"]);
     assert!((number(&rows[1], "dice") - 2. / 3.).abs() < 1e-12);
-    // the mean over images, not over cones
+    // the mean is taken over images, not over cones
     let mean = format!("{:.4}", (1. + 2. / 3.) / 2.);
     assert!(outcome.stdout.contains(&mean), "{}", outcome.stdout);
     let unsized_run = place.run(&arguments);
@@ -375,7 +377,8 @@ fn published_marks_are_found_as_well_as_is_asked() {
         let Some(folder) = shared(&format!("data/aoslo/{modality}"), "Dice on published marks") else {
             return;
         };
-        // all of them where the program is fast; a part of them, for less, where it is not
+        // optimised, the program is fast enough for all images; otherwise a part of them must do,
+        // with a lower bar
         let (step, least) = if cfg!(debug_assertions) { (step, least - 0.01) } else { (1, least) };
         let place = Place::new();
         let mut marks: Vec<_> = std::fs::read_dir(&folder)

@@ -1,8 +1,9 @@
-//! `compare`, `run --verdict` and `paper`: the paper's tables, and verdicts by simulation.
+//! The commands `compare`, `run --verdict` and `paper`: the paper's tables, and verdicts by
+//! simulation.
 
 use crate::common::{Place, number};
 
-/// Point sets of these samplers, 200 points each, in `marks/`.
+/// Makes point sets of these samplers, 200 points each, in `marks/`.
 fn marks(samplers: &[(&str, &str)]) -> Place {
     let place = Place::new();
     place.write("marks/readme.md", "not read");
@@ -127,7 +128,7 @@ fn run_gives_verdicts_when_asked() {
 fn a_trend_brings_the_functions_that_allow_for_it() {
     let place = Place::new();
     let mut text = String::from("x,y\n");
-    // rows that lie closer and closer, with a little scatter
+    // rows that lie closer and closer together, with a little scatter along them
     for k in 0..600u32 {
         let (column, row) = (k % 20, k / 20);
         let scatter = f64::from(k * 7919 % 101) / 101.;

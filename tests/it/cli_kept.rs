@@ -1,4 +1,4 @@
-//! Files of a person in a result folder, lost notes and odd names.
+//! A person's files in a result folder, lost ledgers and odd names.
 
 use crate::common::{Outcome, Place};
 
@@ -29,7 +29,7 @@ fn files_of_a_person_are_never_removed() {
     {
         assert_eq!(place.read(&format!("out/{file}")), "mine", "{file}");
     }
-    // what file managers leave is no work of a person
+    // files that file managers leave are no work of a person
     place.write("out/images/b/.DS_Store", "");
     assert_eq!(run(&place, &["--fresh"]).code, 2);
     assert!(!place.path("out/images/b/FAILED.txt").exists());

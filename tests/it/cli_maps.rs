@@ -1,8 +1,8 @@
-//! `measure --maps` and `run --maps`, run as a user runs them.
+//! The commands `measure --maps` and `run --maps`, run as a user runs them.
 
 use crate::common::{FEW_POINTS, Place, number};
 
-/// A bump of density, 200 × 160 px, its peak at (80, 90).
+/// Writes `bump.png`, a density that peaks at (80, 90), on 200 × 160 px.
 fn bump(place: &Place) {
     let level = |x: u32, y: u32| {
         let r2 = (f64::from(x) - 80.).powi(2) + (f64::from(y) - 90.).powi(2);
@@ -42,7 +42,7 @@ fn peak_and_centroid_of_a_sampled_density_are_found() {
 
     let landmarks = &place.table("one/landmarks.csv")[0];
     let off = |x: &str, y: &str| (number(landmarks, x) - 80.).hypot(number(landmarks, y) - 90.);
-    // points per px², of which the picture says the proportions
+    // the picture has the proportions of the density, in points per px²
     let picture = image::open(place.path("bump.png")).unwrap().to_luma8();
     let mass: f64 = picture.pixels().map(|p| f64::from(p.0[0])).sum();
     let peak = 1500. * 255. / mass;
@@ -83,7 +83,7 @@ fn peak_and_centroid_of_a_sampled_density_are_found() {
     {
         assert!(figure.contains(words), "{words}");
     }
-    // what was written is no input
+    // files that the program wrote are no input
     place.copy("cones.csv", "one/cones.csv");
     place.ok(&["measure", "one", "--window", "200x160", "--out", "again"]);
     assert_eq!(place.table("again/summary.csv").len(), 1);
@@ -187,7 +187,7 @@ fn a_run_maps_every_image_and_keeps_what_is_done() {
     let mended = place.ok(&maps);
     assert!(mended.stdout.contains("1 kept from an earlier run"), "{}", mended.stdout);
     assert_eq!(place.files("out")["images/a/maps.svg"], first["images/a/maps.svg"]);
-    // other windows are other results; without maps their files go
+    // other windows give other results; a run without maps removes their files
     let other = place.ok(&[&run[..], &["--maps", "--map-cells", "30", "--resume"]].concat());
     assert!(!other.stdout.contains("kept"), "{}", other.stdout);
     place.ok(&[&run[..], &["--resume"]].concat());

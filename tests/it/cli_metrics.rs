@@ -1,9 +1,10 @@
-//! Columns of summaries: what they are, which are chosen, in which units; manifests and groups.
+//! Columns of summaries: their definitions, choice and units; manifests and groups.
 
 use crate::common::{self, Place, number};
 use std::path::Path;
 
-/// Two files of marks, one twice as dense as the other, in windows of 60 × 60.
+/// Writes two files of marks, one twice as dense along each axis as the other, in windows of 60 ×
+/// 60.
 fn two_files() -> Place {
     let place = Place::new();
     for (name, step) in [("A1_sparse", 10.), ("B2_dense", 5.)] {
@@ -11,7 +12,7 @@ fn two_files() -> Place {
         let side = (60. / step) as usize;
         for k in 0..side * side {
             let (i, j) = ((k % side) as f64, (k / side) as f64);
-            // a lattice has no regularity index
+            // a perfect lattice would have no regularity index
             let shift = 0.1 * ((7 * k % 5) as f64 - 2.);
             text.push_str(&format!("{},{}\n", step * (i + 0.5) + shift, step * (j + 0.5) - shift));
         }
@@ -132,7 +133,7 @@ fn a_manifest_is_carried_through_and_brings_what_is_expected_there() {
     let rows = place.table("out/summary.csv");
     assert_eq!((rows[0]["subject"].as_str(), rows[1]["subject"].as_str()), ("s1", "s2"));
     assert_eq!(rows[0]["manifest_n"], "x");
-    // 1 mm temporal
+    // the place is 1 mm temporal
     assert_eq!((number(&rows[0], "eccentricity_mm"), rows[0]["meridian"].as_str()), (1., "temporal"));
     assert_eq!(number(&rows[0], "density_expected_per_mm2"), 21_000.);
     let spacing = number(&rows[0], "spacing_expected_um");
@@ -140,7 +141,8 @@ fn a_manifest_is_carried_through_and_brings_what_is_expected_there() {
     let share = number(&rows[0], "density_per_mm2") / 21_000.;
     assert!((number(&rows[0], "density_of_expected_percent") / share - 100.).abs() < 1e-9);
     assert!(rows[1]["density_expected_per_mm2"].is_empty());
-    // 40 000 per mm²: 1.9 times what is expected; with half the scale four times as many
+    // 40 000 per mm² are 1.9 times the expected density; half the scale makes that four times as
+    // many
     assert_eq!(rows[0]["warnings"].matches("average eye").count(), 0, "{}", rows[0]["warnings"]);
     measured(&place, &["--manifest", "manifest.csv", "--um-per-px", "0.25", "--um-per-degree", "400"]);
     let warnings = &place.table("out/summary.csv")[0]["warnings"];
@@ -168,7 +170,7 @@ fn groups_have_means_deviations_and_numbers() {
     assert!((number(row, "mean") - (densities[0] + densities[1]) / 2.).abs() < 1e-15);
     let sd = (densities[0] - densities[1]).abs() / 2f64.sqrt();
     assert!((number(row, "sd") - sd).abs() < 1e-15);
-    // two subjects with an image each: the standard error is that of their means
+    // two subjects with one image each: the standard error is that of the means of the subjects
     assert_eq!(row["subjects"], "2");
     assert!((number(row, "se") - sd / 2f64.sqrt()).abs() < 1e-15);
     assert!(number(row, "mean_low") < number(row, "mean_of_subjects"), "{row:?}");
@@ -216,7 +218,8 @@ fn a_run_takes_manifest_groups_and_metrics_and_resumes_by_them() {
     assert!(place.table("out/groups.csv").iter().any(|r| r["group"] == "s2" && r["column"] == "n"));
     assert!(place.ok(&run).stdout.contains("2 kept"));
     assert_eq!(place.table("out/summary.csv")[0]["subject"], "s1");
-    // what no column wants is not computed, and computed when one does
+    // a number is computed only if a column needs it, and then also for results kept from an
+    // earlier run
     let spacing = |out: &str| {
         place.json(&format!("{out}/images/a_1/metrics.json"))["fourier"]["all"]["spacing"].as_f64()
     };

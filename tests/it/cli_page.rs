@@ -12,7 +12,7 @@ fn page_of(arguments: &[&str]) -> String {
     place.read("out/index.html")
 }
 
-/// The text of the elements of this name, without what is inside them.
+/// Returns the text of the headings of the table, without the elements inside them.
 fn headings(page: &str) -> Vec<String> {
     let head = page.split("<thead>").nth(1).and_then(|t| t.split("</thead>").next()).unwrap_or_default();
     head.split("<th").skip(1).map(|th| th.split('>').nth(1).unwrap_or_default().replace("</th", "")).collect()
@@ -26,9 +26,9 @@ fn table_of_a_run_fits_whatever_the_number_of_samplers() {
     for name in ["spacing (density)<small", "spacing (ring)<small", "closest to", "ℓ∞"] {
         assert!(columns.iter().any(|c| c.trim_end().starts_with(name)), "{name} is not in {columns:?}");
     }
-    // lengths and densities of a scaled image, px beside
+    // lengths and densities of a scaled image are in µm and per mm², with px beside them
     assert!(page.contains("<small>µm (px)</small>") && page.contains("<small>per mm²</small>"));
-    // every sampler stands with its image, and ℓ∞ in words once
+    // every sampler is named with each image, and ℓ∞ is explained once
     assert_eq!(page.matches("ℓ∞ to triangular").count(), 2);
     assert!(page.contains("Lanaro et al. (2020) call two curves alike below about 0.1"));
     assert!(page.contains("position: sticky"));
@@ -38,7 +38,7 @@ fn table_of_a_run_fits_whatever_the_number_of_samplers() {
 fn warnings_are_counted_above_the_table_and_told_with_each_image() {
     let page = page_of(&["--samplers", "uniform"]);
     let details = page.split("<details").nth(1).and_then(|d| d.split("</details>").next()).unwrap();
-    // the density of one of the two varies: one warning above the table, one with the image
+    // the density of one of the two images varies: one warning above the table, one with the image
     assert!(details.contains("⚠ 1 warning, on 1 of 2 images") && details.contains("density"), "{details}");
     assert_eq!(page.matches("<p class=\"warning\">⚠ ").count(), 1);
 }

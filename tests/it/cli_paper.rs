@@ -1,4 +1,4 @@
-//! `paper`: what Lanaro et al. print about samplers, re-made.
+//! The command `paper`: the results of Lanaro et al. about samplers, made again.
 
 use crate::common::{Place, number};
 
@@ -8,7 +8,7 @@ fn paper_agrees_with_what_is_printed_and_stands_on_one_page() {
     let text = place.ok(&["paper", "--patterns", "3", "--threads", "2", "--out", "out"]).stdout;
     assert!(text.contains("20 of 20 rows of Table 2"), "{text}");
     let rows = place.table("out/table1.csv");
-    // means of ten sets are to be in these ranges; those of three scatter half as much again
+    // the ranges hold for means of ten sets; those of three sets scatter half as much again
     for (row, (low, high)) in rows.iter().zip([
         (1.28, 1.43),
         (1.31, 1.41),
@@ -29,7 +29,7 @@ fn paper_agrees_with_what_is_printed_and_stands_on_one_page() {
     assert!(!page.contains("<img") && !page.contains("<link") && !page.contains("<script"));
     assert_eq!(place.table("out/triangle.csv").len(), 20);
     assert_eq!(place.table("out/pcf.csv").len(), 200);
-    // the bandwidth that the printed rows allow is the default one
+    // all printed rows hold at the default bandwidth only
     let holds = |width: &str| {
         let rows = place.table("out/bandwidths.csv");
         rows.iter().find(|r| r["bandwidth_in_spacings"] == width).map(|r| number(r, "rows_that_hold"))

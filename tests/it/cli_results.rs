@@ -1,5 +1,5 @@
-//! Results are never lost and never mixed: what a result folder holds after failures, kills, other
-//! options and a person's corrections.
+//! Results are never lost and never mixed: the content of a result folder after failures, kills,
+//! other options and a person's corrections.
 
 use crate::common::{Place, number};
 use std::fs;
@@ -10,7 +10,7 @@ fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
     [&RUN[..], more].concat()
 }
 
-/// A folder of `n` small images.
+/// Makes a folder of `n` small images.
 fn images(n: u32) -> Place {
     let place = Place::new();
     for seed in 1..=n {
@@ -23,7 +23,7 @@ fn append(place: &Place, file: &str, text: &str) {
     place.write(file, place.read(file) + text);
 }
 
-/// Files that were put away, by their path in the result folder.
+/// Returns the files that were put away, by their path in the result folder.
 fn put_away(place: &Place, out: &str) -> Vec<String> {
     place.names(&format!("{out}/.conemosaic/earlier"))
 }
@@ -103,7 +103,7 @@ fn a_changed_file_of_a_result_is_made_anew() {
     for file in ["figure.svg", "pcf.csv", "overlay.png", "metrics.json", "points.csv"] {
         let path = place.path(&format!("out/images/1/{file}"));
         let bytes = fs::read(&path).unwrap();
-        // points.csv in the middle of a line: cut off, and no correction
+        // a points.csv that ends within a line was cut off, and is no correction
         fs::write(&path, &bytes[..bytes.len() / 2 - 3]).unwrap();
         let outcome = place.ok(&RUN);
         assert!(outcome.stdout.contains("1 kept"), "{file}: {}", outcome.stdout);
@@ -188,7 +188,7 @@ fn marks_from_anywhere_get_what_detections_get() {
     for file in ["figure.svg", "overlay.png", "pcf.csv", "metrics.json"] {
         assert!(place.path(&format!("by_hand/images/1/{file}")).is_file(), "{file}");
     }
-    // what a run has written serves as well, and gives the same numbers
+    // the cones that a run has written can be given to another run, and lead to the same numbers
     place.ok(&["run", "in", "--cones", "out/images", "--samplers", "none", "--out", "again"]);
     for column in ["n", "nn_mean_px", "ri", "density_per_px2"] {
         let of = |folder: &str| place.table(&format!("{folder}/summary.csv"))[1][column].clone();
@@ -254,7 +254,7 @@ mod unix {
     use std::process::{Child, Command, Stdio};
     use std::time::{Duration, Instant};
 
-    /// A batch that takes some seconds, on its way: it has begun to write.
+    /// Starts a batch that takes some seconds, and returns when it has begun to write.
     fn begun(place: &Place) -> Child {
         let child = Command::new(env!("CARGO_BIN_EXE_conemosaic"))
             .current_dir(place.path(""))

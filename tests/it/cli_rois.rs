@@ -1,4 +1,4 @@
-//! `measure --rois`, `--roi-side` and `--roi-cells`, run as a user runs them.
+//! The options `--rois`, `--roi-side` and `--roi-cells` of `measure`, run as a user runs them.
 
 use crate::common::{FEW_POINTS, Place, number};
 use std::collections::BTreeMap;
@@ -9,7 +9,8 @@ fn cones(place: &Place, name: &str, seed: &str) {
     place.ok(&["sample", "dart-throwing", "-n", "800", "--window", "120x100", "--seed", seed, "--out", name]);
 }
 
-/// What a region and a window of its own are to agree on: all but what names them.
+/// Returns the values on which a region and a window of its own must agree: all but those that name
+/// them.
 fn values(row: &Row) -> Row {
     let other = ["file", "roi", "flag", "x0", "y0", "x1", "y1", "outside_window", "warnings"];
     row.iter()
@@ -147,7 +148,7 @@ fn few_points_are_measured_as_far_as_they_go() {
     place.ok(&[&measure[..], &["tiles", "--roi-side", "5"]].concat());
     let rows = place.table("tiles/rois.csv");
     assert_eq!(rows.len(), 4 * FEW_POINTS.len());
-    // points on a shared border belong to both
+    // points on a shared border belong to both regions
     assert!(rows[4..8].iter().all(|r| number(r, "n") == 1.) && number(&rows[0], "n") == 0.);
     place.ok(&[&measure[..], &["grown", "--roi-side", "5", "--roi-cells", "1"]].concat());
     assert!(place.table("grown/rois.csv").iter().all(|r| r["flag"] == "few" && number(r, "n_bound") == 0.));
@@ -176,7 +177,7 @@ fn regions_that_cannot_be_are_refused() {
         let error = place.refused(&[&measure[..], extra].concat());
         assert!(words.iter().all(|w| error.contains(w)), "{extra:?}: {error}");
     }
-    // the table of regions is not written over
+    // the table of regions is never overwritten by results
     place.write("here/rois.csv", "x0,y0,x1,y1\n0,0,1,1\n");
     let error =
         place.refused(&["measure", "a.csv", "--window", "unit", "--rois", "here/rois.csv", "--out", "here"]);

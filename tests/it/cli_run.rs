@@ -1,4 +1,4 @@
-//! What `run` and `detect` write, under which names, and that they write the same every time.
+//! The files that `run` and `detect` write, their names, and that they are the same every time.
 
 use crate::common::{Place, number};
 use sha2::{Digest, Sha256};

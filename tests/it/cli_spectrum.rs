@@ -1,9 +1,10 @@
-//! `measure --spectrum` and `sample --target-pcf`, `--target-spectrum`, run as a user runs them.
+//! The commands `measure --spectrum` and `sample --target-pcf`, `--target-spectrum`, run as a user
+//! runs them.
 
 use crate::common::{Place, number, table};
 use std::path::Path;
 
-/// A column by the first one's value, between `low` and `high`.
+/// Returns the columns `x` and `y` of a table, for x from `low` up to `high`.
 fn curve(file: &Path, x: &str, y: &str, low: f64, high: f64) -> Vec<(f64, f64)> {
     let rows = table(file);
     rows.iter().map(|r| (number(r, x), number(r, y))).filter(|(x, _)| (low..high).contains(x)).collect()
@@ -53,11 +54,11 @@ fn the_miss_of_a_target_is_told_written_and_warned_of() {
     };
     let (words, miss) = reached("measured/darts.pcf.csv", "900");
     assert!(miss < 0.1 && words.contains("l∞") && !words.contains("warning"), "{miss}: {words}");
-    // pairs at one distance only: no pattern has that
+    // no pattern has pairs at one distance only
     place.write("spike.csv", "r,g\n0.15,0\n0.9,0\n1,9\n1.1,0\n2.5,0\n");
     let (words, miss) = reached("spike.csv", "900");
     assert!(miss > 0.1 && words.contains("warning"), "{miss}: {words}");
-    // points on the terminal stay points
+    // standard output holds points only; remarks go to standard error
     let outcome = place.run(&["sample", "--target-pcf", "measured/darts.pcf.csv", "-n", "50"]);
     assert!(!outcome.stdout.contains("l∞") && outcome.stderr.contains("l∞"), "{}", outcome.stderr);
 }

@@ -1,9 +1,10 @@
-//! `validate`, run as a user runs it: groups, intervals, curves over the score, overlays, two detectors or graders.
+//! The command `validate`, run as a user runs it: groups, intervals, FROC curves, overlays, and two
+//! detectors or graders.
 
 use crate::common::Place;
 use std::collections::BTreeMap;
 
-/// Marks of a lattice, 12 px apart, on 60 × 60 px.
+/// Returns the marks of a lattice, 12 px apart, on 60 × 60 px.
 fn lattice() -> Vec<(f64, f64)> {
     (1..5).flat_map(|y| (1..5).map(move |x| (12. * f64::from(x), 12. * f64::from(y)))).collect()
 }
@@ -12,8 +13,9 @@ fn csv(header: &str, rows: impl IntoIterator<Item = String>) -> String {
     [header.to_owned()].into_iter().chain(rows).map(|line| line + "\n").collect()
 }
 
-/// Marks of four images of two subjects; detections with a column `confidence` that lack the first `k` marks of image
-/// k and have a false alarm of little confidence.
+/// Makes marks of four images of two subjects, and detections with a column `confidence`.
+///
+/// The detections of image k lack its first `k` marks and have one false alarm of low confidence.
 fn made_up() -> Place {
     let place = Place::new();
     for (k, name) in ["s1_a", "s1_b", "s2_a", "s2_b"].into_iter().enumerate() {
@@ -26,7 +28,8 @@ fn made_up() -> Place {
     place
 }
 
-/// (18, 18) is 8.5 px from the nearest marks, and out of reach.
+/// Arguments with a reach so short that the false alarm at (18, 18), 8.5 px from the nearest marks,
+/// is out of reach.
 const VALIDATE: [&str; 9] =
     ["validate", "--reference", "marks", "--detections", "cones", "--size", "60x60", "--reach", "0.5"];
 
@@ -57,7 +60,7 @@ fn files_may_be_given_instead_of_folders() {
     let row = scored("marks/s1_b.csv", "other.csv", "one");
     assert_eq!(row["name"], "s1_b");
     assert_eq!(row["dice"], scored("marks/s1_b.csv", "cones", "same")["dice"]);
-    // among several marks, a file of detections belongs to those of its name
+    // a single file of detections belongs to the marks of its name, among several files of marks
     assert_eq!(row["dice"], scored("marks", "cones/s1_b.csv", "named")["dice"]);
 }
 
@@ -70,7 +73,7 @@ fn groups_are_subjects_and_every_table_speaks_of_them() {
     assert_eq!(groups.iter().map(|g| g["group"].as_str()).collect::<Vec<_>>(), ["s1", "s2"]);
     let rows = place.table("out/validation.csv");
     let dice: Vec<f64> = rows.iter().map(|r| number(r, "dice")).collect();
-    // 16 − k hits, k misses, one false alarm
+    // 16 − k hits, k misses and one false alarm
     for (k, dice) in dice.iter().enumerate() {
         assert!((dice - 2. * (16. - k as f64) / (33. - k as f64)).abs() < 1e-12);
     }
@@ -82,7 +85,7 @@ fn groups_are_subjects_and_every_table_speaks_of_them() {
     assert!((mean - dice.iter().sum::<f64>() / 4.).abs() < 1e-12);
     let ends: Vec<f64> =
         json["intervals"]["dice"].as_array().unwrap().iter().filter_map(|v| v.as_f64()).collect();
-    // two subjects: no resample lies beyond either
+    // the means of the two subjects bound every resample
     assert!(ends[0] >= (dice[2] + dice[3]) / 2. - 1e-12 && ends[1] <= (dice[0] + dice[1]) / 2. + 1e-12);
     for words in ["mean over 2 groups", "resamples of the 2 groups", "Dice (= F1)", "localisation error, µm"]
     {
@@ -133,7 +136,7 @@ fn the_score_makes_a_curve_and_its_best_threshold_leaves_the_false_alarms_out() 
     let best = &place.json("out/validation.json")["best_threshold"];
     assert_eq!((best["threshold"].as_f64(), best["precision"].as_f64()), (Some(0.9), Some(1.)));
 
-    // 58 hits at 0.9, 4 false alarms at 0.25
+    // 58 hits with a score of 0.9, and 4 false alarms with 0.25
     let bins = place.table("out/reliability.csv");
     assert_eq!((bins[9]["n"].as_str(), bins[2]["n"].as_str()), ("58", "4"));
     let record = &place.json("out/validation.json")["reliability"];
@@ -177,10 +180,10 @@ fn two_detectors_are_compared_image_by_image() {
     let rows = place.table("out/comparison.csv");
     let measures: Vec<_> = rows.iter().map(|r| r["measure"].as_str()).collect();
     assert_eq!(measures, ["dice", "sensitivity", "fdr", "count", "density_per_px2"]);
-    // misses 0, 1, 2, 3 of 16
+    // the images have 0, 1, 2 and 3 misses of 16
     assert!((number(&rows[1], "difference") + 1.5 / 16.).abs() < 1e-12);
     assert_eq!(number(&rows[3], "first") - number(&rows[3], "second"), -0.5);
-    // two subjects, both worse: of four choices of signs two are as far
+    // both subjects are worse, so two of the four choices of signs are as extreme
     assert_eq!((number(&rows[1], "p"), number(&rows[1], "p_least")), (0.5, 0.5));
     let note = "p of the comparison cannot fall below 0.5000";
     assert!(
@@ -191,7 +194,8 @@ fn two_detectors_are_compared_image_by_image() {
     assert!(outcome.stdout.contains("least p possible"));
     let images = place.table("out/validation.csv");
     assert!(images.iter().all(|r| number(r, "versus_dice") == 1.));
-    // the other detections are the marks: against them means against those
+    // the other detections are the marks themselves: a comparison with one is a comparison with the
+    // other
     assert!(images.iter().all(|r| r["between_dice"] == r["dice"]));
     assert!(outcome.stdout.contains("sign-flip permutation") && place.path("out/comparison.svg").exists());
 
@@ -240,7 +244,7 @@ fn images_are_scored_drawn_and_listed_worst_first() {
         roxmltree::Document::parse(&place.read(&format!("out/{file}"))).expect(file);
         assert!(page.contains(&format!("src=\"{file}\"")), "{file} is not on the page");
     }
-    // what is drawn is no image of a retina
+    // overlays are not taken for images of a retina
     let again = place.ok(&["detect", "out", "in", "--out", "cones"]);
     assert!(again.stdout.contains("in 2 images"), "{}", again.stdout);
 }

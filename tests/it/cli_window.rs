@@ -1,8 +1,9 @@
-//! Which area counts: `--window` of `run` and `measure`.
+//! The area that counts: `--window` of `run` and `measure`.
 
 use crate::common::{Place, number};
 
-/// A simulated image of 120 × 100 px, black but for an L of two tiles (the right one lower).
+/// Writes a simulated image of 120 × 100 px that is black outside an L of two tiles, the right one
+/// lower.
 fn montage(place: &Place) {
     place.image_of("whole.png", 120, 100, 3);
     let mut image = image::open(place.path("whole.png")).unwrap().to_luma8();
@@ -13,7 +14,7 @@ fn montage(place: &Place) {
     image.save(place.path("montage.png")).unwrap();
 }
 
-/// The L less 1 px along its black edges: x ≤ 68.5 or y ≥ 50.5.
+/// Area of the L in px², without 1 px along its black edges: x ≤ 68.5 or y ≥ 50.5.
 const AREA: f64 = 120. * 100. - 51. * 51.;
 
 #[test]
@@ -34,7 +35,7 @@ fn what_was_imaged_is_what_counts() {
     assert_eq!(place.json("auto/run.json")["options"]["window"], "auto");
     assert!(place.read("auto/index.html").contains("78 % of the image"));
     assert!(place.json("image/images/montage/metrics.json")["mosaic"].get("outline").is_none());
-    // the figure draws the outline on the picture and around the points
+    // the figure draws the outline twice: on the picture and around the points
     let lines = |file: &str| place.read(file).matches("<path").count();
     assert!(lines("auto/images/montage/figure.svg") >= lines("image/images/montage/figure.svg") + 2);
 }
@@ -84,14 +85,14 @@ fn measure_takes_the_same_windows() {
         place.ok(&[&["measure", "montage.csv", "--out", out, "-q"], window].concat());
         place.table(&format!("{out}/summary.csv")).remove(0)
     };
-    // 30 points less those at x = 85 and 105 and y = 5, 25 and 45
+    // 30 points without those at x = 85 and 105 and y = 5, 25 and 45
     let auto = measured("1", &[]);
     assert_eq!(
         (number(&auto, "window_area"), number(&auto, "n"), number(&auto, "outside_window")),
         (AREA, 24., 6.)
     );
     assert_eq!(number(&measured("2", &["--window", "image"]), "n"), 30.);
-    // 5 × 4 points less the four in the hole
+    // 5 × 4 points without the four in the hole
     let hole = measured("3", &["--window", "hole.csv"]);
     assert_eq!((number(&hole, "window_area"), number(&hole, "n")), (8000. - 1600., 16.));
     for edge in ["set-covariance", "translation", "isotropic", "none"] {

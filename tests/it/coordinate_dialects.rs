@@ -1,4 +1,4 @@
-//! Coordinate files as labs have them, and as nobody should have them.
+//! Coordinate files as laboratories have them, and damaged ones.
 
 use conemosaic::geometry::Point;
 use conemosaic::mosaic::LengthUnit;
@@ -26,7 +26,7 @@ fn origin(origin: Origin) -> ReadOptions {
     ReadOptions { origin: Some(origin), ..ReadOptions::default() }
 }
 
-/// The message of a failure: one line that begins with the file.
+/// Returns the message of a failure, which is one short line that begins with the file.
 fn failure(bytes: impl AsRef<[u8]>) -> String {
     let message = read(bytes).unwrap_err().to_string();
     assert!(message.starts_with("marks"), "{message}");
@@ -92,7 +92,8 @@ fn a_header_alone_means_no_points() {
 fn the_origin_is_taken_off_and_upward_y_turned_round() {
     assert_eq!(with(origin(Origin::One), "1,1\n13.25,24.25\n"), [[0., 0.], [12.25, 23.25]]);
     assert_eq!(with(origin(Origin::Half), "0.5,0.5\n"), [[0., 0.]]);
-    // An image of 100 rows: the top row's centre, counted upwards from the bottom in each convention.
+    // The image has 100 rows: the centre of the top row, counted upwards from the bottom, by each
+    // convention.
     for (o, top) in [(Origin::Zero, 99.), (Origin::Half, 99.5), (Origin::One, 100.)] {
         let options = ReadOptions { flip_y: Some(100.), ..origin(o) };
         assert_eq!(with(options, format!("{},{top}\n", o.value())), [[0., 0.]]);
@@ -153,7 +154,7 @@ fn webplotdigitizer_csv_of_all_datasets_is_read_without_its_padding() {
     );
 }
 
-/// The tar archive that WebPlotDigitizer saves.
+/// Returns a tar archive as WebPlotDigitizer saves it.
 fn tar(members: &[(&str, &[u8])]) -> Vec<u8> {
     let mut builder = tar::Builder::new(Vec::new());
     for (name, data) in members {
@@ -183,7 +184,7 @@ fn webplotdigitizer_tar_is_opened() {
     assert!(failure(tar(&[("wpd.json", b"{\"wpd\":1}")])).contains("member “wpd.json”"));
 }
 
-/// An ImageJ point ROI in the layout of `ij.io.RoiEncoder`.
+/// Returns an ImageJ point ROI in the layout of `ij.io.RoiEncoder`.
 fn roi(version: u16, points: &[[f32; 2]], sub_pixel: bool) -> Vec<u8> {
     let (left, top) = (3i16, 5i16);
     let mut bytes = vec![0; 64];
@@ -205,7 +206,7 @@ fn roi(version: u16, points: &[[f32; 2]], sub_pixel: bool) -> Vec<u8> {
             bytes.extend(points.iter().flat_map(|p| p[axis].to_be_bytes()));
         }
     }
-    // The second header, which holds nothing needed here.
+    // The second header holds nothing needed here.
     bytes.extend([0; 64]);
     bytes
 }
@@ -216,7 +217,7 @@ fn imagej_points_count_from_where_their_version_does() {
     let whole = [[10., 20.], [3., 5.], [40., 7.]];
     assert_eq!(points(roi(217, &marks, false)), whole);
     assert_eq!(points(roi(228, &marks, false)), whole);
-    // Since 1.52t the centre of a pixel is whole, before it was at .5.
+    // Since version 1.52t centres of pixels are whole numbers; before, they were at .5.
     assert_eq!(points(roi(228, &marks, true)), [[10., 20.], [3., 5.], [40.25, 7.75]]);
     assert_eq!(points(roi(227, &marks, true)), [[9.5, 19.5], [2.5, 4.5], [39.75, 7.25]]);
     assert_eq!(with(origin(Origin::Zero), roi(227, &marks[..1], true)), [[10., 20.]]);
@@ -360,7 +361,7 @@ fn a_hundred_thousand_rows_are_read_at_once() {
     assert_eq!(points(text).len(), 100_000);
 }
 
-/// Files of every dialect, to be damaged.
+/// Returns files of every dialect, to be damaged.
 fn seeds() -> Vec<Vec<u8>> {
     let marks = roi(227, &[[10., 20.], [3., 5.]], true);
     vec![

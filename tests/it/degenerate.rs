@@ -1,9 +1,10 @@
-//! Too few points, collinear, coincident and border points: every statistic has a value with a meaning or an empty cell.
+//! Too few points, collinear, coincident and border points: every statistic is a meaningful value
+//! or an empty cell.
 
 use crate::common::Place;
 use std::collections::BTreeSet;
 
-/// Empty below two points.
+/// Columns that are empty below two points.
 const NEED_TWO: &[&str] = &[
     "nn_mean",
     "nn_sd",
@@ -14,9 +15,10 @@ const NEED_TWO: &[&str] = &[
     "recovery_reliability",
     "recovery_bin_width",
 ];
-/// Empty below three: of two points both distances are the same, and so are both axes, none of them interior.
+/// Columns that are empty below three points: of two points both distances are the same, and so are
+/// both axes, and neither point is interior.
 const NEED_THREE: &[&str] = &["ri", "clark_evans_cdf", "nn_axis_resultant", "nn_axis_deg"];
-/// Empty without a bound cell, which takes four points at least.
+/// Columns that are empty without a bound cell, which takes at least four points.
 const NEED_BOUND: &[&str] = &[
     "density_bound",
     "nn_bound_mean",
@@ -38,7 +40,8 @@ const NEED_BOUND: &[&str] = &[
     "neighbour_ellipse_minor",
     "hexagon_axis_deg",
 ];
-/// Empty below 20 points (10 groups of neighbours, two interior distances that differ).
+/// Columns that are empty below 20 points: they need 10 groups of neighbours, or two interior
+/// distances that differ.
 const NEED_MORE: &[&str] = &[
     "ri_interior",
     "nn_axis_p",
@@ -51,7 +54,8 @@ const NEED_MORE: &[&str] = &[
     "density_variation_high",
     "density_ratio",
 ];
-/// Where the profile of three points or fewer never recovers.
+/// Columns that are empty where the density recovery profile of three points or fewer never
+/// recovers.
 const NEED_RECOVERY: &[&str] = &["recovery_effective_radius", "recovery_packing"];
 
 /// Name and coordinates of every pattern, in a window of 10 × 10.
@@ -76,7 +80,7 @@ fn patterns() -> Place {
     place
 }
 
-/// Columns of a row that are empty, less those that only lack a scale or a manifest.
+/// Returns the empty columns of a row, without those that only lack a scale or a manifest.
 fn empty(row: &std::collections::BTreeMap<String, String>) -> BTreeSet<String> {
     let known = ["_um", "_mm2", "_deg2", "_arcmin", "_arcmin2", "_um_per_unit"];
     let other = [
@@ -91,12 +95,13 @@ fn empty(row: &std::collections::BTreeMap<String, String>) -> BTreeSet<String> {
     let unscaled = |name: &str| {
         known.iter().any(|end| name.ends_with(end))
             || other.contains(&name)
-            // the same in px, which the coordinates are in
+            // columns in px repeat a column in the unit of the coordinates, which is px here
             || ["_px", "_per_px2", "_px2"]
                 .iter()
                 .filter_map(|end| name.strip_suffix(end))
                 .any(|stem| row.get(stem).is_some_and(String::is_empty))
-            // a length in degrees, as there is one of the same name without unit; an angle has none
+            // a length in degrees has a column of the same name without unit beside it; an angle
+            // has none
             || name.strip_suffix("_deg").is_some_and(|stem| row.contains_key(stem))
     };
     row.iter()
@@ -147,7 +152,7 @@ fn no_pattern_fails_or_leaves_what_is_no_number() {
                 );
             }
         }
-        // every point has its row
+        // every point has a row, however few there are
         for (name, points) in PATTERNS {
             assert_eq!(place.table(&format!("{out}/{name}.points.csv")).len(), points.lines().count());
         }

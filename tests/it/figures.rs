@@ -1,4 +1,4 @@
-//! Figures as files: well-formed, complete, deterministic, small.
+//! Figures as files: well-formed, complete, deterministic and small.
 
 use conemosaic::geometry::{Point, Window};
 use conemosaic::image::Plane;
@@ -7,7 +7,7 @@ use conemosaic::report::{Curve, MosaicFigure, ReferenceLine, ReportError, mosaic
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Data of a figure, for the figure to borrow from.
+/// The data of a figure, which the figure borrows.
 struct Data {
     title: String,
     picture: Option<Plane>,
@@ -21,7 +21,7 @@ struct Data {
 }
 
 impl Data {
-    /// `n` points scattered over an image of `width` × `height` px of noise.
+    /// Scatters `n` points over a picture of noise, `width` × `height` px.
     fn new(n: usize, width: usize, height: usize) -> Self {
         let mut rng = ChaCha8Rng::seed_from_u64(7);
         let picture = Plane::from_shape_simple_fn((height, width), || rng.random::<f32>());

@@ -1,4 +1,5 @@
-//! What is shipped in `fixtures/`: made again by its script, found by the detector, read in every dialect.
+//! The files shipped in `fixtures/`: made again by their script, found by the detector, read in
+//! every dialect.
 
 use conemosaic::compare::{MatchOptions, validate};
 use conemosaic::detect::{DetectOptions, Modality, Polarity, detect};
@@ -13,7 +14,7 @@ fn fixtures() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures")
 }
 
-/// Every file below `folder`, relative to it.
+/// Returns every file below `folder`, relative to it.
 fn files_in(folder: &Path) -> Vec<PathBuf> {
     let mut files: Vec<PathBuf> = walkdir::WalkDir::new(folder)
         .into_iter()
@@ -33,15 +34,17 @@ fn truth(name: &str) -> Vec<Point> {
     points_in(&fixtures().join("truth").join(format!("{name}.csv")), None)
 }
 
-/// Largest distance between points of the same place in both lists.
+/// Returns the largest distance between points at the same index of both lists.
 fn largest_distance(a: &[Point], b: &[Point]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0., f64::max)
 }
 
-/// Image, what it shows, and the Dice coefficient that detection with everything left open must reach (measured: .01
-/// to .02 higher). The network for split-detector images finds the small inner segments of `split_sparse` less well (.945)
-/// than the classical filters do.
+/// Name of an image, its modality and polarity, and the Dice coefficient that detection must reach
+/// with all options left open.
+///
+/// The measured coefficients are .01 to .02 higher. The network for split-detector images finds the
+/// small inner segments of `split_sparse` less well (.945) than the classical filters do.
 const IMAGES: [(&str, Modality, Polarity, f64); 10] = [
     ("confocal_16bit.tif", Modality::Confocal, Polarity::Positive, 0.985),
     ("confocal_dense.png", Modality::Confocal, Polarity::Positive, 0.98),
@@ -81,8 +84,8 @@ fn cones_are_found_where_the_truth_has_them() {
     }
 }
 
-/// Bit for bit on one machine; another mathematics library may round the last digit of a coordinate or, rarely, a pixel to
-/// the next grey.
+/// The files are the same bit for bit on one machine. Another mathematics library may round the
+/// last digit of a coordinate or, rarely, a pixel to the next grey value.
 #[cfg(unix)]
 #[test]
 fn the_script_makes_the_same_fixtures_again() {
@@ -166,12 +169,13 @@ fn number(text: &str) -> f64 {
     text.parse().unwrap()
 }
 
-/// One unit in the last place printed.
+/// Returns one unit in the last place printed.
 fn unit(text: &str) -> f64 {
     0.1f64.powi(text.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32))
 }
 
-/// The paper divides before it prints, and cuts rather than rounds: so each number may be one unit higher than printed.
+/// The paper divides the full numbers, and cuts decimals for print instead of rounding them: each
+/// number may be one unit higher than printed.
 #[test]
 fn regularity_indices_of_table_1_are_mean_over_deviation() {
     let rows = table("table1.csv", "mosaic,mean,sd,ri");
@@ -184,7 +188,8 @@ fn regularity_indices_of_table_1_are_mean_over_deviation() {
     }
 }
 
-/// Each row satisfies the triangle inequality with any other row, through the distances between samplers.
+/// Each row satisfies the triangle inequality with any other row, by way of the distances between
+/// samplers.
 #[test]
 fn distances_of_table_2_are_those_of_one_metric() {
     let rows = table("table2.csv", "mosaic,bnot_1024,dart_throwing_1024,jitter_1024");
@@ -204,7 +209,7 @@ fn both_tables_of_the_paper_name_the_same_mosaics() {
     let samplers = ["GN_", "PN_", "BNOT_"];
     let mut mosaics: Vec<&str> =
         first.iter().map(|r| r.0.as_str()).filter(|m| !samplers.iter().any(|s| m.starts_with(s))).collect();
-    // Table 1 leaves this one out
+    // Table 1 has no row of this mosaic
     mosaics.push("3-D");
     mosaics.sort_unstable();
     assert_eq!(mosaics, second.iter().map(|r| r.0.as_str()).collect::<Vec<_>>());

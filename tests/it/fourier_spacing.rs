@@ -1,4 +1,5 @@
-//! Modal spacing from the spectrum of images, of known truth and of hand-marked ones from `../shared/data/aoslo`, and from points.
+//! Modal spacing from the spectrum of images, both simulated ones and the hand-marked ones in
+//! `../shared/data/aoslo`, and from the spectrum of points.
 
 use conemosaic::detect::{FourierMapOptions, FourierSpacing, Modality, fourier_map, fourier_spacing};
 use conemosaic::geometry::{Point, Window};
@@ -13,7 +14,7 @@ use rayon::prelude::*;
 use std::fmt::{Display, Formatter};
 use std::path::Path;
 
-/// Logarithms of what was found over what is there.
+/// Logarithms of spacings found over true spacings.
 struct Off(Vec<f64>);
 
 impl Off {
@@ -31,7 +32,7 @@ impl Off {
         self.0.iter().fold(0., |a, v| a.max(v.abs()))
     }
 
-    /// Those within 15 %, and their share.
+    /// Returns the values within 15 %, and their share.
     fn near(&self) -> (Self, f64) {
         let near: Vec<f64> = self.0.iter().copied().filter(|v| v.abs() < 0.15).collect();
         let share = near.len() as f64 / self.0.len() as f64;
@@ -62,7 +63,8 @@ fn simulated(modality: Modality, spacing: f64, side: usize, seed: u64) -> (Plane
 
 #[test]
 fn spacings_of_simulated_images_are_found_from_5_to_15_px() {
-    // measured: +.022 ± .013, +.006 ± .013, +.061 ± .007; of the cones themselves +.024 ± .007
+    // measured: +.022 ± .013, +.006 ± .013 and +.061 ± .007 in images; +.024 ± .007 from the cones
+    // themselves
     for (modality, mean) in
         [(Modality::Confocal, 0.022), (Modality::Split, 0.006), (Modality::Histology, 0.061)]
     {
@@ -87,8 +89,9 @@ fn spacings_of_simulated_images_are_found_from_5_to_15_px() {
 
 #[test]
 fn spacings_of_marked_images_are_near_those_of_the_marks() {
-    // share within 15 %; mean and standard deviation of these: of all waves, those up and down, those sideways, of the marks' own
-    // ring, of the map
+    // per modality: shares within 15 %, means of the values within, and a bound of their standard
+    // deviations; in the order of all waves, those along y, those along x, the ring of the marks
+    // themselves, the map
     let measured = [
         (Modality::Confocal, [1., 1., 1., 1., 1.], [0.035, 0.004, 0.067, 0.030, 0.026], 0.025),
         (
@@ -120,7 +123,7 @@ fn spacings_of_marked_images_are_near_those_of_the_marks() {
     }
 }
 
-/// An image, its marks, and the window they lie in.
+/// Reads an image, its marks, and the window in which they lie.
 fn image_and_marks(path: &Path) -> (Plane, Vec<Point>, Window) {
     let coordinates = format!("{}_coords.csv", path.to_string_lossy().trim_end_matches(".png"));
     let options = ReadOptions { origin: Some(Origin::One), ..ReadOptions::default() };
@@ -131,7 +134,8 @@ fn image_and_marks(path: &Path) -> (Plane, Vec<Point>, Window) {
     (image, marks, window)
 }
 
-/// How far the spacings found in an image are off.
+/// Returns the logarithms of the spacings found in an image over that of its marks, by five
+/// methods.
 fn marked(path: &Path) -> [f64; 5] {
     let (image, marks, window) = image_and_marks(path);
     let truth = density_spacing(marks.len(), image.dim());
@@ -157,7 +161,7 @@ fn marks_and_spectra_of_confocal_images_are_stretched_alike() {
     };
     let paths: Vec<_> =
         entries.map(|e| e.unwrap().path()).filter(|p| p.extension().is_some_and(|e| e == "png")).collect();
-    // logarithms of the stretch along x: by the neighbours of the marks, and by the spectrum
+    // logarithms of the stretch along x: from the neighbours of the marks, and from the spectrum
     let all: Vec<[f64; 2]> = paths
         .par_iter()
         .map(|path| {
@@ -177,7 +181,7 @@ fn marks_and_spectra_of_confocal_images_are_stretched_alike() {
     let products: f64 = all.iter().map(|v| (v[0] - marks.mean()) * (v[1] - image.mean())).sum();
     let correlation = products / (all.len() - 1) as f64 / (marks.deviation() * image.deviation());
     println!("{} images: marks {marks}; spectrum {image}; correlation {correlation:.3}", all.len());
-    // measured: +.080, +.063, .51
+    // measured: +.080 (marks), +.063 (spectrum), correlation .51
     assert!((marks.mean() - 0.08).abs() < 0.01 && (image.mean() - 0.063).abs() < 0.01);
     assert!(correlation > 0.4, "{correlation}");
 }

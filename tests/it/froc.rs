@@ -1,4 +1,5 @@
-//! The curve over the threshold of the score: what must hold of any detections, and what is known of simple ones.
+//! The FROC curve over the threshold of the score: properties of any detections, and known values
+//! for simple ones.
 
 use conemosaic::compare::{
     Froc, JudgedImage, MatchOptions, Rates, Verdict, froc, judge, match_points, validate,
@@ -6,7 +7,7 @@ use conemosaic::compare::{
 use conemosaic::geometry::Point;
 use proptest::prelude::*;
 
-/// 25 marks 10 px apart on 60 × 60 px, all outside the border of 7 px.
+/// Returns 25 marks, 10 px apart on 60 × 60 px, all outside the border of 7 px.
 fn grid() -> Vec<Point> {
     (1..6).flat_map(|y| (1..6).map(move |x| Point::new(10. * f64::from(x), 10. * f64::from(y)))).collect()
 }
@@ -22,7 +23,8 @@ fn curve(marks: &[Point], found: &[Point], scores: &[f64]) -> Froc {
 #[test]
 fn thresholds_of_four_detections_give_the_rates_counted_by_hand() {
     let marks = grid();
-    // the second finds its mark taken, and the next one is 9.5 px away: the reach is 7.5 px
+    // the second detection finds its mark taken, and the next mark is 9.5 px away: the reach is 7.5
+    // px
     let found = [Point::new(20., 20.), Point::new(20.5, 20.), Point::new(31., 30.), Point::new(40., 41.)];
     let froc = curve(&marks, &found, &[0.9, 0.8, 0.7, 0.7]);
     let rows: Vec<_> = froc
@@ -30,7 +32,7 @@ fn thresholds_of_four_detections_give_the_rates_counted_by_hand() {
         .iter()
         .map(|p| (p.threshold, p.sensitivity, p.false_alarms_per_image, p.precision))
         .collect();
-    // 25 marks; equal scores are one threshold
+    // 25 marks; detections of equal score share one threshold
     assert_eq!(rows, [(0.9, 1. / 25., 0., 1.), (0.8, 1. / 25., 1., 0.5), (0.7, 3. / 25., 1., 0.75)]);
     let best = &froc.points[froc.best];
     assert_eq!((best.threshold, best.dice), (0.7, Rates::new(3, 22, 1).dice));
@@ -61,7 +63,7 @@ fn pairs_with_a_member_in_the_border_are_neither_hits_nor_errors() {
     assert_eq!(verdicts, [Verdict::Nothing, Verdict::Excuse, Verdict::Nothing, Verdict::Hit]);
     assert_eq!(image.marks, 3);
     let froc = froc(&[image]).unwrap();
-    // of three marks outside the border one is excused, one is hit, one is missed
+    // of three marks outside the border one is excused, one is a hit, one is a miss
     let last = froc.points.last().unwrap();
     assert_eq!((last.sensitivity, last.precision), (0.5, 1.));
     let m = match_points(&marks, &found, 60, 60, &MatchOptions::default()).unwrap();
@@ -108,7 +110,9 @@ proptest! {
         }
     }
 
-    /// Where no mark has two detections within reach and no detection two marks, choosing sides makes no difference.
+    /// The curve lets detections choose marks, the published rule lets marks choose detections.
+    /// Where no mark has two detections within reach and no detection two marks, that makes no
+    /// difference.
     #[test]
     fn the_whole_curve_ends_where_the_published_rule_does(
         keep in prop::collection::vec(any::<bool>(), 25), noise in prop::collection::vec(-1f64..1., 50),

@@ -11,7 +11,7 @@ use tiff::encoder::{Compression, TiffEncoder, colortype};
 const WIDTH: usize = 5;
 const HEIGHT: usize = 3;
 
-/// 15 different grey values, so that a swapped row, column or byte shows.
+/// Returns 15 different grey values, so that a swapped row, column or byte shows.
 fn greys() -> Vec<u8> {
     (0..WIDTH * HEIGHT).map(|i| (i * 17) as u8).collect()
 }
@@ -27,7 +27,7 @@ fn assert_close(found: &Plane, wanted: &Plane, what: &str) {
     }
 }
 
-/// PNG files, by hand: with stored (uncompressed) blocks, any colour type and depth.
+/// PNG files written by hand, with stored (uncompressed) blocks, of any colour type and depth.
 mod png {
     fn crc(bytes: &[u8]) -> u32 {
         !bytes.iter().fold(!0u32, |crc, &b| {
@@ -87,11 +87,12 @@ fn png_of(depth: u8, colour: u8, pixel: impl Fn(u8) -> Vec<u8>) -> Vec<u8> {
     png::file([WIDTH as u32, HEIGHT as u32], depth, colour, &[], &rows)
 }
 
-/// TIFF files, by hand: one directory, one strip or tile a plane.
+/// A TIFF file written by hand, with one directory and one strip or tile per plane.
 struct TiffFile {
     big_endian: bool,
     big_tiff: bool,
-    /// Tag and values; those above 65535 and offsets are written as LONG, the rest as SHORT.
+    /// Tags and their values. Values above 65535 and offsets are written as LONG, the rest as
+    /// SHORT.
     tags: Vec<(u16, Vec<u64>)>,
     chunks: Vec<Vec<u8>>,
     tile: Option<[u64; 2]>,
@@ -283,7 +284,7 @@ fn every_kind_of_tiff_is_read_as_the_same_plane() {
 
 #[test]
 fn palette_tiff_is_looked_up_in_either_byte_order_and_at_any_depth() {
-    // ImageJ writes these. Index i stands for grey 255 − 17 i, in the 16 bits of a colour map.
+    // ImageJ writes such files. Index i stands for grey 255 − 17 i, in the 16 bits of a colour map.
     let map: Vec<u64> = (0..256).map(|i| (255 - (i * 17) % 256) * 257).collect();
     let wanted = expected().mapv(|v| 1. - v);
     let indexes: Vec<u8> = (0..15).collect();
@@ -379,7 +380,8 @@ fn a_file_cut_short_anywhere_is_an_error() {
     let lzw =
         tiff_written(|t| t.write_image::<colortype::Gray8>(WIDTH as u32, HEIGHT as u32, &greys()).unwrap());
     for whole in [png_of(8, 0, |v| vec![v]), lzw] {
-        // The last chunk of a PNG and the offset of a next page say nothing of the picture.
+        // The last chunk of a PNG and the offset of a next page do not concern the picture: without
+        // them a file may be read.
         for length in 0..whole.len() - 20 {
             assert!(decode(&whole[..length], "cut").is_err(), "{length} of {} bytes", whole.len());
         }
@@ -443,7 +445,7 @@ fn writing_into_a_folder_that_is_not_there_is_an_error_and_leaves_nothing() {
     let path = folder.path().join("none/a.png");
     let message = write_png(&path, &expected(), BitDepth::Eight).unwrap_err().to_string();
     assert!(message.contains("cannot be written"), "{message}");
-    // A folder in the place of the file: renaming fails after the bytes are written.
+    // A folder lies in the place of the file: renaming fails after the bytes are written.
     let taken = folder.path().join("taken.png");
     std::fs::create_dir_all(taken.join("full")).unwrap();
     assert!(write_png(&taken, &expected(), BitDepth::Eight).is_err());

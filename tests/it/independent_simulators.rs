@@ -1,8 +1,12 @@
-//! Detection on images of two simulators that share nothing with `render`: fields of coherent light that add up
-//! (`scripts/simulate_coherent.py`), and a plane divided among cut cells (`scripts/simulate_cut_cells.py`). No weights, thresholds or
-//! constants were fitted to these images; two ways to train the confocal network were given up partly because of the former, and
-//! the latter showed that histology needed a network, which kinds of image its training lacked, and that one network for the modality
-//! depends on its seed.
+//! Detection on images of two simulators that share nothing with `render`.
+//!
+//! - `scripts/simulate_coherent.py` adds up fields of coherent light.
+//! - `scripts/simulate_cut_cells.py` divides a plane among cut cells.
+//!
+//! No weights, thresholds or constants were fitted to these images. But the first simulator was one
+//! of the reasons to give up two ways of training the confocal network, and the second showed that
+//! histology needed a network, which kinds of image its training lacked, and that a single network
+//! for the modality depends on its seed.
 
 use crate::common;
 use conemosaic::detect::{DetectOptions, Modality, detect};
@@ -13,22 +17,22 @@ use rayon::prelude::*;
 use std::ffi::OsStr;
 use std::path::Path;
 
-/// Images of each set.
+/// Number of images in each set.
 const COUNT: usize = 4;
 /// Part of the pixels that are white where an image is overexposed.
 const WHITE: f64 = 0.1;
-/// How far off the spacing of a clear image may be.
+/// Largest ratio, either way, between the spacing found in a clear image and the true one.
 const TOLERANCE: f64 = 1.15;
 
 struct Set {
     name: &'static str,
-    /// The spacing of every image must be right.
+    /// Requires that the spacing of every image is right.
     clear: bool,
-    /// What every image must be taken for.
+    /// The modality that every image must be taken to have.
     modality: Option<Modality>,
     /// Lowest mean Dice coefficient.
     dice: f64,
-    /// The same, and the modality again, where the images are overexposed.
+    /// Lowest mean Dice coefficient of the overexposed images; their modality must be right, too.
     overexposed: Option<f64>,
 }
 
@@ -36,11 +40,11 @@ const fn set(name: &'static str, clear: bool, modality: Option<Modality>, dice: 
     Set { name, clear, modality, dice, overexposed: None }
 }
 
-/// What was found in an image, everything left to the program.
+/// Results for one image, with every option left to the program.
 #[derive(Debug)]
 struct Judged {
     dice: f64,
-    /// Spacing found over true spacing.
+    /// Ratio of the spacing found to the true one.
     spacing: f64,
     modality: Modality,
 }
@@ -92,7 +96,7 @@ fn check(script: &str, sets: &[Set]) {
 
 #[test]
 fn cones_in_coherent_light_are_found() {
-    // the hardest set is left out
+    // the hardest set, `parafovea-hard`, is left out
     check(
         "simulate_coherent.py",
         &[
@@ -108,7 +112,7 @@ fn cones_in_coherent_light_are_found() {
 
 #[test]
 fn cut_cells_are_found() {
-    // among rods, one image of four shows the ring of the rods
+    // the sets with rods are not `clear`: one image of four shows the ring of the rods
     check(
         "simulate_cut_cells.py",
         &[

@@ -1,5 +1,8 @@
-//! The shipped networks on hand-marked images. They were trained on these: what generalises is in MODEL_CARD.md; what is
-//! tested here is that the program does what the training script judged, and that gamma, noise and scale do it little harm.
+//! The shipped networks on hand-marked images.
+//!
+//! They were trained on these images; MODEL_CARD.md says how well they generalise. Tested here is
+//! that the program reaches the accuracy that the training script measured, and that gamma, noise
+//! and scale do it little harm.
 
 use crate::common;
 use conemosaic::detect::{DetectOptions, Detector, Modality, detect};
@@ -16,7 +19,7 @@ struct Marked {
     marks: Vec<Point>,
 }
 
-/// Images spread over all subjects; none where there are no data.
+/// Reads images spread over all subjects; none if the data are not there.
 fn marked(modality: Modality, count: usize) -> Vec<Marked> {
     let folder = format!("data/aoslo/{modality}");
     let Some(folder) = common::shared(&folder, "accuracy of the learned detector") else { return Vec::new() };
@@ -33,7 +36,7 @@ fn marked(modality: Modality, count: usize) -> Vec<Marked> {
     (0..count).map(load).collect()
 }
 
-/// Mean Dice coefficient of images that `change` has been applied to.
+/// Returns the mean Dice coefficient of images after `change`.
 fn dice(images: &[Marked], modality: Modality, change: impl Fn(&Marked) -> Marked + Sync) -> f64 {
     let options =
         DetectOptions { modality: Some(modality), detector: Detector::Learned, ..DetectOptions::default() };
@@ -54,13 +57,14 @@ fn with_gamma(gamma: f32) -> impl Fn(&Marked) -> Marked {
     move |m| Marked { image: m.image.mapv(|v| v.max(0.).powf(gamma)), marks: m.marks.clone() }
 }
 
-/// The same in 256 grey levels, of which few are left for the dark ground between cones.
+/// Applies gamma 2 and rounds to 256 grey levels, of which few are left for the dark ground between
+/// cones.
 fn in_8_bits(m: &Marked) -> Marked {
     let Marked { image, marks } = with_gamma(2.)(m);
     Marked { image: image.mapv(|v| (255. * v).round() / 255.), marks }
 }
 
-/// Uniform noise whose standard deviation is .3 of the image's.
+/// Adds uniform noise whose standard deviation is .3 of the image's.
 fn with_noise(m: &Marked) -> Marked {
     let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
     let amplitude = 0.3 * m.image.std(0.) * 12f32.sqrt();
@@ -68,7 +72,7 @@ fn with_noise(m: &Marked) -> Marked {
     Marked { image, marks: m.marks.clone() }
 }
 
-/// Linear interpolation, after a little blur where the image shrinks.
+/// Scales by linear interpolation, after a little blur if the image shrinks.
 fn scaled(factor: f64) -> impl Fn(&Marked) -> Marked {
     move |m| {
         let source = if factor < 1. { gaussian(&m.image, 0.5 * (1. / factor - 1.)) } else { m.image.clone() };
@@ -87,7 +91,7 @@ fn scaled(factor: f64) -> impl Fn(&Marked) -> Marked {
     }
 }
 
-/// As if taken with fewer pixels: 5.5 px between cones, as at the foveal centre.
+/// Scales as if taken with fewer pixels: 5.5 px between cones, as at the foveal centre.
 fn with_fewer_pixels(m: &Marked) -> Marked {
     let area = (m.image.ncols() as f64 - 14.) * (m.image.nrows() as f64 - 14.);
     let inside = |v: f64, n: usize| v > 6.5 && v < n as f64 - 7.5;
@@ -96,7 +100,8 @@ fn with_fewer_pixels(m: &Marked) -> Marked {
     scaled(5.5 / conemosaic::mosaic::hexagonal_spacing(count, area).unwrap())(m)
 }
 
-/// Bar for the images as they are, and how much each change may cost.
+/// Checks the accuracy on the images as they are against `bar`, and that no change costs more than
+/// `loss`.
 fn holds(modality: Modality, bar: f64, loss: f64) {
     let images = marked(modality, 20);
     if images.is_empty() {

@@ -1,4 +1,5 @@
-//! Tests of the library from outside and of the program itself, in one crate so that it is linked once.
+//! Tests of the library from outside and of the program itself, in one crate so that it is linked
+//! only once.
 
 mod architecture;
 mod cli_agree;

@@ -1,5 +1,5 @@
-//! The modality and the polarity that detection takes an image to have are the true ones: on simulated images of every kind, and
-//! on all hand-marked ones.
+//! The modality and the polarity that detection finds are the true ones, on simulated images of
+//! every kind and on all hand-marked ones.
 
 use crate::common;
 use conemosaic::detect::{DetectOptions, Detector, Modality, Polarity, detect};
@@ -13,14 +13,15 @@ use rayon::prelude::*;
 use std::path::Path;
 use strum::VariantArray;
 
-/// Simulated images of each modality and polarity in which everything is drawn at random.
+/// Number of simulated images of each modality and polarity in which everything is drawn at random.
 const EACH: u64 = 60;
-/// Part of them that must be taken rightly: some of their compounds of gamma, noise, vessels and few cones look like another kind.
+/// Part of these images that must be recognised: some combinations of gamma, noise, vessels and few
+/// cones look like another kind.
 const RIGHT: f64 = 0.97;
-/// Densities of each modality, polarity, look and degradation.
+/// Number of densities for each modality, polarity, look and degradation.
 const DENSITIES: u64 = 4;
 
-/// What is done to an image.
+/// A way in which an image is degraded.
 #[derive(Clone, Copy, Debug)]
 enum Degraded {
     Not,
@@ -45,7 +46,7 @@ const DEGRADED: [Degraded; 9] = [
     Degraded::OverExposed,
     Degraded::UnderExposed,
 ];
-/// Parts of an image that are white or black where it was badly exposed.
+/// Parts of the pixels that are white or black where an image was badly exposed.
 const WHITE: f64 = 0.1;
 const BLACK: f64 = 0.1;
 
@@ -60,7 +61,7 @@ fn between(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     rng.random_range(low..high)
 }
 
-/// An image of a preset, of random density, degraded in one way.
+/// Renders an image of a preset with a random density, degraded in one way.
 fn degraded(preset: &Preset, polarity: Polarity, what: Degraded, k: u64) -> Case {
     let mut rng = ChaCha8Rng::seed_from_u64(10_000 + k);
     let (mut mosaic, mut image) = preset.options();
@@ -89,7 +90,7 @@ fn degraded(preset: &Preset, polarity: Polarity, what: Degraded, k: u64) -> Case
     Case { name: format!("{} {} {what:?} {k}", preset.name, polarity.name()), image, modality, polarity }
 }
 
-/// An image of random density, size, contrast, noise, blur and look, then of random gamma.
+/// Renders an image of random density, size, contrast, noise, blur and look, with a random gamma.
 fn drawn(modality: Modality, polarity: Polarity, k: u64) -> Case {
     let mut rng = ChaCha8Rng::seed_from_u64(1000 * k + 10 * modality as u64 + polarity as u64);
     let r = &mut rng;
@@ -164,7 +165,8 @@ fn pick<'a, T>(rng: &mut ChaCha8Rng, all: &'a [T]) -> &'a T {
     &all[rng.random_range(0..all.len())]
 }
 
-/// How often each kind was taken for each other, as text, and the names of those taken wrongly.
+/// Returns a table of how often each kind was taken for each other, and the names of the images
+/// taken wrongly.
 fn confusion(cases: impl IntoParallelIterator<Item = Case>) -> (String, Vec<String>) {
     let classical = DetectOptions { detector: Detector::Classical, ..DetectOptions::default() };
     let kind = |m: Modality, p: Polarity| 2 * m as usize + p as usize;
@@ -221,8 +223,10 @@ fn nearly_all_images_are_taken_for_what_they_are_however_much_is_wrong_with_them
     assert!(wrong.len() as f64 <= (1. - RIGHT) * count as f64, "{} of {count}: {wrong:#?}", wrong.len());
 }
 
-/// Every image as it is, and every fifth with gamma ½ and 2, noise of .3 standard deviations, blurred by 1 px, as a negative, over-
-/// and underexposed, and as a crop of 80 × 80 px (confocal) or 112 × 112 px (split detector: spacings reach 22 px, and five of them must fit for a ring).
+/// Every image is tested as it is. Every fifth is also tested with gamma ½ and 2, with noise of .3
+/// standard deviations, blurred by 1 px, as a negative, over- and underexposed, and cropped to 80 ×
+/// 80 px (confocal) or 112 × 112 px (split detector: spacings reach 22 px, and a ring needs five of
+/// them).
 #[test]
 #[ignore = "slow: hundreds of images"]
 fn hand_marked_images_are_taken_for_what_they_are() {

@@ -1,4 +1,7 @@
-//! Noise has maxima of its own: more cones, a smaller spacing, and so still more. The ring of the spectrum holds against that.
+//! The ring of the spectrum keeps noise from being counted.
+//!
+//! Noise has maxima of its own, which give more cones, so a smaller spacing, and so still more
+//! cones.
 
 use crate::common;
 use conemosaic::detect::{DetectOptions, Detector, detect};
@@ -7,12 +10,14 @@ use conemosaic::mosaic::hexagonal_spacing;
 use rand::SeedableRng;
 use rand_distr::{Distribution, Normal};
 
-/// Images of each kind.
+/// Number of images of each kind.
 const EACH: u64 = 4;
-/// The spacing by what was found over the true one; without the bound it falls to .5.
+/// Range of the spacing of the cones found over the true one. Without the bound by the ring it
+/// falls to .5.
 const OFF: std::ops::Range<f64> = 0.8..1.12;
 
-/// Of a preset with this noise, correlated over `grain` px, in grey values.
+/// Checks the spacing in images of a preset with noise of this standard deviation, in grey values,
+/// correlated over `grain` px.
 fn spacings_hold(preset: &str, noise: f64, grain: f64) {
     for seed in 0..EACH {
         let (image, true_spacing) = common::of_preset(preset, seed, |options| {
@@ -54,7 +59,8 @@ fn no_spacing_of_white_noise_is_believed() {
     white_noise_is_not_believed(3..12);
 }
 
-/// Maxima of white noise are about as far apart everywhere; its spectrum has a ring by chance.
+/// Checks that a low confidence is given to white noise, whose maxima are about equally far apart
+/// and whose spectrum has a ring by chance.
 fn white_noise_is_not_believed(seeds: std::ops::Range<u64>) {
     for seed in seeds {
         let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(seed);

@@ -1,4 +1,5 @@
-//! Detection, stage by stage, against the same stages written with OpenCV (`scripts/opencv_oracle.py`).
+//! Detection, compared stage by stage with the same stages written with OpenCV
+//! (`scripts/opencv_oracle.py`).
 
 use crate::common::{python, run_script};
 use conemosaic::detect::{
@@ -13,18 +14,22 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-/// Planes agree within this part of their range: from σ = 8 px on, Gaussians are not summed pixel by pixel.
+/// Largest difference of planes, as a part of their range. From σ = 8 px on, Gaussians are not
+/// summed pixel by pixel.
 const PLANE: f32 = 1e-3;
-/// A maximum that only one side sees is a tie if it stands out from its neighbours, or from the threshold, by no more
-/// than this part of the range: five times what rounding to `f32` was measured to do.
+/// Prominence, as a part of the range, up to which a maximum found by one side only counts as a
+/// tie.
+///
+/// The value is five times the measured effect of rounding to `f32`.
 const TIE: f32 = 1e-4;
-/// So many of the maxima may be ties.
+/// Largest part of the maxima that may be ties.
 const TIES: f64 = 0.01;
-/// How near a cone of one side must be to one of the other, px.
+/// Distance, in px, within which a cone of one side must have a cone of the other.
 const NEAR: f64 = 0.25;
-/// So many of the cones must be.
+/// Part of the cones that must have one.
 const AGREEMENT: f64 = 0.995;
-/// The same maximum of the same plane, px: what rounding does to a parabola.
+/// Largest distance, in px, between the same maximum of the same plane: the effect of rounding on a
+/// parabola.
 const SAME: f64 = 1e-3;
 
 struct Case {
@@ -79,12 +84,12 @@ fn range(plane: &Plane) -> f32 {
     high - low
 }
 
-/// Largest difference, as a part of the oracle's range.
+/// Returns the largest difference as a part of the oracle's range.
 fn difference(ours: &Plane, oracle: &Plane) -> f32 {
     ours.iter().zip(oracle).map(|(a, b)| (a - b).abs()).fold(0., f32::max) / range(oracle)
 }
 
-/// How far a pixel stands out from its highest neighbour and from the threshold.
+/// Returns the height of a pixel above its highest neighbour or the threshold, whichever is higher.
 fn prominence(plane: &Plane, row: usize, column: usize, threshold: f32) -> f32 {
     let (h, w) = plane.dim();
     let neighbours = (row.saturating_sub(1)..(row + 2).min(h))
@@ -93,7 +98,7 @@ fn prominence(plane: &Plane, row: usize, column: usize, threshold: f32) -> f32 {
     plane[[row, column]] - neighbours.map(|p| plane[p]).fold(threshold, f32::max)
 }
 
-/// The pixel that a maximum was found at: its centre lies half a pixel away at most.
+/// Returns the pixel of a maximum, whose centre lies at most half a pixel away.
 fn pixel_of(d: &Detection, response: &Plane) -> (usize, usize) {
     let around = |v: f64| [v.floor().max(0.) as usize, v.ceil() as usize];
     around(d.centre.y)
@@ -103,7 +108,7 @@ fn pixel_of(d: &Detection, response: &Plane) -> (usize, usize) {
         .expect("the score of a maximum is the response at its pixel")
 }
 
-/// One image, as both sides see it.
+/// One image, with the results of both sides.
 struct Compared {
     name: String,
     image: Plane,
@@ -114,13 +119,13 @@ struct Compared {
     oracle_image: Plane,
     oracle_flat: Plane,
     oracle_response: Plane,
-    /// Column, row, x, y, score.
+    /// Maxima as column, row, x, y and score.
     oracle_maxima: Vec<[f64; 5]>,
-    /// x, y, score.
+    /// Cones as x, y and score.
     oracle_cones: Vec<[f64; 3]>,
 }
 
-/// Every fixture, or nothing where there is no OpenCV.
+/// Returns all fixtures with the results of both sides; none without OpenCV.
 fn compared() -> &'static [Compared] {
     static COMPARED: LazyLock<Vec<Compared>> = LazyLock::new(|| {
         let Some(python) = python() else {
@@ -183,13 +188,13 @@ fn responses_agree_with_opencv() {
 fn one_response_has_the_same_maxima_by_opencv() {
     for c in compared() {
         let ours = local_maxima(&c.oracle_response, c.criterion.threshold);
-        // of a plateau we take the first pixel, dilation takes all
+        // on a plateau this program takes the first pixel, dilation takes all
         let plateaus = c.oracle_maxima.iter().filter(|m| {
             prominence(&c.oracle_response, m[1] as usize, m[0] as usize, c.criterion.threshold) == 0.
         });
         assert_eq!(plateaus.count(), 0, "{}: fixtures have no plateaus", c.name);
         assert_eq!(ours.len(), c.oracle_maxima.len(), "{}", c.name);
-        // both in reading order
+        // both lists are in reading order
         for (a, b) in ours.iter().zip(&c.oracle_maxima) {
             let distance = a.centre.distance(Point::new(b[2], b[3]));
             assert!(distance < SAME && a.score == b[4], "{}: {a:?}, OpenCV {b:?}", c.name);
@@ -244,7 +249,7 @@ fn cones_agree_with_opencv() {
         let ours = c.criterion.select(suppress(local_maxima(&c.response, c.criterion.threshold), c.radius));
         let ours: Vec<Point> = ours.iter().map(|d| d.centre).collect();
         let oracle: Vec<Point> = c.oracle_cones.iter().map(|m| Point::new(m[0], m[1])).collect();
-        // suppression keeps cones much farther apart than this, so that nobody is near to two
+        // suppression keeps cones much farther apart than `NEAR`, so no cone is near two others
         let near = |p: &Point, others: &[Point]| others.iter().any(|q| p.distance(*q) <= NEAR);
         let agreeing = ours.iter().filter(|p| near(p, &oracle)).count()
             + oracle.iter().filter(|p| near(p, &ours)).count();

@@ -1,4 +1,5 @@
-//! The density recovery profile against numbers of another program, on the points of `../shared/oracle/metrics`.
+//! The density recovery profile, compared with numbers of another program for the points of
+//! `../shared/oracle/metrics`.
 
 use conemosaic::geometry::{Point, Window};
 use conemosaic::stats::{BinWidth, DensityRecoveryOptions, density_recovery};

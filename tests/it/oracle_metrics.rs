@@ -1,4 +1,5 @@
-//! Functions of distance and cells against spatstat 3.0 and Metricks, from `../shared/oracle/metrics`.
+//! Functions of distance and cells, compared with spatstat 3.0 and Metricks
+//! (`../shared/oracle/metrics`).
 
 use conemosaic::geometry::{Point, Window};
 use conemosaic::mosaic::{LengthUnit, Mosaic};
@@ -35,7 +36,8 @@ fn points(table: &Table) -> Vec<Point> {
 
 const MOSAICS: [&str; 3] = ["m1_confocal", "m3_confocal", "m4_split"];
 
-/// The oracle's window [.5, W + .5] × [.5, H + .5]: a border distance reaches each side of it.
+/// Returns the oracle's window, [.5, W + .5] × [.5, H + .5], from the distances of points to its
+/// border, which reach each side.
 fn window(per_point: &Table) -> Window {
     let far = |axis: &str| {
         let sums = column(per_point, axis).into_iter().zip(column(per_point, "bdist")).map(|(v, b)| v + b);
@@ -64,13 +66,14 @@ fn functions_of_distance_are_those_of_spatstat() {
             for name in theirs.keys().filter(|name| *name != "r") {
                 let mut worst = (0., 0);
                 for (k, (a, b)) in ours[name.as_str()].iter().zip(&theirs[name]).enumerate() {
-                    // spatstat divides by r = 0 where a pair is near enough: infinite
+                    // spatstat has an infinite value at r = 0 where a pair is close enough: it
+                    // divides by r
                     let Some(b) = b.filter(|b| b.is_finite()) else {
                         assert!(a.is_nan(), "{mosaic}{suffix} {name} row {k}: {a}, spatstat has none");
                         continue;
                     };
                     let miss = match name.as_bytes()[0] {
-                        // of 16384 places one may fall on the other side of a bin's end
+                        // one of the 16384 places may fall on the other side of the end of a bin
                         b'F' => ((a - b).abs() - 2. / 16384.).max(0.) * 1e-3,
                         b'p' => (a - b).abs() * 1e-3,
                         _ if b == 0. => a.abs(),
@@ -104,7 +107,7 @@ fn neighbours_borders_and_cells_are_those_of_spatstat() {
                 ];
                 for (name, value) in checks {
                     let miss = relative(value, theirs[name][k].unwrap());
-                    // spatstat's areas themselves are up to 1.5e-7 off those in rational arithmetic
+                    // spatstat's own areas differ by up to 1.5e-7 from those in rational arithmetic
                     let bound = if name == "dirichlet_area" { 2e-7 } else { 1e-9 };
                     assert!(miss <= bound, "{mosaic}{suffix} {name} of point {k}: {value}, {miss:.1e} off");
                 }
@@ -122,7 +125,7 @@ fn clark_evans_is_that_of_spatstat() {
         let window = Window::rectangle(0.5, 0.5, 150.5, 150.5).unwrap();
         let found = Mosaic::new(points(&sites), window, LengthUnit::Pixel, None).unwrap().0;
         let ours = measure(&found, &MeasureOptions::default()).summary.clark_evans;
-        // six decimals are what there is to compare with
+        // the oracle's values have six decimals
         assert!((ours.naive.unwrap() - naive).abs() < 1e-6, "{ours:?}");
         assert!((ours.donnelly.unwrap() - donnelly).abs() < 1e-6, "{ours:?}");
         assert!((ours.cdf.unwrap() - cdf).abs() < 1e-6, "{ours:?}");
@@ -131,7 +134,7 @@ fn clark_evans_is_that_of_spatstat() {
 
 #[test]
 fn cells_and_neighbours_are_those_of_metricks() {
-    // in the order of the assertions; µm, per mm²
+    // in the order of the assertions below; lengths in µm, densities per mm²
     let expected = [
         (
             "m1_confocal",

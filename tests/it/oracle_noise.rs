@@ -1,4 +1,5 @@
-//! Spectrum-shaped noise against the mean curves of a reference program in `../shared/oracle/samplers`.
+//! Spectrum-shaped noise, compared with the mean curves of a reference program
+//! (`../shared/oracle/samplers`).
 
 use conemosaic::compare::l_infinity;
 use conemosaic::geometry::Window;
@@ -10,7 +11,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::path::PathBuf;
 
-/// A column of a table, by the name in its header.
+/// Returns the column of a table by its name in the header; `None` without the data.
 fn column(table: &str, name: &str) -> Option<Vec<f64>> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/oracle/samplers").join(table);
     if !path.exists() {
@@ -22,7 +23,8 @@ fn column(table: &str, name: &str) -> Option<Vec<f64>> {
     Some(reader.records().map(|row| row.unwrap()[index].parse().unwrap()).collect())
 }
 
-/// Mean curve and mean regularity index (all points, population deviation) over ten seeds in the unit square.
+/// Returns the mean curve and mean regularity index over ten seeds in the unit square, from all
+/// points, with the population standard deviation.
 fn mean(name: &str, n: usize) -> (Pcf, f64) {
     let window = Window::unit_square();
     let seeds = 10;
@@ -61,7 +63,8 @@ fn shaped_noise_has_the_pair_correlation_of_the_reference() {
     }
 }
 
-/// The published indexes: green 1.3081 (n = 512) and 1.3849 (1024), pink 1.4197 and 1.4367.
+/// The published indices are 1.3081 (n = 512) and 1.3849 (n = 1024) for green, 1.4197 and 1.4367
+/// for pink.
 #[test]
 fn regularity_index_of_green_and_pink_is_near_the_published_one() {
     for (name, range) in [("green", 1.31..=1.40), ("pink", 1.34..=1.46)] {
@@ -72,7 +75,7 @@ fn regularity_index_of_green_and_pink_is_near_the_published_one() {
     }
 }
 
-/// Mean radial power at multiples of .05 √n, of 1024 points in the unit square.
+/// Returns the mean radial power at multiples of .05 √n, for 1024 points in the unit square.
 fn mean_power(name: &str, seeds: u64, frequencies: &[f64]) -> Vec<f64> {
     let window = Window::unit_square();
     let mut sum = vec![0.; frequencies.len()];
@@ -89,8 +92,11 @@ fn mean_power(name: &str, seeds: u64, frequencies: &[f64]) -> Vec<f64> {
     sum.iter().map(|s| s / seeds as f64).collect()
 }
 
-/// A mean over m patterns of the power of an annulus with k waves scatters by P/√(m k); about 3 f √n waves, each of them and its
-/// opposite counted once, are in the annulus at f. The reference curves are means of ten or more patterns.
+/// The tolerance follows from scatter: over m patterns, the mean power of an annulus with k waves
+/// scatters by P/√(m k).
+///
+/// The annulus at f has about 3 f √n waves, each counted once with its opposite. The reference
+/// curves are means of ten or more patterns.
 #[test]
 fn spectra_of_samplers_agree_with_those_of_another_program() {
     let Some(frequencies) = column("spectrum_mean.csv", "frequency_in_sqrt_n") else { return };
@@ -117,7 +123,8 @@ fn spectra_of_samplers_agree_with_those_of_another_program() {
         let (off, f, a, b) = worst;
         println!("{name}: at most {off:.1} standard deviations, at {f:.2} √n: {a:.3}, reference {b:.3}");
         if name == "step" {
-            // ours is nearer to the definition than the reference, whose power reaches .08 below the step
+            // this program is nearer to the definition than the reference, whose power reaches .08
+            // below the step
             let below = frequencies.iter().zip(&ours).filter(|(f, _)| **f < 0.52).map(|(_, p)| *p);
             assert!(below.fold(0., f64::max) < 0.02);
         } else {

@@ -1,4 +1,5 @@
-//! Point sets, mean curves and Voronoi numbers of independent programs, from `../shared/oracle`.
+//! Point sets, mean curves and Voronoi cells, compared with independent programs
+//! (`../shared/oracle`).
 
 use conemosaic::compare::l_infinity;
 use conemosaic::geometry::{Point, Window};
@@ -41,7 +42,7 @@ const POINT_SETS: [&str; 11] = [
     "white_1024_1",
 ];
 
-/// Every pair, as the definitions say.
+/// Returns nearest-neighbour distances from every pair, as the definition says.
 fn nearest_directly(points: &[Point]) -> Vec<f64> {
     let to_others = |i: usize| {
         points.iter().enumerate().filter(move |&(j, _)| j != i).map(move |(_, q)| points[i].distance(*q))
@@ -63,7 +64,7 @@ fn regularity_index_of_the_oracle_point_sets_is_that_of_all_pairs() {
     }
 }
 
-/// METHODS §3: the paper's green and pink indexes, with all distances.
+/// The indices of green and pink noise in the paper are computed from all distances (METHODS §3).
 #[test]
 fn regularity_index_of_green_and_pink_is_the_published_one() {
     let mut found = Vec::new();
@@ -102,7 +103,7 @@ fn pair_correlation_of_the_oracle_point_sets_is_that_of_all_pairs() {
     }
 }
 
-/// Mean of a sampler's curves over `seeds` patterns of `n` points.
+/// Returns the mean of a sampler's curves over `seeds` patterns of `n` points.
 fn mean_curve(sampler: &dyn Sampler, n: usize, seeds: u64) -> Pcf {
     let window = Window::unit_square();
     let curves: Vec<Pcf> = (0..seeds)
@@ -132,7 +133,7 @@ fn mean_curves_of_samplers_agree_with_those_of_another_program() {
         let index = rows[0].iter().position(|c| c == column).unwrap();
         let ours = mean_curve(sampler, n, seeds);
         let of = |column: usize| rows[1..].iter().map(move |row| row[column].parse::<f64>().unwrap());
-        // The oracle's distances are printed to six digits.
+        // The oracle's distances are printed with six digits.
         assert!(of(0).zip(&ours.r).all(|(a, b)| (a - b).abs() < 1e-5));
         let theirs = Pcf { g: of(index).collect(), ..ours.clone() };
         let distance = l_infinity(&ours, &theirs).unwrap();
@@ -142,8 +143,9 @@ fn mean_curves_of_samplers_agree_with_those_of_another_program() {
     }
 }
 
-/// METHODS §4 says .007 at n = 300 and −.18 at the first peak without correction, of a pattern it does not name. Dart
-/// throwing gives .0076 and .0078 (40 seeds), hence .01 here; its peak is lower, and 6.7 % of it is .107.
+/// METHODS §4 gives .007 at n = 300, and −.18 at the first peak without correction, for a pattern
+/// it does not name. Dart throwing gives .0076 and .0078 (40 seeds), hence the bar of .01 here; its
+/// peak is lower, and 6.7 % of it is .107.
 #[test]
 fn edge_corrections_agree_on_average_and_none_is_low_at_the_peak() {
     let window = Window::unit_square();
@@ -171,7 +173,7 @@ fn edge_corrections_agree_on_average_and_none_is_low_at_the_peak() {
     assert!((-0.12..-0.095).contains(&bias), "{bias}");
 }
 
-/// Distances and areas by spatstat, window [.5, 150.5]².
+/// The distances and areas are spatstat's, in the window [.5, 150.5]².
 #[test]
 fn nearest_neighbours_and_inner_cells_agree_with_spatstat() {
     for name in ["m1_confocal", "m3_confocal"] {
@@ -191,7 +193,7 @@ fn nearest_neighbours_and_inner_cells_agree_with_spatstat() {
     }
 }
 
-/// METHODS §6: Metricks on jittered points, strictly inside [0, 150]².
+/// The numbers are those of Metricks for jittered points, strictly inside [0, 150]² (METHODS §6).
 #[test]
 fn bound_cells_agree_with_metricks() {
     struct Expected {

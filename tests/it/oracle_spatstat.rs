@@ -1,6 +1,8 @@
-//! Functions of distance, neighbours, border distances, cells and Clark–Evans against spatstat 3.0-3, on point sets of this
-//! program (`fixtures/points`). `scripts/oracle-spatstat` made the values in `fixtures/spatstat`; where R and spatstat are there, the
-//! last test makes them again.
+//! Functions of distance, neighbours, border distances, cells and Clark–Evans, compared with
+//! spatstat 3.0-3 for the point sets in `fixtures/points`.
+//!
+//! `scripts/oracle-spatstat` made the values in `fixtures/spatstat`. Where R and spatstat are
+//! installed, the last test makes them again.
 
 use conemosaic::geometry::{Point, Polygon, Window};
 use conemosaic::mosaic::{LengthUnit, Mosaic};
@@ -31,9 +33,9 @@ fn column(table: &Table, name: &str) -> Vec<f64> {
     table[name].iter().map(|v| v.unwrap_or(f64::NAN)).collect()
 }
 
-/// Rectangles, and what only they have values for.
+/// Point sets in rectangles, the only windows in which spatstat has periodic functions.
 const RECTANGLES: [&str; 4] = ["bnot", "gradient", "lattice", "uniform"];
-/// An outline with slanting edges and a bay, and a hole.
+/// A point set in an outline with slanting edges, a bay and a hole.
 const POLYGON: &str = "polygon";
 
 fn sets() -> impl Iterator<Item = &'static str> {
@@ -59,7 +61,7 @@ fn spatstat(name: &str, what: &str) -> Table {
     table(&fixtures("spatstat").join(format!("{name}.spatstat_{what}.csv")))
 }
 
-/// Our functions at spatstat's distances.
+/// Returns this program's functions at spatstat's distances.
 fn ours(name: &str, window: &Window, theirs: &Table) -> BTreeMap<&'static str, Vec<f64>> {
     let (points, r) = (points(name), column(theirs, "r"));
     let options = FunctionOptions { r_step: Some(r[1]), r_max: r.last().copied() };
@@ -68,7 +70,8 @@ fn ours(name: &str, window: &Window, theirs: &Table) -> BTreeMap<&'static str, V
     found.columns().into_iter().collect()
 }
 
-/// The largest difference of two columns by `miss`, and its row. Where spatstat has no finite value, we have none.
+/// Returns the largest difference of two columns, as measured by `miss`, and its row. Where
+/// spatstat has no finite value, this program must have none.
 fn worst(ours: &[f64], theirs: &[Option<f64>], miss: impl Fn(f64, f64) -> f64) -> (f64, usize) {
     assert_eq!(ours.len(), theirs.len());
     let mut worst = (0., 0);
@@ -98,7 +101,7 @@ fn check(name: &str, what: &str, (miss, row): (f64, usize), bar: f64) {
     assert!(miss <= bar, "{name} {what}: {miss:e} at row {row}, bar {bar:e}");
 }
 
-/// Two of the places at which F is taken.
+/// Effect of two of the 16384 places at which F is evaluated.
 const TWO_PLACES: f64 = 2. / 16384.;
 
 #[test]
@@ -109,11 +112,12 @@ fn functions_in_rectangles_are_those_of_spatstat() {
         for (what, values) in theirs.iter().filter(|(what, _)| !matches!(what.as_str(), "r" | "K_periodic")) {
             let of = |miss: fn(f64, f64) -> f64| worst(&ours[what.as_str()], values, miss);
             match what.as_bytes()[0] {
-                // rounding may move a place to the other side of a bin's end; the border rules have fewer places left
+                // rounding may move a place to the other side of the end of a bin; the border rules
+                // have fewer places, so that each weighs more
                 b'F' if what == "F_none" => check(name, what, of(absolute), TWO_PLACES),
                 b'F' => check(name, what, of(absolute), 2e-4),
                 b'J' => {
-                    // what F may miss, over 1 − F
+                    // the tolerance of F, over 1 − F
                     let f = column(&theirs, &what.replace('J', "F"));
                     let kept: Vec<Option<f64>> =
                         values.iter().zip(f).map(|(v, f)| v.filter(|_| 1. - f > 0.02)).collect();
@@ -139,7 +143,7 @@ fn k_on_a_torus_is_that_of_spatstat() {
         let ours = ours(name, &torus, &theirs);
         for what in ["K_none", "K_border", "K_iso", "K_trans"] {
             let n = points(name).len() as f64;
-            // K with border correction takes n² where the others take n(n − 1)
+            // K with border correction divides by n², the others by n(n − 1)
             let factor = if what == "K_border" { n / (n - 1.) } else { 1. };
             let values: Vec<f64> = ours[what].iter().map(|k| k * factor).collect();
             check(name, what, worst(&values, &theirs["K_periodic"], relative), 1e-9);
@@ -147,8 +151,11 @@ fn k_on_a_torus_is_that_of_spatstat() {
     }
 }
 
-/// spatstat keeps a polygon for G but its Hanisch estimate, for K but its translation correction, and takes pixels for the rest: border
-/// distances of F are those to the nearest pixel outside, set covariances are looked up in an image.
+/// Only some functions of spatstat are exact in polygons: G without its Hanisch estimate, and K
+/// without its translation correction.
+///
+/// For the rest it uses pixels: border distances of F are those to the nearest pixel outside, and
+/// set covariances are looked up in an image.
 #[test]
 fn functions_in_polygons_are_those_of_spatstat_where_it_is_exact() {
     let theirs = spatstat(POLYGON, "functions");
@@ -159,17 +166,18 @@ fn functions_in_polygons_are_those_of_spatstat_where_it_is_exact() {
     for what in ["pcf_iso_divr", "pcf_iso_divd"] {
         check(POLYGON, what, worst(&ours[what], &theirs[what], absolute), 1e-6);
     }
-    // two thirds of the 16384 places lie inside
+    // two thirds of the 16384 places lie inside the polygon
     check(POLYGON, "F_none", worst(&ours["F_none"], &theirs["F_none"], absolute), 1.5 * TWO_PLACES);
     for (what, exact) in [("F_rs", "F_rs_exact"), ("F_km", "F_km_exact")] {
         check(POLYGON, exact, worst(&ours[what], &theirs[exact], absolute), 5e-4);
     }
-    // our set covariance is interpolated too, which shows most where it has its tip, at short distances
+    // this program interpolates its set covariance too, which shows most near its tip, at short
+    // distances
     let (ours, exact) = (&ours["K_trans"], &theirs["K_trans_exact"]);
     check(POLYGON, "K_trans_exact", worst(ours, exact, relative), 2e-3);
 }
 
-/// Where spatstat takes pixels it is farther from its own exact values than we are.
+/// Pixels take spatstat farther from its own exact values than tables take this program.
 #[test]
 fn in_polygons_pixels_cost_spatstat_more_than_our_tables_cost_us() {
     let theirs = spatstat(POLYGON, "functions");
@@ -181,7 +189,7 @@ fn in_polygons_pixels_cost_spatstat_more_than_our_tables_cost_us() {
         println!("{what}: {we:.1e} off, spatstat's {they:.1e}");
         assert!(we < they, "{what}: {we} {they}");
     }
-    // No exact value is to be had of these from spatstat.
+    // spatstat has no exact values of these functions
     for (what, bar) in [("G_han", 0.01), ("F_han", 0.01), ("pcf_trans_divr", 0.01), ("pcf_trans_divd", 0.01)]
     {
         check(POLYGON, what, worst(&ours[what], &theirs[what], absolute), bar);
@@ -206,7 +214,8 @@ fn neighbours_borders_and_cells_are_those_of_spatstat() {
         check(name, "nndist", worst(&ours.neighbours.distances, &theirs["nndist"], relative), 1e-9);
         check(name, "nnwhich", worst(&which, &theirs["nnwhich"], absolute), 0.);
         check(name, "bdist", worst(&borders, &theirs["bdist"], relative), 1e-9);
-        // in rectangles its areas are rounded to six decimals (deldir), elsewhere up to 2e-7 off; ours add up
+        // spatstat's areas are rounded to six decimals in rectangles (deldir) and up to 2e-7 off
+        // elsewhere; those of this program add up to the area of the window
         let beyond_rounding = |a: f64, b: f64| ((a - b).abs() - 1e-6).max(0.) / b;
         check(name, "dirichlet_area", worst(&areas, &theirs["dirichlet_area"], beyond_rounding), 2e-7);
         assert!(relative(areas.iter().sum(), mosaic.window().area()) < 1e-12, "{name}");
@@ -236,7 +245,7 @@ fn clark_evans_is_that_of_spatstat() {
     }
 }
 
-/// What is compared with is what spatstat says, not what somebody typed.
+/// The values compared with are made by spatstat, and not typed by hand.
 #[test]
 fn the_script_has_the_same_values_from_spatstat_again() {
     let there = Command::new("Rscript").args(["-e", "library(spatstat)"]).output();
@@ -256,7 +265,8 @@ fn the_script_has_the_same_values_from_spatstat_again() {
             assert!(new.keys().eq(shipped.keys()), "{file}");
             for (column, values) in &shipped {
                 let new: Vec<f64> = new[column].iter().map(|v| v.unwrap_or(f64::NAN)).collect();
-                // pcf.ppp goes through a Fourier transform, whose rounding is left where there is no pair
+                // pcf.ppp uses a Fourier transform, whose rounding errors remain where there is no
+                // pair
                 let (miss, row) = worst(&new, values, |a, b| (a - b).abs() / b.abs().max(1e-3));
                 assert!(miss < 1e-9, "{file} {column}: {miss:e} at row {row}");
             }
@@ -264,7 +274,7 @@ fn the_script_has_the_same_values_from_spatstat_again() {
     }
 }
 
-/// A rectangle with a notch of no width is a polygon, and its functions are those of the rectangle.
+/// A rectangle with a notch of no width is a polygon; its functions are those of the rectangle.
 #[test]
 fn a_rectangle_as_a_polygon_has_the_functions_of_the_rectangle() {
     let theirs = spatstat("lattice", "functions");
@@ -276,9 +286,9 @@ fn a_rectangle_as_a_polygon_has_the_functions_of_the_rectangle() {
     let (a, b) = (ours("lattice", &rectangle, &theirs), ours("lattice", &polygon, &theirs));
     for (what, values) in &a {
         let values: Vec<Option<f64>> = values.iter().map(|v| Some(*v).filter(|v| v.is_finite())).collect();
-        // the area of an eroded polygon is counted in pixels
+        // the areas of eroded polygons are counted in pixels
         let bar = if what.ends_with("han") { 0.02 } else { 1e-9 };
-        // translation weights come from a table
+        // translation weights are interpolated from a table
         let bar = if what.contains("trans") { 1e-6 } else { bar };
         check(
             "rectangle as polygon",

@@ -1,4 +1,4 @@
-//! Images of so many pixels that cones are farther apart than filters and networks are made for.
+//! Images with so many pixels that cones are farther apart than filters and networks are made for.
 
 use crate::common;
 use conemosaic::detect::{DetectOptions, Detections, Detector, detect};
@@ -7,10 +7,10 @@ use conemosaic::image::{Plane, crop};
 use image::imageops::{FilterType, resize};
 use image::{ImageBuffer, Luma};
 
-/// The upper left corner, so many px along either side, is black.
+/// Length, in px along either side, of the black upper left corner.
 const CORNER: usize = 200;
 
-/// The image with `times` as many pixels along each side, bilinear.
+/// Returns the image with `times` as many pixels along each side, by bilinear interpolation.
 fn enlarged(image: &Plane, times: usize) -> Plane {
     let (h, w) = image.dim();
     let buffer = ImageBuffer::<Luma<f32>, _>::from_fn(w as u32, h as u32, |x, y| {
@@ -20,7 +20,8 @@ fn enlarged(image: &Plane, times: usize) -> Plane {
     Plane::from_shape_vec((h * times, w * times), large.into_raw()).unwrap()
 }
 
-/// The part of the cones of an image that are found in its enlargement too, and nothing else besides.
+/// Returns the agreement (a Dice coefficient) of the cones found in an image and in its
+/// enlargement.
 fn shared(small: &Detections, large: &Detections, times: f64) -> f64 {
     let reach = 0.3 * large.spacing;
     let there = |p: &Point| {
@@ -42,7 +43,8 @@ fn cones_far_apart_are_found_as_those_of_fewer_pixels_are() {
             (options.width, options.height) = (200, 180);
         });
         let mut large = enlarged(&image, times);
-        // a corner that was not imaged, and sides that no block divides
+        // a corner is black as if not imaged, and the sides are no multiples of the blocks that are
+        // averaged
         let cut = (large.nrows() - 3, large.ncols() - 1);
         large = crop(&large, 0, 0, cut.0, cut.1);
         large.indexed_iter_mut().filter(|((y, x), _)| x + y < CORNER).for_each(|(_, v)| *v = 0.);

@@ -1,4 +1,4 @@
-//! The picture and its truth agree; the same seed makes the same picture.
+//! The picture and its truth agree, and the same seed makes the same picture.
 
 use conemosaic::detect::{Modality, Polarity};
 use conemosaic::geometry::Point;
@@ -29,14 +29,14 @@ fn options(modality: Modality) -> RenderOptions {
     RenderOptions { width: 180, height: 160, ..RenderOptions::new(modality) }
 }
 
-/// Mean of the pixels within `radius` of (x, y).
+/// Returns the mean of the pixels within `radius` of (x, y).
 fn mean_around(image: &Plane, x: f64, y: f64, radius: f64) -> f64 {
     let within = image.indexed_iter().filter(|((j, i), _)| (*i as f64 - x).hypot(*j as f64 - y) <= radius);
     let (sum, n) = within.fold((0., 0.), |(sum, n), (_, &v)| (sum + f64::from(v), n + 1.));
     sum / n
 }
 
-/// Cones far enough from the border that all of them lies in the picture.
+/// Returns the cones that lie far enough from the border to be wholly in the picture.
 fn inner(simulation: &Simulation) -> Vec<Point> {
     let (height, width) = simulation.image.dim();
     let inside = |v: f64, side: usize| v > SPACING && v < side as f64 - SPACING;
@@ -95,7 +95,7 @@ fn histology_discs_differ_from_what_lies_between_them() {
         for ((j, i), &v) in made.image.indexed_iter() {
             let distance = |p: &Point| (p.x - i as f64).hypot(p.y - j as f64);
             let nearest = made.cones.iter().map(distance).fold(f64::INFINITY, f64::min);
-            // Edges and outlines belong to neither.
+            // Edges and outlines of cones belong to neither.
             let bin = match nearest / SPACING {
                 d if d < 0.3 => &mut inside,
                 d if d > 0.48 => &mut between,
@@ -150,7 +150,8 @@ fn a_mosaic_is_as_dense_and_as_regular_as_a_real_one() {
 
 #[test]
 fn a_mosaic_is_not_a_single_crystal() {
-    // In one crystal all directions to neighbours have the same angle modulo 60°: the global order would be as the local.
+    // In a single crystal all directions to neighbours are equal modulo 60°, and the global order
+    // would equal the local one.
     let options = MosaicOptions { width: 500, height: 500, spacing: 10., jitter: 0., ..Default::default() };
     let points = cone_mosaic(&options, &mut rng(1)).unwrap();
     let (mut sum, mut local, mut cells) = ((0., 0.), 0., 0.);
@@ -177,7 +178,7 @@ fn a_gradient_makes_one_side_denser_and_its_cones_smaller() {
     let made = simulate(&mosaic, &o, &mut rng(8)).unwrap();
     let count = |from: f64, to: f64| made.cones.iter().filter(|p| p.x >= from && p.x < to).count() as f64;
     let ratio = count(-0.5, 39.5) / count(359.5, 399.5);
-    // Between the middles of the outer tenths: 4^0.9.
+    // The middles of the outer tenths differ in density by 4^0.9.
     assert!((ratio / 4f64.powf(0.9) - 1.).abs() < 0.25, "{ratio}");
     let expected = 400. * 300. / (0.75f64.sqrt() * 81.);
     assert!((made.cones.len() as f64 / expected - 1.).abs() < 0.05, "{} of {expected}", made.cones.len());
@@ -194,7 +195,7 @@ fn noise_blur_and_contrast_do_what_they_say() {
         let o = RenderOptions { noise: 0., ..options(modality) };
         assert!(deviation(&RenderOptions { contrast: 0.5 * o.contrast, ..o.clone() }) < 0.9 * deviation(&o));
         assert!(deviation(&RenderOptions { blur: 0.3, ..o.clone() }) < 0.8 * deviation(&o));
-        // Noise comes last: the same seed makes the same picture beneath it.
+        // Noise is added last: the same seed makes the same picture beneath it.
         let noisy = picture(&RenderOptions { noise: 0.05, ..o.clone() }, 9).image;
         let difference = (noisy - picture(&o, 9).image).mapv(|v| v * v).mean().unwrap().sqrt();
         assert!((0.03..0.055).contains(&difference), "{difference}");
@@ -238,7 +239,7 @@ fn a_picture_survives_a_16_bit_file() {
     let made = picture(&options(Modality::Split), 10);
     write_grey(&path, &made.image, BitDepth::Sixteen).unwrap();
     let worst = read(&path).unwrap().iter().zip(&made.image).map(|(a, b)| (a - b).abs()).fold(0., f32::max);
-    // half a grey, and the last digit of a grey value
+    // half a grey value, and the rounding of its last digit
     assert!(worst <= 0.51 / 65535., "{worst}");
 }
 
@@ -303,7 +304,7 @@ fn a_radial_gradient_is_densest_in_the_middle_at_the_spacing_asked_for() {
             ..MosaicOptions::default()
         };
         let points = cone_mosaic(&mosaic, &mut rng(12)).unwrap();
-        // density in a ring around the middle, as a spacing
+        // the density in a ring around the middle, expressed as a spacing
         let spacing = |from: f64, to: f64| {
             let within = |p: &&Point| (from..to).contains(&p.distance(Point::new(199.5, 199.5)));
             let area = std::f64::consts::PI * (to * to - from * from);
@@ -311,7 +312,7 @@ fn a_radial_gradient_is_densest_in_the_middle_at_the_spacing_asked_for() {
         };
         let expected = |r: f64| 5. * (1. + (gradient.sqrt() - 1.) * r / 200.);
         for (from, to) in [(0., 40.), (90., 110.), (170., 190.)] {
-            // the mean distance of a disc's points from its middle is 2/3 of its radius
+            // points of a disc are on average 2/3 of its radius away from its middle
             let r = if from == 0. { to * 2. / 3. } else { 0.5 * (from + to) };
             let found = spacing(from, to);
             assert!((found / expected(r) - 1.).abs() < 0.06, "{gradient} at {r}: {found}, {}", expected(r));
@@ -326,8 +327,8 @@ fn an_anisotropic_mosaic_is_as_dense_and_longer_along_y() {
     let points = cone_mosaic(&mosaic, &mut rng(13)).unwrap();
     let s = hexagonal_spacing(points.len(), 160_000.).unwrap();
     assert!((s / 10. - 1.).abs() < 0.03, "{s}");
-    // how many pairs lie in a strip of ±0.2 s along a direction, up to 0.8 s apart: cones keep off each other by
-    // about 0.6 s along x, by 0.9 s along y
+    // counts pairs that lie in a strip of ±0.2 s along a direction, up to 0.8 s apart: cones keep a
+    // distance of about 0.6 s along x and 0.9 s along y
     let pairs = |along: fn(f64, f64) -> (f64, f64)| {
         let in_strip = |p: &Point, q: &Point| {
             let (forth, aside) = along(q.x - p.x, q.y - p.y);
@@ -419,7 +420,7 @@ fn a_montage_is_black_where_nothing_was_imaged_and_has_no_cones_there() {
             made.image[[pixel(p.y, height), pixel(p.x, width)]] == 0.
         };
         assert!(!made.cones.iter().any(on_black));
-        // in one piece: the middle is imaged
+        // the imaged part is in one piece, so the middle is imaged
         assert!(made.image[[height / 2, width / 2]] > 0.);
     }
 }
@@ -443,7 +444,7 @@ fn a_section_above_the_equator_leaves_discs_of_different_size() {
         image.iter().filter(|v| **v > 0.45).count() as f64
     };
     let ratio = area(0.6) / area(0.);
-    // a disc cut at height z has 1 − z² of the area
+    // a disc that cuts a unit sphere at height z has 1 − z² of the area
     assert!((ratio / 0.64 - 1.).abs() < 0.15, "{ratio}");
 }
 

@@ -1,4 +1,4 @@
-//! The spacing by the spectrum alone: Yellott's ring, read by a small network.
+//! The spacing from the spectrum alone: Yellott's ring, read by a small network.
 
 use crate::common;
 use conemosaic::detect::{BORDER, RingEstimate, RingProfile, flatten};
@@ -15,7 +15,8 @@ fn off(spacing: f64, true_spacing: f64) -> f64 {
     (spacing / true_spacing).ln().abs()
 }
 
-/// Of a preset, 300 px wide and with this additional blur, in spacings.
+/// Checks the rings in images of a preset, 300 px wide, with this additional blur (in spacings) and
+/// noise.
 fn simulated_rings_are_read(preset: &str, blur: f64, noise: f64) {
     for seed in 100..106 {
         let (image, true_spacing) = common::of_preset(preset, seed, |options| {
@@ -38,7 +39,7 @@ fn rods_are_not_taken_for_the_mosaic_of_cones() {
     simulated_rings_are_read("periphery", 0.05, 0.04);
 }
 
-/// Its training has seen them: subjects left out are judged by scripts/train-ring.
+/// The network was trained on these images; `scripts/train-ring` judges it on subjects left out.
 #[test]
 fn rings_of_hand_marked_images_are_read_and_their_confidence_is_deserved() {
     let Some(root) = common::shared("data/aoslo", "rings of hand-marked images") else { return };
@@ -53,7 +54,7 @@ fn rings_of_hand_marked_images_are_read_and_their_confidence_is_deserved() {
             let image = read(&path).unwrap();
             let coordinates = path.to_string_lossy().replace(".png", "_coords.csv");
             let marks = read_coordinates(Path::new(&coordinates), &options).unwrap().points;
-            // the marks leave out a frame
+            // the marks leave out a frame along the border
             let (right, lower) = (image.ncols() as f64 - 0.5 - BORDER, image.nrows() as f64 - 0.5 - BORDER);
             let near = BORDER - 0.5;
             let n = marks.iter().filter(|p| p.x > near && p.y > near && p.x < right && p.y < lower).count();

@@ -1,4 +1,4 @@
-//! What every sampler in the registry promises, whatever it is.
+//! Properties that every sampler in the registry promises.
 
 use conemosaic::geometry::{Point, Rectangle, Window};
 use conemosaic::mosaic::hexagonal_spacing;
@@ -15,7 +15,7 @@ fn named(name: &str) -> &'static dyn Sampler {
     sampler(name).unwrap()
 }
 
-/// Whether a point lies in the half-open ranges of the window's bounds.
+/// Returns whether a point lies in the half-open ranges of the window's bounds.
 fn within(bounds: &Rectangle, p: &Point) -> bool {
     p.x >= bounds.x0() && p.x < bounds.x1() && p.y >= bounds.y0() && p.y < bounds.y1()
 }
@@ -29,7 +29,7 @@ fn few_points_and_extreme_windows_give_correct_points_or_an_error() {
     for size in [1e-100, 1e-9, 1e9, 1e100] {
         windows.push(Rectangle::new(-size, size, size, 3. * size).unwrap());
     }
-    // far from the origin, where a coordinate has few digits left
+    // a window far from the origin, where coordinates have few digits left
     windows.push(Rectangle::new(1e12, -1e12, 1e12 + 1., 1. - 1e12).unwrap());
     for sampler in samplers() {
         for bounds in &windows {
@@ -57,7 +57,7 @@ fn those_that_promise_exactly_n_points_make_them_and_the_others_come_near() {
         for window in [Window::Rectangle(bounds), Window::Torus(bounds)] {
             for n in [10, 97, 640] {
                 let found = sampler.sample(n, &window, &mut seeded(n as u64)).unwrap().len();
-                // rows of a lattice come and go as a whole
+                // lattices that are not exact gain and lose whole rows
                 let most = if sampler.exact() { 0 } else { 2 + (1.5 * (n as f64).sqrt()) as usize };
                 assert!(found.abs_diff(n) <= most, "{}, {n}: {found}", sampler.name());
             }
@@ -65,7 +65,8 @@ fn those_that_promise_exactly_n_points_make_them_and_the_others_come_near() {
     }
 }
 
-/// Where a torus is promised nothing tells its seam: neighbours across it are as near as anywhere, on average.
+/// A sampler that promises a torus shows no seam: neighbours across it are as near as elsewhere, on
+/// average.
 #[test]
 fn the_seam_of_a_torus_does_not_show() {
     let torus = Window::unit_torus();
@@ -88,7 +89,8 @@ fn the_seam_of_a_torus_does_not_show() {
     }
 }
 
-/// The defaults that are listed are those that hold, and no value in a parameter's range is a trap.
+/// The defaults that are listed are those that hold, and every value in the range of a parameter
+/// works.
 #[test]
 fn parameters_at_their_defaults_change_nothing_and_at_their_limits_give_points_or_an_error() {
     let window = Window::rectangle(0., 0., 2., 1.).unwrap();
@@ -100,7 +102,7 @@ fn parameters_at_their_defaults_change_nothing_and_at_their_limits_give_points_o
                 let same = sampler.configure(&[(parameter.name, &default.to_string())]).unwrap();
                 assert_eq!(same.sample(60, &window, &mut seeded(3)).unwrap(), usual, "{name}");
             }
-            // a relaxation of a million steps is no trap, but takes its time
+            // a relaxation of a million steps works, but takes too long for a test
             let most = if parameter.whole { parameter.range.1.min(1000.) } else { parameter.range.1 };
             for limit in [parameter.range.0, most].into_iter().filter(|v| v.is_finite()) {
                 let at_limit = sampler.configure(&[(parameter.name, &limit.to_string())]).unwrap();
@@ -166,7 +168,8 @@ fn every_sampler_of_the_literature_is_there_under_its_name() {
     assert_eq!(names.len(), 17);
 }
 
-/// Distances in hexagonal spacings of the points asked for, on the torus in every window.
+/// The distances are in hexagonal spacings of the number of points asked for, on the torus in every
+/// window.
 #[test]
 fn no_two_points_are_nearer_than_a_sampler_promises() {
     let bounds = Rectangle::new(-2., 1., 4., 5.).unwrap();
@@ -218,8 +221,8 @@ fn any_number_of_threads_gives_the_same_points() {
     }
 }
 
-/// Equal power cells: the area of a Voronoi cell, which has no weight to make it equal, still scatters little; and Lloyd's less
-/// than that of its uniform start.
+/// Cells of equal power: the areas of Voronoi cells, which have no weights to make them equal,
+/// still scatter little. Those of Lloyd's relaxation scatter less than those of its uniform start.
 #[test]
 fn relaxed_points_have_cells_of_nearly_equal_area() {
     let window = Window::unit_torus();

@@ -1,4 +1,4 @@
-//! The scoring rule against numbers of an independent program, and what must hold of any pairing.
+//! The scoring rule: numbers of an independent program, and properties of any pairing.
 
 use conemosaic::compare::{
     Assignment, MatchError, MatchOptions, Score, by_group, compare_scores, intervals, match_points,
@@ -12,7 +12,8 @@ use rand_chacha::ChaCha8Rng;
 use std::path::Path;
 use strum::VariantArray;
 
-/// Numbers in [0, 1), multiples of 2⁻²⁰, so that every program makes the same point sets.
+/// A source of numbers in [0, 1), multiples of 2⁻²⁰, so that every program makes the same point
+/// sets.
 struct Numbers(u64);
 
 impl Numbers {
@@ -25,8 +26,10 @@ impl Numbers {
     }
 }
 
-/// Rows of marks `step` apart, every other row moved by half a step, each mark moved by up to `jitter` in x, then y;
-/// `integer` rounds to whole pixels, halves upwards.
+/// Returns rows of marks `step` apart.
+///
+/// Every other row is moved by half a step, and each mark by up to `jitter` in x, then in y. With
+/// `integer` they are rounded to whole pixels, halves upwards.
 fn marks(seed: u64, w: f64, h: f64, step: f64, jitter: f64, integer: bool) -> Vec<Point> {
     let mut numbers = Numbers(seed);
     let mut points = Vec::new();
@@ -41,8 +44,10 @@ fn marks(seed: u64, w: f64, h: f64, step: f64, jitter: f64, integer: bool) -> Ve
     points
 }
 
-/// Each mark, kept with probability `keep` and moved by up to `noise`; then `extra` points anywhere. Three numbers
-/// a mark: keep, x, y.
+/// Returns each mark with probability `keep`, moved by up to `noise`, and then `extra` points
+/// anywhere.
+///
+/// Three numbers are drawn per mark: for `keep`, x and y.
 fn detections(seed: u64, marks: &[Point], w: f64, h: f64, keep: f64, noise: f64, extra: usize) -> Vec<Point> {
     let mut numbers = Numbers(seed);
     let mut points = Vec::new();
@@ -59,9 +64,11 @@ fn detections(seed: u64, marks: &[Point], w: f64, h: f64, keep: f64, noise: f64,
     points
 }
 
-/// Seed, width, height, step, jitter, integer, keep, noise, extra; then tp, fn, fp of `match` in
-/// `../shared/tools/score.py` for these points + 1 (it counts pixels from 1). To make the numbers again, write the
-/// two functions above in Python (detections have seed + 100) and call `match` and `summary`.
+/// Seed, width, height, step, jitter, integer, keep, noise, extra; then tp, fn and fp by `match` in
+/// `../shared/tools/score.py` for these points + 1, since that counts pixels from 1.
+///
+/// To make the numbers again, write the two functions above in Python (the seed of detections is
+/// seed + 100) and call `match` and `summary`.
 type Case = (u64, usize, usize, f64, f64, bool, f64, f64, usize, [usize; 3]);
 const TRUTH: [Case; 7] = [
     (1, 150, 150, 8., 2., false, 0.95, 1.5, 10, [267, 12, 8]),
@@ -102,8 +109,8 @@ fn counts_and_means_equal_those_of_the_published_rule() {
     assert_eq!(summary.pooled.tp, TRUTH.iter().map(|t| t.9[0]).sum::<usize>());
 }
 
-/// Hand marks of real images, every eleventh left out and the others moved by up to 2 px: totals by
-/// `../shared/tools/score.py`.
+/// Hand marks of real images are compared with themselves, every eleventh left out and the others
+/// moved by up to 2 px. The totals are those of `../shared/tools/score.py`.
 #[test]
 fn counts_on_real_marks_equal_those_of_the_published_rule() {
     for (folder, images, [tp, fn_, fp], [sensitivity, fdr, dice]) in [
@@ -155,7 +162,8 @@ fn perfect_detections_score_one() {
 
 #[test]
 fn a_second_detection_within_reach_is_used_by_optimal_assignment_only() {
-    // Both marks are nearest to the detection between them; the other one is within reach of the second mark.
+    // The detection between the first two marks is nearest to both; another one is within reach of
+    // the second mark.
     let marks = [Point::new(20., 20.), Point::new(24., 20.), Point::new(40., 40.), Point::new(44., 40.)];
     let detections =
         [Point::new(21.9, 20.), Point::new(26.5, 20.), Point::new(40., 40.), Point::new(44., 40.)];
@@ -170,7 +178,8 @@ fn a_second_detection_within_reach_is_used_by_optimal_assignment_only() {
 
 #[test]
 fn seven_whole_pixels_at_each_edge_are_not_counted() {
-    // Pixels 0 to 6 and 93 to 99 of 100; marks lie on the diagonal, detections nowhere.
+    // Pixels 0 to 6 and 93 to 99 of 100 are the border; there is one mark on the diagonal, and no
+    // detection.
     for (pixel, counted) in [(6., 0), (7., 1), (92., 1), (93., 0)] {
         let pair = [Point::new(pixel, pixel), Point::new(50., 50.)];
         let m = match_points(&pair, &[], 100, 100, &MatchOptions::default()).unwrap();
@@ -310,7 +319,7 @@ fn a_detector_compared_with_itself_does_not_differ_and_a_better_one_does() {
     let dice = &of(&good, &bad)[0];
     assert_eq!((dice.measure, dice.images), ("dice", 8));
     assert!((dice.difference - (dice.first - dice.second)).abs() < 1e-12 && dice.interval.unwrap()[0] > 0.);
-    // all eight of one sign
+    // all eight differences have the same sign
     assert_eq!(dice.p, Some(2. / 256.));
 }
 
@@ -325,12 +334,13 @@ fn optimal_assignment_of_many_cones_is_quick() {
     let seconds = start.elapsed().as_secs_f64();
     println!("{} marks, {} detections, {} pairs: {seconds:.2} s", marks.len(), found.len(), m.pairs.len());
     assert!(m.pairs.len() > 90_000);
-    // Quadratic methods need minutes even where this takes its time, unoptimised on a busy machine.
+    // A method of quadratic time needs minutes; this one stays below the limit even unoptimised on
+    // a busy machine.
     assert!(seconds < 60., "{seconds} s");
 }
 
 fn places(n: usize) -> impl Strategy<Value = Vec<Point>> {
-    // Whole pixels make ties and coincidences.
+    // Whole pixels make ties and coincident points.
     let coordinate = prop_oneof![(0..40i32).prop_map(f64::from), 0f64..40.];
     prop::collection::vec((coordinate.clone(), coordinate).prop_map(|(x, y)| Point::new(x, y)), 0..n)
 }

@@ -8,17 +8,17 @@ use crate::stats::{LocalWindow, MapOptions, Maps};
 use serde::Serialize;
 use std::path::Path;
 
-/// The window around each cone.
+/// The window around each cone in which local values are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MapWindow {
-    /// Grown until it holds this many bound cells; see [`LocalWindow::Cells`].
+    /// A square that grows until it holds this many bound cells; see [`LocalWindow::Cells`].
     Cells(usize),
     /// A square of this side.
     Side(Length),
 }
 
-/// Maps of every mosaic of a batch; see [`MapOptions`].
+/// The request for maps of every mosaic of a batch; see [`MapOptions`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MapRequest {
     /// The window around each cone.
@@ -44,17 +44,17 @@ impl MapRequest {
     /// Checks that every field is in its range.
     ///
     /// # Errors
-    /// The first field that is not, with its range.
+    /// The error names the first field that is not, and its range.
     pub fn validate(&self) -> Result<(), BatchError> {
         let window = match self.window {
             MapWindow::Cells(n) => LocalWindow::Cells(n),
-            // a length is positive
+            // a `Length` is positive, so any side in range will do
             MapWindow::Side(_) => LocalWindow::Side(1.),
         };
         Ok(MapOptions { window, isodensity: self.isodensity, profile_step: None }.validate()?)
     }
 
-    /// Returns the options for one mosaic, lengths in its unit.
+    /// Returns the options for one mosaic, with lengths in its unit.
     ///
     /// # Errors
     /// If a length is in µm and no scale is known.
@@ -72,7 +72,7 @@ impl MapRequest {
 }
 
 /// Writes the maps of one mosaic: `maps.csv` (one row per cone), `maps.svg` and `profiles.csv`,
-/// each with `prefix` before it.
+/// each with `prefix` before its name.
 pub(super) fn write(
     folder: &OutputFolder,
     prefix: &str,
@@ -87,7 +87,7 @@ pub(super) fn write(
     folder.write(&profiles, &tables::profiles_csv(mosaic, found)?)
 }
 
-/// Writes `landmarks.csv`.
+/// Writes `landmarks.csv`, one row per mosaic.
 pub(in crate::batch) fn write_landmarks<'a>(
     out: &OutputFolder,
     records: impl IntoIterator<Item = &'a LandmarkRecord>,
@@ -95,7 +95,8 @@ pub(in crate::batch) fn write_landmarks<'a>(
     out.write(tables::LANDMARKS.file, &tables::LANDMARKS.csv(records)?)
 }
 
-/// Spacing by the spectra of overlapping tiles of the image; no rows where its spectrum has no ring.
+/// Writes the spacing by the spectra of overlapping tiles of the image. The table has no rows if
+/// the spectrum of the whole image has no ring.
 pub(super) fn write_fourier(
     folder: &OutputFolder,
     image: &Plane,

@@ -5,14 +5,16 @@ use crate::geometry::Point;
 use crate::report::{MosaicRecord, SamplerDistance, counted};
 use crate::stats::Measures;
 
-/// Fewer cones than this leave every statistic uncertain: the RI of 30 points scatters by about 15 %.
+/// Number of cones below which every statistic is uncertain: the RI of 30 points scatters by about
+/// 15 %.
 const FEW: usize = 30;
-/// Fewer points than this may be whole numbers by chance or in an example.
+/// Number of points below which all coordinates may be whole by chance, or in an example.
 const ROUNDED: usize = 10;
-/// Below this confidence in the modality or the spacing, a person should look.
+/// Confidence in the modality or the spacing below which a person should look.
 pub(in crate::batch) const CONFIDENT: f64 = 0.8;
 
-/// The mosaic's distance to each curve.
+/// Returns the l-infinity distance of the mosaic to each curve; empty if the mosaic has no pair
+/// correlation function.
 pub(super) fn distances(
     measures: &Measures,
     curves: &[ReferenceCurve],
@@ -24,20 +26,20 @@ pub(super) fn distances(
         .collect()
 }
 
-/// Warns of every sampler that has no curve, with the reason.
+/// Returns a warning for every sampler that has no curve, with the reason.
 pub(super) fn not_compared(curves: &SamplerCurves) -> impl Iterator<Item = String> {
     curves.missing.iter().map(NotCompared::to_string)
 }
 
-/// Tells whether points were rounded to whole units, whatever their origin: rare by chance from a
-/// few points on.
+/// Returns whether points were rounded to whole units, wherever their origin lies. By chance that
+/// is rare from a few points on.
 fn whole_numbers(points: &[Point]) -> bool {
     let Some(first) = points.first() else { return false };
     let whole = |d: f64| (d - d.round()).abs() < 1e-9;
     points.len() >= ROUNDED && points.iter().all(|p| whole(p.x - first.x) && whole(p.y - first.y))
 }
 
-/// Warns of what a reader of the numbers should know.
+/// Returns the warnings that a reader of the numbers should know.
 pub(super) fn warnings_of(
     found: Option<&Detections>,
     record: &MosaicRecord,

@@ -1,5 +1,7 @@
-//! One mosaic, wherever it comes from: its statistics, its comparison with samplers, maps, regions
-//! and warnings, and the files that hold them. `run`, `measure` and `compare` only feed this.
+//! The analysis of one mosaic, wherever it comes from.
+//!
+//! It comprises statistics, comparison with samplers, maps, regions, warnings, and the files that
+//! hold them. The commands `run`, `measure` and `compare` only supply the mosaics.
 
 mod figure;
 mod maps;
@@ -32,43 +34,52 @@ use std::time::Instant;
 
 /// A mosaic to be analysed.
 pub(super) struct Specimen<'a> {
-    /// The file that it was found or marked in.
+    /// The file in which its points were found or marked.
     pub input: &'a Input,
     /// The points that count, in their window.
     pub mosaic: Mosaic,
-    /// Points of the file that lie outside the window.
+    /// Number of points of the file that lie outside the window.
     pub outside: usize,
-    /// The image, where there is one.
+    /// The image, if there is one.
     pub image: Option<&'a Plane>,
-    /// Detections that the points are from, if this program found them.
+    /// The detections that the points come from, if this program made them.
     pub found: Option<&'a Detections>,
 }
 
-/// Everything that is known of a mosaic.
+/// The results for one mosaic.
 pub(super) struct Analysis {
+    /// All statistics, with their series.
     pub measures: Measures,
+    /// The numbers that go into summaries and records.
     pub record: MosaicRecord,
+    /// Warnings about the numbers, each a sentence for a person.
     pub warnings: Vec<String>,
+    /// Mean curves of the samplers, and the samplers that have none.
     pub curves: SamplerCurves,
+    /// Verdicts of the samplers on the mosaic, if they are wanted.
     pub verdicts: Vec<SamplerVerdict>,
+    /// Functions of distance, if they are wanted.
     pub functions: Option<Functions>,
+    /// The power spectrum of the points, if it is wanted and defined.
     pub spectrum: Option<PowerSpectrum>,
+    /// Maps of local values, if they are wanted.
     pub maps: Option<Maps>,
+    /// Landmarks read off the maps.
     pub landmarks: Option<LandmarkRecord>,
-    /// Rows of `rois.csv`.
+    /// Rows of `rois.csv` that belong to the mosaic.
     pub regions: Vec<RoiRow>,
     /// Spacing by the spectrum of the image, if it is wanted and there is an image.
     pub fourier: Option<FourierEstimate>,
-    /// Wall-clock seconds of measuring and comparing.
+    /// Wall-clock seconds of measuring and of comparing.
     pub seconds: [f64; 2],
 }
 
 /// Analyses one mosaic as planned.
 ///
 /// # Errors
-/// If something that was asked for cannot be computed of this mosaic: functions of distance, maps,
-/// regions, the spectrum of the image, or an ambiguous row of the manifest. Statistics that are not
-/// defined are missing values or warnings.
+/// If something that was asked for cannot be computed for this mosaic: functions of distance, maps,
+/// regions, the spectrum of the image, or an unambiguous row of the manifest. Statistics that are
+/// not defined become missing values or warnings.
 pub(super) fn analyse(
     specimen: &Specimen,
     plan: &Plan,

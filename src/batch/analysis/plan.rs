@@ -7,30 +7,32 @@ use crate::sample::Sampler;
 use crate::stats::{FunctionOptions, MeasureOptions, SpectrumOptions};
 use serde_json::{Value, json};
 
-/// Everything that is computed of a mosaic and written about it, wherever its points come from.
+/// The plan of a batch: everything that is computed and written for each mosaic, wherever its
+/// points come from.
 #[derive(Clone)]
 pub struct Plan {
-    /// Options of the measures.
+    /// Options of the statistics.
     pub measure: MeasureOptions,
-    /// Samplers they are compared with; may be empty.
+    /// Samplers that the mosaics are compared with; may be empty.
     pub samplers: Vec<&'static dyn Sampler>,
-    /// Simulations of each sampler at every mosaic's own n and window; `None`: distances only.
+    /// Options of the verdicts, which simulate each sampler at every mosaic's own n and window;
+    /// `None`: distances only.
     pub verdict: Option<VerdictOptions>,
-    /// Seed of everything random.
+    /// Seed of everything that is random.
     pub seed: u64,
-    /// Distances at which G, F, J, K, L and g are written, with a table of the points.
+    /// Distances at which G, F, J, K, L and g are written, together with a table of the points.
     pub functions: Option<FunctionOptions>,
-    /// Power spectra, and how they are drawn.
+    /// Options of power spectra, and the scale on which they are drawn.
     pub spectrum: Option<(SpectrumOptions, PowerScale)>,
-    /// Maps, and the landmarks read off them.
+    /// The request for maps and the landmarks read off them.
     pub maps: Option<MapRequest>,
-    /// Regions measured as mosaics of their own.
+    /// The request for regions measured as mosaics of their own.
     pub rois: Option<RoiRequest>,
     /// Source of the scales.
     pub scales: ScaleSource,
-    /// Facts about the files from a manifest, and which of them belong together.
+    /// Facts about the files from a manifest, and the rule by which they form groups.
     pub labels: Labels,
-    /// Columns of `summary.csv`.
+    /// Choice of the columns of `summary.csv`.
     pub metrics: MetricSelection,
     /// Formats of the figures besides SVG.
     pub figures: Vec<FigureFormat>,
@@ -56,7 +58,7 @@ impl Default for Plan {
 }
 
 impl Plan {
-    /// Returns the names of the samplers compared with.
+    /// Returns the names of the samplers that mosaics are compared with.
     pub fn sampler_names(&self) -> Vec<String> {
         self.samplers.iter().map(|s| s.name().to_owned()).collect()
     }
@@ -69,7 +71,7 @@ impl Plan {
     /// Refuses options that are out of range or do not fit together, before any work is done.
     ///
     /// # Errors
-    /// The first such option, with its range.
+    /// The error names the first such option, and its range.
     pub fn validate(&self) -> Result<(), BatchError> {
         self.verdict.iter().try_for_each(VerdictOptions::validate)?;
         self.labels.validate()?;
@@ -82,12 +84,15 @@ impl Plan {
         References::new(self.samplers.clone(), self.measure.pcf, self.seed)
     }
 
-    /// Tells whether the spacing by the spectrum of an image is wanted by any output.
+    /// Returns whether any output needs the spacing by the spectrum of an image.
     pub(in crate::batch) fn wants_fourier(&self) -> bool {
         self.maps.is_some() || self.metrics.has_any_of(MetricGroup::Fourier, SummaryKind::Images)
     }
 
-    /// Returns what tells plans apart whose results differ: all but where scales and labels are from.
+    /// Returns the part of the plan that results depend on, to tell plans apart.
+    ///
+    /// The sources of scales and labels are left out, since only the scale and labels of each image
+    /// matter.
     pub(in crate::batch) fn identity(&self) -> Value {
         let mut identity = self.describe();
         if let Some(identity) = identity.as_object_mut() {

@@ -11,15 +11,16 @@ use crate::stats::{grown, lies_in, measure, sliding};
 use rayon::prelude::*;
 use std::path::Path;
 
-/// One row a region.
+/// File of the regions, one row per region.
 const FILE: &str = "rois.csv";
 
-/// Regions of interest of every mosaic of a batch.
+/// The request for regions of interest in every mosaic of a batch.
 #[derive(Clone, Debug)]
 pub struct RoiRequest {
-    /// Source of their boxes.
+    /// Source of the boxes of the regions.
     pub source: RoiSource,
-    /// Each grows about its centre until it holds this many bound cells, 1 to 100 000; `None`: they stay as they are.
+    /// Number of bound cells that each box is to hold, 1 to 100 000; it grows about its centre
+    /// until it does. `None`: boxes stay as they are.
     pub cells: Option<usize>,
 }
 
@@ -30,9 +31,10 @@ pub enum RoiSource {
     Table(RoiTable),
     /// Squares that slide over the bounds of the window.
     Sliding {
-        /// Their side.
+        /// Side of the squares.
         side: Length,
-        /// From one to the next; `None`: the side, so that they tile the window.
+        /// Distance from one square to the next; `None`: the side, so that the squares tile the
+        /// window.
         step: Option<Length>,
     },
 }
@@ -41,7 +43,7 @@ impl RoiRequest {
     /// Checks that every field is in its range.
     ///
     /// # Errors
-    /// If the number of cells is not.
+    /// If the number of cells is out of range.
     pub fn validate(&self) -> Result<(), BatchError> {
         match self.cells {
             Some(n) if !(1..=100_000).contains(&n) => Err(crate::stats::StatsError::Option {
@@ -54,7 +56,7 @@ impl RoiRequest {
         }
     }
 
-    /// The table of regions may not be the one that is written.
+    /// Refuses a table of regions that is the very file to be written.
     pub(in crate::batch) fn refuse_overlap(&self, out: &Path) -> Result<(), BatchError> {
         let RoiSource::Table(table) = &self.source else { return Ok(()) };
         let (read, written) = (Path::new(table.file()).canonicalize(), out.join(FILE).canonicalize());
@@ -66,7 +68,7 @@ impl RoiRequest {
         }
     }
 
-    /// In words, for the record of a batch.
+    /// Returns the request as JSON, for the record of a batch.
     pub(super) fn describe(&self) -> serde_json::Value {
         let source = match &self.source {
             RoiSource::Table(table) => serde_json::json!({ "table": table.file() }),
@@ -75,7 +77,7 @@ impl RoiRequest {
         serde_json::json!({ "source": source, "cells": self.cells })
     }
 
-    /// The boxes of a mosaic and their names, in the unit of its coordinates.
+    /// Returns the boxes of a mosaic and their names, in the unit of its coordinates.
     fn boxes(&self, input: &Input, mosaic: &Mosaic) -> Result<Vec<(String, Rectangle)>, BatchError> {
         let file = &input.path;
         match &self.source {
@@ -102,7 +104,7 @@ impl RoiRequest {
     }
 }
 
-/// From the unit of a table to that of a mosaic.
+/// Returns the factor that converts the unit of a table to that of a mosaic.
 fn factor(table: &RoiTable, mosaic: &Mosaic, file: &Path) -> Result<f64, BatchError> {
     let no_scale = || BatchError::NoScale { what: "one of regions and coordinates", file: file.to_owned() };
     match (table.unit(), mosaic.unit()) {
@@ -111,9 +113,11 @@ fn factor(table: &RoiTable, mosaic: &Mosaic, file: &Path) -> Result<f64, BatchEr
     }
 }
 
-/// Returns the rows of one mosaic, one per region, each measured as a mosaic of its own: the points in the part of the window that
-/// lies in its box, their Voronoi cells among themselves, bound if they lie strictly inside that part. Of a region without
-/// any of the window there are no values. The same for any number of threads.
+/// Measures the regions of one mosaic, each as a mosaic of its own, and returns one row per region.
+///
+/// A region consists of the points in the part of the window that lies in its box. Their Voronoi
+/// cells are computed among themselves, and count as bound if they lie strictly inside that part. A
+/// region outside the window has no values. The result is the same for any number of threads.
 ///
 /// # Errors
 /// If a table has no boxes for the file, or a length is in µm and no scale is known.
@@ -166,7 +170,7 @@ pub(super) fn rows(
     request.boxes(input, mosaic)?.into_par_iter().map(one).collect()
 }
 
-/// Writes `rois.csv`.
+/// Writes `rois.csv`, one row per region.
 pub(in crate::batch) fn write(
     out: &OutputFolder,
     summary: &Summary,

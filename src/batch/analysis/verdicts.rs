@@ -7,11 +7,13 @@ use crate::report::{Curve, EnvelopePanel, FigureFormat, VerdictRecord, envelope_
 use crate::sample::Sampler;
 use crate::stats::Measures;
 
-/// The curves and envelopes, after the name of the mosaic.
+/// File of the curves and envelopes, after the name of the mosaic.
 const ENVELOPE: &str = "envelope.csv";
 
-/// The verdict of each sampler on a mosaic, in their order, and a warning for each that has none. A
-/// mosaic without a pair correlation function has neither: another warning says so.
+/// Returns the verdict of each sampler on a mosaic, in the order of the samplers, and a warning for
+/// each sampler without one.
+///
+/// A mosaic without a pair correlation function has neither; another warning tells of that.
 pub(super) fn verdicts_on(
     mosaic: &Mosaic,
     measures: &Measures,
@@ -30,11 +32,12 @@ pub(super) fn verdicts_on(
     (verdicts, warnings)
 }
 
+/// Returns the records of verdicts, as they stand in JSON and tables.
 pub(super) fn records(verdicts: &[SamplerVerdict]) -> Vec<VerdictRecord> {
     verdicts.iter().map(VerdictRecord::from).collect()
 }
 
-/// Writes `verdicts.csv`: each file and what was found on it.
+/// Writes `verdicts.csv`, one row per file and verdict.
 pub(in crate::batch) fn write_table<'a>(
     out: &OutputFolder,
     found: impl Iterator<Item = (&'a str, &'a [VerdictRecord])>,
@@ -43,8 +46,8 @@ pub(in crate::batch) fn write_table<'a>(
     out.write(VERDICTS.file, &VERDICTS.csv(rows)?)
 }
 
-/// Writes the envelopes and their figure, under names that begin with `prefix`; nothing without
-/// verdicts.
+/// Writes the envelopes and their figure, with `prefix` before their names. Nothing is written
+/// without verdicts.
 pub(super) fn write(
     out: &OutputFolder,
     prefix: &str,
@@ -59,7 +62,7 @@ pub(super) fn write(
     write_figure(out, &format!("{prefix}verdict"), &figure(title, measures, verdicts)?, figures)
 }
 
-/// The mosaic's g in the envelope of each sampler.
+/// Draws the mosaic's g(r) in the envelope of each sampler.
 fn figure(title: &str, measures: &Measures, verdicts: &[SamplerVerdict]) -> Result<String, BatchError> {
     let notes: Vec<String> =
         verdicts.iter().map(|v| format!("p = {}", significant(v.p_envelope, 2))).collect();

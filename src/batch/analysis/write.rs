@@ -1,32 +1,35 @@
-//! The files of one mosaic. In a folder of its own they have plain names; beside others each name
-//! begins with that of the mosaic and a dot.
+//! The files of one mosaic.
+//!
+//! In a folder of its own they have plain names. Beside those of other mosaics, each name begins
+//! with that of the mosaic and a dot.
 
 use super::{Analysis, Plan, Specimen, figure, maps, verdicts};
 use crate::batch::BatchError;
 use crate::batch::output::{OutputFolder, write_figure};
 use crate::report::{spectrum_png, tables};
 
+// names of the files, less the mosaic's own name
 const PCF: &str = "pcf.csv";
 const FIGURE: &str = "figure";
 const FUNCTIONS: [&str; 2] = ["functions.csv", "density_recovery.csv"];
 const SPECTRUM: [&str; 2] = ["spectrum.csv", "spectrum.png"];
-/// The table of the points, with their neighbours and cells; `points.csv` of an image's folder
-/// holds the cones as they were found.
+/// The table of the points with their neighbours and cells, beside other mosaics and in a folder.
+/// In an image's folder `points.csv` already holds the cones as they were found.
 const POINTS: [&str; 2] = ["points.csv", "cells.csv"];
 
-/// Place of the files of a mosaic.
+/// The place of the files of a mosaic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::batch) enum Layout {
-    /// Into a folder of its own, with the figure.
+    /// A folder of the mosaic's own, which also gets the figure.
     Folder,
-    /// Beside those of others.
+    /// A folder shared with other mosaics.
     Beside,
 }
 
 /// Writes the files of a mosaic into `folder`.
 ///
 /// # Errors
-/// If a figure cannot be drawn or a file not be written.
+/// If a figure cannot be drawn or a file cannot be written.
 pub(in crate::batch) fn write(
     analysis: &Analysis,
     specimen: &Specimen,

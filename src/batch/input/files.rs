@@ -5,21 +5,23 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 use walkdir::WalkDir;
 
-/// A file to work on and the name its results get.
+/// A file to work on and the name of its results.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Input {
-    /// Where it is.
+    /// Path of the file.
     pub path: PathBuf,
-    /// File name less its last extension; unique within the batch.
+    /// File name without its last extension, unique within the batch.
     pub name: String,
 }
 
-/// Extensions of coordinate files in folders; a file named outright may have any.
+/// Extensions of coordinate files found in folders; a file that is given by name may have any.
 const COORDINATE_EXTENSIONS: [&str; 7] = ["csv", "tsv", "txt", "json", "tar", "roi", "zip"];
 
-/// All PNG and TIFF files among `paths` and below their folders, in the order given, folders in order of name. Hidden
-/// files, overlays of this program and what lies in `except` (the output folder) are left out; a file found twice
-/// counts once.
+/// Returns all PNG and TIFF files among `paths` and in their subfolders.
+///
+/// Paths keep the order given; the files of a folder are sorted by name. Hidden files, overlays of
+/// this program and the content of `except` (the output folder) are left out. A file that is given
+/// by name is taken whatever it is called; one that is found twice counts once.
 ///
 /// # Errors
 /// If a path does not exist or there is no image at all.
@@ -32,7 +34,11 @@ pub fn image_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec<Input
     Ok(named(files))
 }
 
-/// All coordinate files among `paths` and below their folders, as [`image_files`] for images.
+/// Returns all coordinate files among `paths` and in their subfolders, in the order of
+/// [`image_files`].
+///
+/// Tables and records of this program that hold no coordinates are left out, unless they are given
+/// by name.
 ///
 /// # Errors
 /// If a path does not exist or there is no coordinate file at all.
@@ -46,8 +52,9 @@ pub fn coordinate_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec<
     Ok(named(files))
 }
 
-/// An overlay of this program, with the coordinates, the scores or the metrics that it was written with beside it: no
-/// image of a retina.
+/// Returns whether a file is an overlay that this program drew, and so no image of a retina.
+///
+/// An overlay is known by the file of coordinates, scores or metrics that was written beside it.
 fn is_overlay(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default();
     if name == "overlay.png" {
@@ -58,7 +65,7 @@ fn is_overlay(path: &Path) -> bool {
     drawn.is_some_and(|name| beside(&format!("{name}.csv")) || beside("validation.csv"))
 }
 
-/// Tables and records of this program that hold no coordinates.
+/// Returns whether a file is a table or record of this program that holds no coordinates.
 fn is_table(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let known = [
@@ -100,10 +107,14 @@ fn is_table(path: &Path) -> bool {
     known.contains(&&*name) || endings.iter().any(|ending| name.ends_with(ending))
 }
 
+/// Returns the paths in one line, for an error message.
 fn listed(paths: &[PathBuf]) -> String {
     paths.iter().map(|p| p.display().to_string()).collect::<Vec<_>>().join(", ")
 }
 
+/// Returns the files given by name, and the `wanted` ones in the folders given, except hidden ones.
+///
+/// The folder `except` is not entered. A file that is found twice counts once.
 fn walk(
     paths: &[PathBuf],
     except: Option<&Path>,
@@ -134,9 +145,10 @@ fn walk(
             match entry {
                 Ok(entry) if entry.file_type().is_file() && wanted(entry.path()) => add(entry.into_path()),
                 Ok(_) => {}
-                // a folder that contains itself is being walked already
+                // a link back to a folder above: that folder is being walked already
                 Err(error) if error.loop_ancestor().is_some() => {}
-                // what cannot be looked at fails when it is read, and stops nobody else
+                // a file or folder that cannot be examined is listed all the same: it fails alone
+                // when it is read, and stops no other
                 Err(error) => match error.path() {
                     Some(path) if path != given => {
                         let folder = path.symlink_metadata().is_ok_and(|m| m.is_dir());
@@ -155,12 +167,14 @@ fn walk(
     Ok(files)
 }
 
-/// Gives every file the name of its results: the file name less its last extension. Equal names get as many of
-/// their folders prefixed as tell them apart, and if only the extension differs, that is appended.
+/// Gives every file the name of its results: the file name without its last extension.
+///
+/// Files of the same name get as many of their folders prefixed as tell them apart. Where only the
+/// extension differs, it is appended.
 fn named(files: Vec<PathBuf>) -> Vec<Input> {
     let mut names: Vec<String> = files.iter().map(|f| stem(f)).collect();
     for folders in 1..16 {
-        // a second folder helps only against a file that lies elsewhere
+        // from the second folder on, a prefix tells apart only files of different folders
         let helps = |a: &Path, b: &Path| folders == 1 || a.parent() != b.parent();
         let clashing = clashes(&files, &names, helps);
         if clashing.is_empty() {
@@ -173,7 +187,8 @@ fn named(files: Vec<PathBuf>) -> Vec<Input> {
     for i in clashes(&files, &names, |a, b| extension(a) != extension(b)) {
         names[i] = format!("{}_{}", names[i], extension(&files[i]));
     }
-    // what still clashes has strange folders; a number always tells files apart
+    // names may still differ in case only, or be equal by underscores in names of folders: a number
+    // always tells them apart
     let mut taken: HashSet<String> = HashSet::new();
     for name in &mut names {
         let wish = name.clone();
@@ -186,17 +201,20 @@ fn named(files: Vec<PathBuf>) -> Vec<Input> {
     files.into_iter().zip(names).map(|(path, name)| Input { path, name }).collect()
 }
 
-/// Some file systems take names that differ in case for the same.
+/// Returns the name in lower case, since some file systems take names that differ only in case for
+/// the same.
 fn folded(name: &str) -> String {
     name.to_lowercase()
 }
 
+/// Returns the file name without its last extension, or `image` where nothing usable is left.
 fn stem(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    // "...png" has the stem "..", which as a folder would be another one
+    // "...png" has the stem "..", which as the name of a folder would lead out of the results
     if matches!(&*stem, "" | "." | "..") { "image".into() } else { stem.into_owned() }
 }
 
+/// Returns the stem of a file with the names of its `count` innermost folders before it.
 fn with_folders(path: &Path, count: usize) -> String {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let folders: Vec<String> = absolute
@@ -212,11 +230,12 @@ fn with_folders(path: &Path, count: usize) -> String {
     [&folders[first..], &[stem(path)]].concat().join("_")
 }
 
+/// Returns the extension of a file in lower case.
 fn extension(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 
-/// The files that share their name with another for which `matters` holds.
+/// Returns the indices of files that share their name with another file for which `matters` holds.
 fn clashes(files: &[PathBuf], names: &[String], matters: impl Fn(&Path, &Path) -> bool) -> Vec<usize> {
     let mut groups: HashMap<String, Vec<usize>> = HashMap::new();
     for (i, name) in names.iter().enumerate() {

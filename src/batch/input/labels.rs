@@ -8,28 +8,28 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::str::FromStr;
 
-/// What is known of images beside their pixels, and which of them belong together.
+/// Facts about images that are not in their pixels, and the rule by which images form groups.
 #[derive(Clone, Debug, Default)]
 pub struct Labels {
-    /// What a manifest says of them.
+    /// The manifest: a table with one row per image.
     pub manifest: Option<Manifest>,
-    /// Groups whose means are wanted.
+    /// The rule of the groups whose means are wanted.
     pub group_by: Option<GroupBy>,
 }
 
-/// Which images belong together.
+/// The rule by which images form groups.
 #[derive(Clone, Debug)]
 pub enum GroupBy {
-    /// Those with the same words in these columns of the manifest.
+    /// Images with the same text in all of these columns of the manifest.
     Columns(Vec<String>),
-    /// By their names.
+    /// Images whose names give the same group.
     Name(Grouping),
 }
 
 impl FromStr for GroupBy {
     type Err = String;
 
-    /// `column:NAME[,NAME…]`, or what [`Grouping`] is read from.
+    /// Reads `column:NAME[,NAME…]` or, without that prefix, a [`Grouping`].
     fn from_str(text: &str) -> Result<Self, String> {
         let Some(names) = text.strip_prefix("column:") else { return text.parse().map(Self::Name) };
         let names: Vec<String> =
@@ -43,8 +43,11 @@ impl FromStr for GroupBy {
 }
 
 impl GroupBy {
-    /// Takes a rule that is nothing but names of columns of the manifest for those columns: a person
-    /// who writes `diagnosis` beside such a manifest means no regular expression.
+    /// Turns a rule that consists only of column names of the manifest into a rule by those
+    /// columns.
+    ///
+    /// A person who writes `diagnosis` and has a manifest with such a column means no regular
+    /// expression.
     #[must_use]
     pub fn with(self, manifest: &Manifest) -> Self {
         let Self::Name(Grouping::Pattern(pattern)) = &self else { return self };
@@ -53,24 +56,31 @@ impl GroupBy {
     }
 }
 
-/// Densities this many times the expected one, or its part, are rare in healthy eyes: in the foveal centre, where eyes differ most,
-/// Curcio et al. (1990) counted 100 000 to 324 000 per mm², 0.5 to 1.6 times their mean.
+/// Ratio to the expected density from which a density is reported as unlikely, both upwards and (as
+/// its reciprocal) downwards.
+///
+/// In the foveal centre, where eyes differ most, Curcio et al. (1990,
+/// <https://doi.org/10.1002/cne.902920402>) counted 100 000 to 324 000 cones per mm² in healthy
+/// eyes: 0.5 to 1.6 times their mean.
 const UNLIKELY: f64 = 2.;
 
 /// Columns of a manifest that name the person, in lower case.
 const PERSON: [&str; 2] = ["subject", "subject_id"];
 
-/// What a manifest says of one image.
+/// Facts that a manifest states about one image.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::batch) struct Label {
+    /// Text of each column of the manifest, in its order; empty text if no row fits the image.
     pub labels: Vec<String>,
+    /// Place on the retina, if the manifest states it.
     pub place: Option<RetinalPlace>,
-    /// What the manifest lacks.
+    /// A warning if the manifest has no row for the image.
     pub warning: Option<String>,
 }
 
 impl Label {
-    /// Puts it on a record.
+    /// Puts the facts on a record, with a warning if its density is unlikely at its place on the
+    /// retina.
     pub fn put_on(self, record: &mut MosaicRecord, warnings: &mut Vec<String>) {
         record.labels = self.labels;
         record.place = self.place;
@@ -86,12 +96,17 @@ impl Label {
 }
 
 impl Labels {
-    /// Columns that the manifest adds to a summary.
+    /// Returns the columns that the manifest adds to a summary.
     pub(in crate::batch) fn columns(&self) -> &[String] {
         self.manifest.as_ref().map_or(&[], |m| m.columns())
     }
 
-    /// What the manifest says of an image.
+    /// Returns the facts that the manifest states about an image.
+    ///
+    /// Eccentricities in degrees are converted by `scale`, or by the average eye without one.
+    ///
+    /// # Errors
+    /// If several rows of the manifest fit the name equally well.
     pub(in crate::batch) fn of(&self, path: &Path, scale: Option<Scale>) -> Result<Label, BatchError> {
         let Some(manifest) = &self.manifest else { return Ok(Label::default()) };
         let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -112,7 +127,7 @@ impl Labels {
         })
     }
 
-    /// Refuses columns that the manifest does not have, before any work is done.
+    /// Refuses columns to group by that the manifest does not have, before any work is done.
     pub(in crate::batch) fn validate(&self) -> Result<(), BatchError> {
         let Some(GroupBy::Columns(names)) = &self.group_by else { return Ok(()) };
         let has = self.columns();
@@ -127,7 +142,8 @@ impl Labels {
         }
     }
 
-    /// The group of an image, in words; `None` where what it is grouped by is not known.
+    /// Returns the group of an image in words; `None` if no groups are wanted or the image lacks a
+    /// label that they need.
     fn group_of(&self, name: &str, record: &MosaicRecord) -> Result<Option<String>, BatchError> {
         match &self.group_by {
             None => Ok(None),
@@ -145,14 +161,15 @@ impl Labels {
         }
     }
 
-    /// The person an image is of, by the manifest's column `subject`.
+    /// Returns the person that an image belongs to, from the manifest's column `subject` or
+    /// `subject_id`.
     fn person_of<'a>(&self, record: &'a MosaicRecord) -> Option<&'a str> {
         let is_person = |name: &String| PERSON.contains(&name.to_lowercase().as_str());
         let k = self.columns().iter().position(is_person)?;
         record.labels.get(k).map(String::as_str).filter(|text| !text.is_empty())
     }
 
-    /// Writes `groups.csv`, if groups are wanted.
+    /// Writes `groups.csv` if groups are wanted.
     pub(in crate::batch) fn write_groups(
         &self,
         out: &OutputFolder,

@@ -1,5 +1,5 @@
-//! What a batch works on: files and their names, which image and which marks belong together, scales,
-//! manifests, tables of other graders.
+//! Inputs of a batch: the files and their names, the images that belong to marks, scales,
+//! manifests, and tables of other graders.
 
 mod files;
 mod labels;

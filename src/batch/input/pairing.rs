@@ -1,30 +1,34 @@
 use crate::image::extensions;
 use std::path::{Path, PathBuf};
 
-/// The name of the image that a coordinate file belongs to: its own less the extension and a final `_coords`.
+/// Returns the name of the image that a coordinate file belongs to: the file's name without its
+/// extension and a final `_coords`.
 pub(in crate::batch) fn image_name(coordinates: &Path) -> String {
     let stem = coordinates.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     stem.strip_suffix("_coords").map_or(stem.clone(), str::to_owned)
 }
 
-/// Whether a file says by its name that it holds marks.
+/// Returns whether the name of a file says that it holds marks: whether it ends in `_coords`.
 pub(in crate::batch) fn says_coords(path: &Path) -> bool {
     path.file_stem().unwrap_or_default().to_string_lossy().ends_with("_coords")
 }
 
-/// The image of that name in a folder; its extension in small, in capital or in both letters.
+/// Returns the image of this name in `folder`; `None` if there is none.
+///
+/// Its extension may be in lower case, in upper case or capitalised.
 pub(in crate::batch) fn image_in(folder: &Path, name: &str) -> Option<PathBuf> {
     let spellings: [fn(&str) -> String; 3] = [str::to_owned, str::to_uppercase, capitalised];
     let endings = spellings.iter().flat_map(|spelt| extensions().map(spelt));
     endings.map(|e| folder.join(format!("{name}.{e}"))).find(|p| p.is_file())
 }
 
+/// Returns the word with its first letter in upper case.
 fn capitalised(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// The image beside a coordinate file.
+/// Returns the image of the same name beside a coordinate file; `None` if there is none.
 pub(in crate::batch) fn image_beside(coordinates: &Path) -> Option<PathBuf> {
     let folder = coordinates.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     image_in(folder, &image_name(coordinates))

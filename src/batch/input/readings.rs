@@ -4,27 +4,30 @@ use crate::report::{ColumnNames, column_names};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// Columns that name images or say how they were taken rather than measure them.
+/// Columns with numbers that describe how an image was taken and are no measurements.
 const NO_MEASURE: [&str; 6] =
     ["width_px", "height_px", "um_per_px", "um_per_unit", "um_per_degree", "eccentricity_mm"];
 
-/// Numbers of the same images by one grader, session or program: a `summary.csv`, or any CSV with a column `name` or `file`.
+/// Numbers measured on a set of images by one grader, session or program.
+///
+/// Read from a `summary.csv`, or from any CSV with a column `name`, `file`, `image` or
+/// `identifier`.
 pub(in crate::batch) struct Readings {
-    /// Name of the grader.
+    /// Name of the grader: that of the folder or file.
     pub label: String,
-    /// Names of all columns.
+    /// Names of all columns of the table.
     pub columns: Vec<String>,
-    /// The unit of the coordinates of all rows, if the table says it and it is one.
+    /// Unit of the coordinates, if the table states the same one in every row.
     pub unit: Option<String>,
-    /// Values by image: the value of every column; `None` where it is no number.
+    /// Values of all columns by image; `None` where a cell holds no number.
     pub items: BTreeMap<String, Vec<Option<f64>>>,
 }
 
 impl Readings {
-    /// From a table, or a folder that holds a `summary.csv`.
+    /// Reads a table, or the `summary.csv` in a folder.
     ///
     /// # Errors
-    /// If it cannot be read, no column names the images, or an image stands in it twice.
+    /// If the table cannot be read, no column names the images, or an image has two rows.
     pub fn read(path: &Path) -> Result<Self, BatchError> {
         let inside = path.join("summary.csv");
         let file = if path.is_dir() { &inside } else { path };
@@ -85,7 +88,9 @@ impl Readings {
         k.is_some_and(|k| self.items.values().any(|v| v.get(k).copied().flatten().is_some()))
     }
 
-    /// Returns the name by which it has a column of one unit, with numbers.
+    /// Returns the first of `names` under which this table has a column with numbers.
+    ///
+    /// Names without a unit count only where the coordinates of the table are in px.
     fn name_of(&self, names: &ColumnNames) -> Option<String> {
         let pixels = self.unit.as_deref() == Some("px");
         let plain = names.in_pixels.iter().copied().filter(|_| pixels);
@@ -93,26 +98,31 @@ impl Readings {
         all.find(|name| self.has_numbers(name)).map(str::to_owned)
     }
 
-    /// Returns the value of an image; `None` where it has none or no number.
+    /// Returns the value of an image in a column; `None` if the image has no row or the cell no
+    /// number.
     pub fn value(&self, item: &str, column: &str) -> Option<f64> {
         let k = self.columns.iter().position(|c| c == column)?;
         self.items.get(item)?.get(k).copied().flatten()
     }
 }
 
-/// A column to compare, and where each table has it.
+/// A column to compare, and its name in each table.
 #[derive(Clone, Debug)]
 pub(in crate::batch) struct Chosen {
-    /// Name in the results: with its unit, where tables name it differently.
+    /// Name in the results, with its unit where the tables name the column differently.
     pub name: String,
-    /// Name in each table.
+    /// Name in each table, in the order of the tables.
     pub named: Vec<String>,
 }
 
-/// Returns the columns asked for, or all that hold numbers in every table.
+/// Returns the columns asked for, or all columns that hold numbers in every table.
 ///
-/// A column may have another name in each table: `density` is found as `density_per_px2`, or whatever unit all
-/// tables have, and a name of an earlier version as the one that took its place.
+/// A column may have a different name in each table. `density` is found as `density_per_px2`, or in
+/// any other unit that all tables have; the name that a column had in an earlier version is found
+/// as its present one.
+///
+/// # Errors
+/// If a column asked for is missing from a table, or the tables have it in no common unit.
 pub(in crate::batch) fn chosen_columns(
     readings: &[Readings],
     asked: &[String],
@@ -124,7 +134,7 @@ pub(in crate::batch) fn chosen_columns(
     let numbers = |column: &&String| readings.iter().all(|r| r.has_numbers(column));
     let common = first.iter().filter(|c| !NO_MEASURE.contains(&c.as_str()));
     let common: Vec<&String> = common.filter(numbers).collect();
-    // beside columns that name their unit, those in the unit of the coordinates say nothing new
+    // a column in the unit of the coordinates says nothing new beside one that names its unit
     let twice = |column: &String| {
         let names = column_names(column);
         names.len() > 1 && names.iter().any(|n| common.contains(&&n.name))
@@ -133,14 +143,16 @@ pub(in crate::batch) fn chosen_columns(
     Ok(kept.map(|column| literal(readings, column)).collect())
 }
 
+/// Returns a column that has the same name in every table.
 fn literal(readings: &[Readings], column: &str) -> Chosen {
     Chosen { name: column.to_owned(), named: vec![column.to_owned(); readings.len()] }
 }
 
+/// Finds the column `asked` in every table, in the same unit.
 fn resolved(readings: &[Readings], asked: &str) -> Result<Chosen, BatchError> {
     let candidates = column_names(asked);
     let has = |r: &&Readings| r.columns.iter().any(|c| c == asked);
-    // a length without unit is the same in all tables only if their coordinates have one unit
+    // a length without a unit means the same in all tables only if their coordinates share a unit
     let units: BTreeSet<Option<&str>> = readings.iter().map(|r| r.unit.as_deref()).collect();
     if readings.iter().all(|r| has(&r)) && (candidates.len() < 2 || units.len() < 2) {
         return Ok(literal(readings, asked));

@@ -3,38 +3,39 @@ use crate::mosaic::Scale;
 use crate::mosaic::io::ScaleTable;
 use std::path::Path;
 
-/// Where the scale of images comes from.
+/// The source of the scale of images.
 #[derive(Clone, Debug)]
 pub enum ScaleSource {
-    /// Not known: results stay in pixels.
+    /// No source: results stay in pixels.
     Unknown,
-    /// The same for all.
+    /// The same scale for every image.
     Given(Scale),
-    /// All images show a field of this width: µm, and µm per degree.
+    /// A field width shared by all images, from which the scale follows by their width in px.
     FieldWidth {
         /// Width of the field in µm.
         um: f64,
-        /// µm per degree of visual angle.
+        /// Length on the retina per degree of visual angle, in µm.
         um_per_degree: f64,
     },
-    /// By the name of the image; `optional`: images without a row stay in pixels.
+    /// A table with one row per image, matched by the image's name.
     Table {
-        /// The table.
+        /// The table of scales.
         table: ScaleTable,
-        /// Whether an image may be missing from it.
+        /// Allows images without a row; they stay in pixels.
         optional: bool,
     },
-    /// Of tissue that has shrunk by this share of its living length, 0–.9: what another source says of the slide.
+    /// The scale that another source gives for a slide, corrected for tissue that shrank in
+    /// preparation.
     Shrunk {
         /// The scale of the slide.
         slide: Box<Self>,
-        /// Share of the living length that is lost.
+        /// Lost share of the living length, 0 to 0.9.
         shrinkage: f64,
     },
 }
 
 impl ScaleSource {
-    /// In words, for the record of a run.
+    /// Returns the source in words, for the record of a run.
     pub fn describe(&self) -> String {
         match self {
             Self::Unknown => "unknown: lengths in px".into(),
@@ -47,7 +48,7 @@ impl ScaleSource {
         }
     }
 
-    /// Whether no scale is given for any image.
+    /// Returns whether no image is given a scale.
     pub fn is_unknown(&self) -> bool {
         match self {
             Self::Unknown => true,
@@ -56,7 +57,7 @@ impl ScaleSource {
         }
     }
 
-    /// Living length over length on the slide: 1 unless tissue has shrunk.
+    /// Returns the living length over the length on the slide: 1 unless the tissue shrank.
     pub fn expansion(&self) -> f64 {
         match self {
             Self::Shrunk { shrinkage, .. } => 1. / (1. - shrinkage),
@@ -64,10 +65,12 @@ impl ScaleSource {
         }
     }
 
-    /// The scale of an image of `width` px: micrometres of living tissue.
+    /// Returns the scale of an image that is `width` px wide, in µm of living tissue per px; `None`
+    /// where it is not known.
     ///
     /// # Errors
-    /// If the table has no row for it, or several.
+    /// If a table has several rows for the image, or none where it must have one; if a scale is out
+    /// of range; or if a shrinkage is given without a scale.
     pub fn scale_of(&self, path: &Path, width: usize) -> Result<Option<Scale>, BatchError> {
         match self {
             Self::Unknown => Ok(None),

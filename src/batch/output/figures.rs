@@ -2,7 +2,8 @@ use super::OutputFolder;
 use crate::batch::BatchError;
 use crate::report::{FigureFormat, convert};
 
-/// Writes a figure as `NAME.svg`, which pages show, and in every other format asked for beside it.
+/// Writes a figure as `NAME.svg`, the form that pages show, and beside it in every other format
+/// asked for.
 pub(in crate::batch) fn write_figure(
     out: &OutputFolder,
     name: &str,

@@ -7,11 +7,12 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// A folder inside a result folder, or that folder itself. Files and folders appear in it whole or
-/// not at all, and the ledger knows them.
+/// A folder inside a result folder, or the result folder itself.
+///
+/// Files and folders appear in it whole or not at all, and the ledger knows them.
 pub(in crate::batch) struct OutputFolder {
     path: PathBuf,
-    /// Put before a name to make it a path from the result folder.
+    /// Text that makes a name a path from the result folder when it is put before the name.
     prefix: String,
     ledger: Arc<Ledger>,
 }
@@ -21,15 +22,16 @@ impl OutputFolder {
         Self { path: path.to_owned(), prefix: prefix.to_owned(), ledger: Arc::clone(ledger) }
     }
 
-    /// Returns where a file of that name lies.
+    /// Returns the path of the file of this name.
     pub fn join(&self, name: impl AsRef<Path>) -> PathBuf {
         self.path.join(name)
     }
 
-    /// Writes a file. One of that name that a person has made or changed is put away first.
+    /// Writes a file. If a person has made or changed the file of that name, it is put away first.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), BatchError> {
         let listed = format!("{}{name}", self.prefix);
-        // a partial folder is the program's own, whatever stands under its later name
+        // files of a partial folder are the program's own: a file of a person under the later name
+        // does not concern them
         let path = self.join(name);
         let in_place = path == self.ledger.root().join(&listed);
         if in_place && self.ledger.would_lose(&listed, bytes) {
@@ -43,26 +45,27 @@ impl OutputFolder {
             .map_err(|source| BatchError::Output { path, source })
     }
 
-    /// Writes a record as JSON to be read by people too.
+    /// Writes a record as JSON, indented so that people can read it too.
     pub fn write_json(&self, name: &str, value: &impl Serialize) -> Result<(), BatchError> {
         let mut json = serde_json::to_vec_pretty(value)?;
         json.push(b'\n');
         self.write(name, &json)
     }
 
-    /// Opens a folder inside this one, and makes it where it is missing.
+    /// Opens a subfolder, and makes it if it is missing.
     pub fn folder(&self, name: &str) -> Result<Self, BatchError> {
         let path = self.join(name);
         fs::create_dir_all(&path).map_err(|source| BatchError::Output { path: path.clone(), source })?;
         Ok(Self::new(&path, &format!("{}{name}/", self.prefix), &self.ledger))
     }
 
-    /// Fills a sub-folder beside its place and puts it there when it is whole. Until then, and if
-    /// `fill` fails, earlier results stay.
+    /// Fills a new subfolder under a temporary name and moves it to its place when it is whole.
+    ///
+    /// Until then, and if `fill` fails, the earlier folder stays.
     ///
     /// # Errors
-    /// If the earlier folder holds files that the program has not written, or if `fill` or the
-    /// operating system refuses.
+    /// If the earlier folder holds files that the program has not written, if `fill` fails, or if
+    /// the operating system refuses.
     pub fn replace_folder(
         &self,
         name: &str,
@@ -90,22 +93,25 @@ impl OutputFolder {
             remove_folder(&old).map_err(refused)
         });
         if done.is_err() {
-            // the reason is already on its way to the user
+            // the error is reported anyway: one in tidying up would add nothing
             let _ = remove_folder(&partial);
             self.ledger.forget(&prefix);
         }
         done
     }
 
-    /// Tidies up after a run that was killed: removes unfinished files and folders, and puts a folder
-    /// back whose replacement was cut off between its two renames.
+    /// Tidies up after a run that was killed.
+    ///
+    /// Unfinished files and folders are removed, and a folder whose replacement was cut off between
+    /// its two renames is put back.
     pub fn sweep(&self) {
         for name in names_in(&self.path) {
             let Some(hidden) = name.strip_prefix('.') else { continue };
             let path = self.join(&name);
-            // only the program calls files and folders like these: those of a person stay
+            // only folders of results that the ledger knows are touched: others may belong to a
+            // person
             let ours = |result: &&str| self.ledger.knows_below(&format!("{}{result}/", self.prefix));
-            // what cannot be removed or put back is made anew, or in nobody's way
+            // errors do no harm: a file or folder that stays is replaced later or is ignored
             if hidden.starts_with("conemosaic-") && hidden.ends_with(".tmp") {
                 let _ = fs::remove_file(&path);
             } else if hidden.strip_suffix(".partial").filter(ours).is_some() {
@@ -117,8 +123,8 @@ impl OutputFolder {
         }
     }
 
-    /// Puts copies of those files of a sub-folder away that a person has changed and that are not
-    /// written again as they are.
+    /// Copies away the files of a subfolder that a person has changed, before the folder is
+    /// replaced.
     fn rescue_changed(&self, name: &str) -> Result<(), BatchError> {
         let listed =
             names_in(&self.join(name)).into_iter().map(|file| format!("{}{name}/{file}", self.prefix));
@@ -127,12 +133,12 @@ impl OutputFolder {
             .try_for_each(|file| self.ledger.copy_away(&file))
     }
 
-    /// Tells whether a sub-folder holds results that the program has written.
+    /// Returns whether a subfolder holds results that the program has written.
     pub fn has_results(&self, name: &str) -> bool {
         self.join(name).is_dir() && self.ledger.knows_below(&format!("{}{name}/", self.prefix))
     }
 
-    /// Returns the first file of a sub-folder whose name the ledger does not know.
+    /// Returns the first file of a subfolder whose name the ledger does not know.
     fn foreign_in(&self, name: &str) -> Option<String> {
         let known = |file: &str| self.ledger.knows(&format!("{}{name}/{file}", self.prefix));
         names_in(&self.join(name))
@@ -141,10 +147,10 @@ impl OutputFolder {
     }
 }
 
-/// Files that file managers leave in every folder that they show.
+/// Names of files that file managers leave in every folder they show.
 const OF_SYSTEMS: [&str; 3] = [".DS_Store", "Thumbs.db", "desktop.ini"];
 
-/// Returns the names in a folder, sorted; none if it cannot be read.
+/// Returns the names in a folder, sorted; none if the folder cannot be read.
 fn names_in(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let mut names: Vec<String> =
@@ -153,7 +159,7 @@ fn names_in(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Removes a folder, or the link to one that stands in its place.
+/// Removes a folder, or the link to a folder that stands in its place; succeeds if there is none.
 fn remove_folder(path: &Path) -> io::Result<()> {
     let link = fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink());
     let removed = if link { fs::remove_file(path) } else { fs::remove_dir_all(path) };

@@ -8,16 +8,19 @@ use std::sync::{Mutex, PoisonError};
 
 /// Results of the work on the files of a batch.
 pub(in crate::batch) struct Worked<T> {
-    /// Results, in the order of the inputs.
+    /// Results of the files that succeeded, in the order of the inputs.
     pub done: Vec<T>,
-    /// Files without results, in the same order.
+    /// Files without results, in the order of the inputs.
     pub failures: Vec<Failure>,
-    /// Files that were not begun because the batch was stopped.
+    /// Number of files that were not begun because the batch was stopped.
     pub left: usize,
 }
 
-/// Does `work` for every input on all cores, in about the order given, and reports each. Failures
-/// and panics stop nobody. `work` also returns the line that tells a person what came out.
+/// Calls `work` for every input, on all cores and in about the order given, and reports each
+/// result.
+///
+/// An error or a panic of one file stops no other. Besides its result, `work` returns the line that
+/// tells a person about it.
 pub(in crate::batch) fn for_each<T: Send>(
     inputs: &[Input],
     progress: &dyn Progress,
@@ -31,7 +34,8 @@ pub(in crate::batch) fn for_each<T: Send>(
             left.fetch_add(1, Ordering::Relaxed);
             return;
         }
-        // what one image breaks concerns no other: results are written whole or not at all
+        // nothing is left half-changed for other files after a panic: results are written whole or
+        // not at all
         let attempt = catch_unwind(AssertUnwindSafe(|| work(input)));
         let result = match attempt {
             Ok(Ok((value, line))) => {
@@ -56,6 +60,7 @@ pub(in crate::batch) fn for_each<T: Send>(
     worked
 }
 
+/// Reports and returns the failure of a file. Its reason is one line that names the file.
 fn failed(input: &Input, reason: &str, progress: &dyn Progress) -> Failure {
     let file = input.path.display().to_string();
     let reason = reason.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -64,7 +69,7 @@ fn failed(input: &Input, reason: &str, progress: &dyn Progress) -> Failure {
     Failure { file, reason }
 }
 
-/// The words of a panic.
+/// Returns the reason of a failure by panic, with the message of the panic.
 fn internal(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().copied();
     let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));

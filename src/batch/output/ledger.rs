@@ -1,11 +1,14 @@
-//! The ledger of a result folder: which files the program wrote there, with their SHA-256.
+//! The ledger of a result folder: the list of the files that the program wrote there, each with its
+//! SHA-256.
 //!
-//! It tells the program's own files from those of a person, notices files that were truncated or
-//! edited, and names what earlier runs left behind. `.conemosaic/files.sha256` has one line per
-//! file, in the format of `sha256sum`. While a command works, lines are appended *before* their
-//! file takes its name, so that a killed run leaves no file that the ledger does not know; at the
-//! end the list is written anew, sorted. `run.json` is not listed: it holds times, and the rest of
-//! the folder is to be the same bytes for the same input.
+//! It tells the program's own files from those of a person, reveals files that were truncated or
+//! edited, and names what earlier runs left behind.
+//!
+//! `.conemosaic/files.sha256` has one line per file, in the format of `sha256sum`. While a command
+//! works, it appends each line *before* the file takes its name, so that a killed run leaves no
+//! file that the ledger does not know. At the end the list is written anew, sorted. `run.json` is
+//! not listed: it holds times, and the rest of the folder must be the same bytes for the same
+//! input.
 
 use crate::batch::BatchError;
 use crate::files::write_atomically;
@@ -19,66 +22,72 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The program's own folder inside a result folder; hidden, so that it is never taken for input.
 pub(super) const OWN: &str = ".conemosaic";
+/// Name of the list, in that folder.
 const LIST: &str = "files.sha256";
-/// Folder for results of earlier runs that the present one does not replace.
+/// Folder for results of earlier runs that the present one does not replace, in the program's own
+/// folder.
 const EARLIER: &str = "earlier";
-/// Stands in a folder whose tables may not belong together yet.
+/// File that marks a folder whose tables may not belong together yet.
 const MARKER: &str = "INCOMPLETE.txt";
-/// Holds times, so that its bytes are never the same.
+/// File that holds times, so that its bytes are never the same.
 const VOLATILE: &str = "run.json";
 
+/// Content of the marker, for a person who opens the folder too early.
 const MARKER_TEXT: &str = "\
 conemosaic is writing results into this folder, or was cut off while it did.
 Until this file is gone, tables here may belong to an earlier run.
 To finish, run the same command again: what is done is kept.
 ";
 
-/// Files of a result folder that do not belong to the run that has just ended.
+/// Files in a result folder that do not belong to the run that has just ended.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Leftovers {
-    /// Results of earlier runs that were moved to [`Self::place`], by their path in the folder.
+    /// Results of earlier runs that were moved to [`Self::place`], by their path in the result
+    /// folder.
     pub moved: Vec<String>,
-    /// Folder that they are in now.
+    /// Folder to which they were moved.
     pub place: PathBuf,
     /// Files that a person made or changed, which stay where they are.
     pub foreign: Vec<String>,
 }
 
-/// Relation of a file on the disk to what the program wrote under its name.
+/// Relation of a file on the disk to the one that the program wrote under its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::batch) enum Standing {
     /// There is no such file.
     Missing,
-    /// As the program wrote it.
+    /// The file is as the program wrote it.
     Own,
-    /// Changed since, or never written by the program.
+    /// The file was changed since, or the program never wrote it.
     Changed,
 }
 
-/// Keeps the list of the program's own files in a result folder; see the file's head.
+/// The list of the program's own files in a result folder; see the head of this file.
 pub(super) struct Ledger {
     root: PathBuf,
-    /// SHA-256 by path, of earlier runs; several where a run was cut off.
+    /// SHA-256 of files of earlier runs, by path; several where a run was cut off.
     earlier: BTreeMap<String, BTreeSet<String>>,
     now: Mutex<Now>,
 }
 
+/// The state of the present run.
 #[derive(Default)]
 struct Now {
     journal: Option<File>,
     written: BTreeMap<String, String>,
-    /// Beginnings of paths whose files of earlier runs still hold.
+    /// Beginnings of paths whose files from earlier runs still hold.
     kept: BTreeSet<String>,
-    /// Files that were put away.
+    /// Paths of the files that were put away.
     moved: Vec<String>,
 }
 
 impl Ledger {
-    /// Reads the ledger of the folder `root`; an empty one where there is none.
+    /// Reads the ledger of the folder `root`; an empty one if there is none.
     pub fn open(root: &Path) -> Result<Self, BatchError> {
         let path = root.join(OWN).join(LIST);
         let text = match fs::read(&path) {
-            // a list that is not text names no file: everything in the folder is then a person's
+            // bytes that are not text name no file: files that only such a list names then count as
+            // a person's
             Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
             Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
             Err(source) => return Err(BatchError::Output { path, source }),
@@ -91,11 +100,12 @@ impl Ledger {
         Ok(Self { root: root.to_owned(), earlier, now: Mutex::default() })
     }
 
+    /// Returns the state of the present run; a panic of another thread does not block it.
     fn now(&self) -> MutexGuard<'_, Now> {
         self.now.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Notes that `bytes` are about to be written under `name`, and marks the folder as in work.
+    /// Notes that `bytes` are about to be written under `name`, and marks the folder as incomplete.
     pub fn note(&self, name: &str, bytes: &[u8]) -> Result<(), BatchError> {
         let hash = hex(&Sha256::digest(bytes));
         let path = self.root.join(OWN).join(LIST);
@@ -116,14 +126,16 @@ impl Ledger {
         Ok(())
     }
 
-    /// Syncs the notes to the disk, before files that they are about take their names: after a loss of
-    /// power no file is there that the ledger does not know.
+    /// Syncs the notes to the disk before the files that they are about take their names.
+    ///
+    /// After a loss of power, no file is then there that the ledger does not know.
     pub fn sync(&self) -> Result<(), BatchError> {
         let refused = |source| BatchError::Output { path: self.root.join(OWN).join(LIST), source };
         self.now().journal.as_ref().map_or(Ok(()), File::sync_data).map_err(refused)
     }
 
-    /// Takes back a note of a file that was not written after all.
+    /// Takes back the notes of files whose paths begin with `prefix`, which were not written after
+    /// all.
     pub fn forget(&self, prefix: &str) {
         self.now().written.retain(|name, _| !name.starts_with(prefix));
     }
@@ -138,7 +150,7 @@ impl Ledger {
         fs::read(self.root.join(name)).ok().map(|bytes| hex(&Sha256::digest(bytes)))
     }
 
-    /// Tells how the file `name` compares with what the program wrote, now or earlier.
+    /// Returns how the file `name` compares with the one that the program wrote, now or earlier.
     pub fn standing(&self, name: &str) -> Standing {
         match self.current(name) {
             None => Standing::Missing,
@@ -147,25 +159,25 @@ impl Ledger {
         }
     }
 
-    /// Tells whether the program has written a file of that name and hash, now or earlier.
+    /// Returns whether the program has written a file of this name and hash, now or earlier.
     fn is_own(&self, name: &str, hash: &str) -> bool {
         name == VOLATILE
             || self.earlier.get(name).is_some_and(|known| known.contains(hash))
             || self.now().written.get(name).is_some_and(|written| written == hash)
     }
 
-    /// Tells whether writing `bytes` under that name would replace something of a person's.
+    /// Returns whether writing `bytes` under this name would destroy a person's work.
     pub fn would_lose(&self, name: &str, bytes: &[u8]) -> bool {
         let there = fs::read(self.root.join(name)).ok().filter(|there| there != bytes);
         there.is_some_and(|there| !self.is_own(name, &hex(&Sha256::digest(there))))
     }
 
-    /// Tells whether the program has ever written a file of that name.
+    /// Returns whether the program has ever written a file of this name.
     pub fn knows(&self, name: &str) -> bool {
         self.earlier.contains_key(name) || self.now().written.contains_key(name)
     }
 
-    /// Tells whether the program has ever written a file whose path begins with `prefix`.
+    /// Returns whether the program has ever written a file whose path begins with `prefix`.
     pub fn knows_below(&self, prefix: &str) -> bool {
         let from = prefix.to_owned();
         let mut earlier = self.earlier.range(from.clone()..);
@@ -173,8 +185,8 @@ impl Ledger {
             || self.now().written.range(from..).next().is_some_and(|(name, _)| name.starts_with(prefix))
     }
 
-    /// Tells whether every file that the program has written below `prefix` is there as it was written,
-    /// but for those in `aside`. Not where none was.
+    /// Returns whether every file that earlier runs have written below `prefix`, except those in
+    /// `aside`, is there as it was written; `false` if there is none.
     pub fn is_whole(&self, prefix: &str, aside: &[&str]) -> bool {
         let below = self.earlier.range(prefix.to_owned()..).map(|(name, _)| name);
         let mut names = below.take_while(|name| name.starts_with(prefix)).peekable();
@@ -183,25 +195,25 @@ impl Ledger {
                 .all(|name| aside.contains(&&name[prefix.len()..]) || self.standing(name) == Standing::Own)
     }
 
-    /// Returns the result folder.
+    /// Returns the path of the result folder.
     pub fn root(&self) -> &Path {
         &self.root
     }
 
-    /// Puts a file or folder of earlier results away, into a place of its own.
+    /// Moves a file or folder to the folder of earlier results.
     pub fn put_away(&self, name: &str) -> Result<(), BatchError> {
         let from = self.root.join(name);
         let to = self.free_place(name)?;
         fs::rename(&from, &to).map_err(|source| BatchError::Output { path: to, source })?;
         self.now().moved.push(name.to_owned());
-        // a folder that is empty now goes too; one that is not stays
+        // a folder that this leaves empty goes too; `remove_dir` refuses any other
         match from.parent() {
             Some(parent) if parent != self.root => fs::remove_dir(parent).or(Ok(())),
             _ => Ok(()),
         }
     }
 
-    /// Puts a copy of a file of earlier results away.
+    /// Copies a file to the folder of earlier results.
     pub fn copy_away(&self, name: &str) -> Result<(), BatchError> {
         let to = self.free_place(name)?;
         fs::copy(self.root.join(name), &to).map_err(|source| BatchError::Output { path: to, source })?;
@@ -209,7 +221,7 @@ impl Ledger {
         Ok(())
     }
 
-    /// Finds a free place for earlier results of that name, and makes its folder.
+    /// Finds a free path for earlier results of this name, and makes its folder.
     fn free_place(&self, name: &str) -> Result<PathBuf, BatchError> {
         let place = self.root.join(OWN).join(EARLIER);
         let refused = |source| BatchError::Output { path: place.clone(), source };
@@ -222,20 +234,24 @@ impl Ledger {
         Ok(to)
     }
 
-    /// Ends a run that worked through all its input: puts the results of earlier runs away that it
-    /// neither replaced nor kept, writes the list anew and takes the marker off.
+    /// Ends a run that worked through all its input.
+    ///
+    /// Results of earlier runs that this one neither replaced nor kept are put away, the list is
+    /// written anew, and the marker is removed.
     pub fn close(&self) -> Result<Leftovers, BatchError> {
         let mut left = Leftovers { place: self.root.join(OWN).join(EARLIER), ..Leftovers::default() };
         let (written, kept) = {
             let now = self.now();
             (now.written.clone(), now.kept.clone())
         };
-        // no prefix is the beginning of another, so that only the one next below can be that of a name
+        // no prefix is the beginning of another, so only the greatest one up to `name` can be that
+        // of `name`
         let below = |name: &str| kept.range::<str, _>((Bound::Unbounded, Bound::Included(name))).next_back();
         let holds = |name: &str| below(name).is_some_and(|prefix| name.starts_with(prefix.as_str()));
         let mut list = written.clone();
         for (name, hashes) in self.earlier.iter().filter(|(name, _)| !written.contains_key(*name)) {
-            // kept results were looked at when they were kept: only a kill leaves several hashes
+            // kept results were checked when they were kept; only a killed run leaves several
+            // hashes
             let kept = holds(name);
             match hashes.first().filter(|_| kept && hashes.len() == 1) {
                 Some(hash) if self.root.join(name).exists() => {
@@ -247,7 +263,8 @@ impl Ledger {
                         let listed = if hashes.contains(&hash) { Some(&hash) } else { hashes.first() };
                         list.extend(listed.map(|hash| (name.clone(), hash.clone())));
                     }
-                    // all results are written: one that cannot be moved is named
+                    // all results are written by now: a file that cannot be moved is reported, and
+                    // stops nothing
                     (Some(hash), false) if hashes.contains(&hash) && self.put_away(name).is_ok() => {}
                     (Some(_), false) => left.foreign.push(name.clone()),
                 },
@@ -273,8 +290,10 @@ impl Ledger {
     }
 }
 
-/// Returns the line of a file. As in `sha256sum`, a backslash before the hash tells that breaks and
-/// backslashes in the name are written as `\\n`, `\\r` and `\\\\`.
+/// Returns the line of a file in the list.
+///
+/// Line breaks and backslashes in the name are written as in `sha256sum`: as `\n`, `\r` and
+/// `\\`, announced by a backslash before the hash.
 fn line(hash: &str, name: &str) -> String {
     if !name.contains(['\n', '\r', '\\']) {
         return format!("{hash}  {name}");
@@ -283,7 +302,7 @@ fn line(hash: &str, name: &str) -> String {
     format!("\\{hash}  {name}")
 }
 
-/// Reads a line; `None` if it is not whole.
+/// Reads a line of the list; returns `None` if the line is not whole.
 fn parsed(line: &str) -> Option<(String, String)> {
     let (hash, name) = line.split_once("  ")?;
     let Some(hash) = hash.strip_prefix('\\') else { return Some((hash.to_owned(), name.to_owned())) };

@@ -1,5 +1,5 @@
-//! Where results go: a locked folder, whose files appear whole or not at all and are known by their
-//! hashes, and the work on all files of a batch.
+//! Output of a batch: the locked result folder, whose files appear whole or not at all and are
+//! known by their hashes, and the loop that works on every file of a batch.
 
 mod ending;
 mod failures;

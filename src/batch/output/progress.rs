@@ -1,26 +1,27 @@
 use crate::batch::BatchError;
 
-/// Hears how a batch goes on, and may stop it. Called from several threads.
+/// A listener that hears how a batch goes on and may stop it. Its methods are called from several
+/// threads.
 pub trait Progress: Sync {
-    /// `total` files are going to be worked on.
+    /// Announces that `total` files are going to be worked on.
     fn begin(&self, total: usize);
-    /// One is done: a line about it, or why it failed.
+    /// Reports that one file is done, with a line about its result or the reason why it failed.
     fn done(&self, name: &str, outcome: Result<&str, &str>);
-    /// All are.
+    /// Reports that the batch has ended.
     fn end(&self);
 
-    /// Asks whether the batch is to stop: files in hand are finished, no other is begun.
+    /// Returns whether the batch is to stop: files in hand are finished, no other is begun.
     fn stopped(&self) -> bool {
         false
     }
 
-    /// Puts an error into words; a command line adds which options help.
+    /// Puts an error into words. A command line may add which of its options help.
     fn words(&self, error: &BatchError) -> String {
         error.to_string()
     }
 }
 
-/// Listens to nothing.
+/// A listener that ignores every report.
 pub struct Silent;
 
 impl Progress for Silent {

@@ -1,4 +1,5 @@
-//! A folder of results: locked while a command writes into it, and of one run when it is done.
+//! The result folder: locked while a command writes into it, and the results of one run when that
+//! is done.
 
 use super::Ending;
 use super::folder::OutputFolder;
@@ -10,11 +11,12 @@ use std::ops::Deref;
 use std::path::Path;
 use std::sync::Arc;
 
+/// Name of the lock file, in the program's own folder.
 const LOCK: &str = "lock";
 
-/// A folder that one command at a time writes its results into.
+/// A result folder, into which only one command at a time can write.
 ///
-/// The lock is the operating system's: it ends with the process, however that ends.
+/// The lock belongs to the operating system: it ends with the process, however that ends.
 pub(in crate::batch) struct ResultFolder {
     folder: OutputFolder,
     ledger: Arc<Ledger>,
@@ -22,10 +24,10 @@ pub(in crate::batch) struct ResultFolder {
 }
 
 impl ResultFolder {
-    /// Makes the folder where it is missing, locks it and reads its ledger.
+    /// Makes the folder if it is missing, locks it and reads its ledger.
     ///
     /// # Errors
-    /// If it cannot be written to, or another command is writing into it.
+    /// If the folder cannot be written to, or another command is writing into it.
     pub fn open(path: &Path) -> Result<Self, BatchError> {
         let refused = |source: io::Error| BatchError::Output { path: path.to_owned(), source };
         let own = path.join(OWN);
@@ -34,7 +36,7 @@ impl ResultFolder {
         match lock.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => return Err(BatchError::Busy { path: path.to_owned() }),
-            // some network drives have no locks: better results without one than none
+            // some network drives know no locks: results without a lock are better than none
             Err(TryLockError::Error(error)) => {
                 tracing::warn!("no lock on {}: {error}", path.display());
             }
@@ -46,26 +48,26 @@ impl ResultFolder {
         Ok(Self { folder, ledger, _lock: lock })
     }
 
-    /// Tells how the file of this path compares with what the program wrote there.
+    /// Returns how the file of this path compares with the one that the program wrote there.
     pub fn standing(&self, name: &str) -> Standing {
         self.ledger.standing(name)
     }
 
-    /// Tells whether the program has ever written a file of this path.
+    /// Returns whether the program has ever written a file of this path.
     pub fn knows(&self, name: &str) -> bool {
         self.ledger.knows(name)
     }
 
-    /// Tells whether all files that the program has written below `prefix` are as it wrote them, but
-    /// for those in `aside`; not where there are none.
+    /// Returns whether every file that the program has written below `prefix`, except those in
+    /// `aside`, is as it was written; `false` if there is none.
     pub fn is_whole(&self, prefix: &str, aside: &[&str]) -> bool {
         self.ledger.is_whole(prefix, aside)
     }
 
-    /// Puts a copy of a file away that is about to be replaced.
+    /// Copies a file that is about to be replaced to the folder of earlier results.
     ///
     /// # Errors
-    /// If it cannot be copied.
+    /// If the file cannot be copied.
     pub fn copy_away(&self, name: &str) -> Result<(), BatchError> {
         self.ledger.copy_away(name)
     }
@@ -75,9 +77,11 @@ impl ResultFolder {
         self.ledger.keep(prefix);
     }
 
-    /// Ends a run. One that was stopped, with files `left` to do, leaves everything where it is,
-    /// with the marker; otherwise results of earlier runs that do not belong to this one are put
-    /// away.
+    /// Ends a run and returns what is left over from earlier ones.
+    ///
+    /// If the run was stopped, with files `left` to do, everything stays where it is, the marker of
+    /// an incomplete folder included. Otherwise results of earlier runs that do not belong to this
+    /// one are put away.
     ///
     /// # Errors
     /// If the folder cannot be written to.
@@ -95,7 +99,8 @@ impl Deref for ResultFolder {
     }
 }
 
-/// Writes a file and removes it: permissions alone do not tell (read-only file systems, quotas).
+/// Writes a file and removes it. Permissions alone do not tell whether a folder can be written to:
+/// the file system may be read-only or a quota used up.
 fn probe(folder: &Path) -> io::Result<()> {
     let probe = folder.join(format!(".conemosaic-{}", std::process::id()));
     fs::write(&probe, b"")?;

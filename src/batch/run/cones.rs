@@ -1,5 +1,5 @@
-//! Where the cones of an image come from: this program, marks from elsewhere, or this program and a
-//! person who corrected them.
+//! The origin of the cones of an image: detection by this program, marks from elsewhere, or
+//! detections that a person has corrected.
 
 use super::done::{POINTS, earlier_cones};
 use super::{GivenCones, IMAGES, Job};
@@ -16,33 +16,33 @@ use sha2::{Digest, Sha256};
 use std::fs;
 use std::path::Path;
 
-/// Source of the cones of a run.
+/// The source of the cones of a run.
 #[derive(Clone, Debug)]
 pub enum ConeSource {
-    /// They are found in the image.
+    /// Cones are detected in the images.
     Detector(DetectOptions),
-    /// They were marked or found before.
+    /// Cones were marked or detected before and are read from files.
     Given(GivenCones),
 }
 
 /// The cones of one image.
 pub(super) struct Cones {
-    /// Centres within the window, px.
+    /// Centres of the cones within the window, in px.
     pub points: Vec<Point>,
-    /// Cones outside the window.
+    /// Number of given cones that lie outside the window.
     pub outside: usize,
-    /// Cones in all of the image.
+    /// Number of cones in the whole image.
     pub all: usize,
-    /// Detections, if they were found now.
+    /// Detections, if the cones were detected in this run.
     pub found: Option<Detections>,
-    /// Their origin, for the record.
+    /// Origin of the cones, for the record.
     pub from: ConesFrom,
     /// The content of `points.csv`.
     pub csv: Vec<u8>,
 }
 
 impl Cones {
-    /// Tells a person in one line what was found.
+    /// Returns the line that tells a person which cones were found.
     pub fn line(&self) -> String {
         match &self.found {
             Some(found) => describe(found),
@@ -51,17 +51,17 @@ impl Cones {
     }
 }
 
-/// The origin of an image's cones, before they are read or found.
+/// The origin of an image's cones, before they are read or detected.
 pub(super) enum Origin<'a> {
     Detector(&'a DetectOptions),
-    /// Bytes of the file, and its path.
+    /// Bytes of the file of cones, and its path.
     Given(Vec<u8>, &'a Path),
     /// Bytes of the corrected `points.csv`.
     Corrected(Vec<u8>),
 }
 
 impl Origin<'_> {
-    /// Adds what tells these cones from others to a hash.
+    /// Adds everything to a hash that tells these cones from others.
     pub fn identify(&self, digest: &mut Sha256) -> Result<(), BatchError> {
         match self {
             Self::Detector(options) => {
@@ -82,8 +82,9 @@ impl Origin<'_> {
 }
 
 impl Job<'_> {
-    /// Decides where the cones of an image come from. A file that a person has corrected is used,
-    /// never replaced unasked.
+    /// Decides where the cones of an image come from.
+    ///
+    /// A `points.csv` that a person has corrected is used, and replaced only if that was asked for.
     ///
     /// # Errors
     /// If a correction would be replaced, or given cones are missing or cannot be read.
@@ -109,8 +110,8 @@ impl Job<'_> {
         }
     }
 
-    /// Tells whether `points.csv` of an image's earlier results is not as the program wrote it, or was
-    /// corrected before an earlier run.
+    /// Returns whether `points.csv` among an image's earlier results was changed since the program
+    /// wrote it, or was already corrected before an earlier run.
     pub(super) fn is_corrected(&self, input: &Input) -> bool {
         let listed = format!("{IMAGES}/{}/{POINTS}", input.name);
         let before = || earlier_cones(&self.images.join(&input.name)) == Some(ConesFrom::Corrected);
@@ -121,16 +122,17 @@ impl Job<'_> {
         }
     }
 
-    /// Returns `points.csv` of an image's earlier results if a person has corrected it, in this run's
-    /// folder or before an earlier run.
+    /// Returns `points.csv` among an image's earlier results if a person has corrected it; `None`
+    /// otherwise.
     fn correction(&self, input: &Input, image: &Plane) -> Result<Option<Vec<u8>>, BatchError> {
         if !self.is_corrected(input) {
             return Ok(None);
         }
         let path = self.images.join(&input.name).join(POINTS);
         let bytes = fs::read(&path).map_err(|source| BatchError::Unreadable { path, source })?;
-        // a file that was cut off ends within a line and is the beginning of what was written; one
-        // that ends with a whole row was saved by an editor
+        // A file that was cut off ends within a row and is the beginning of what was written: no
+        // correction. One that ends with a whole row was saved by an editor without a last line
+        // break.
         if let (false, ConeSource::Detector(options)) = (bytes.ends_with(b"\n"), &self.options.cones) {
             let found = detect_in(input, image, options)?;
             let scale = self.options.plan.scales.scale_of(&input.path, image.ncols())?;
@@ -143,11 +145,10 @@ impl Job<'_> {
     }
 }
 
-/// Finds or reads the cones of an image.
+/// Detects or reads the cones of an image.
 ///
 /// # Errors
-/// If nothing can be found in the image, or a file of cones cannot be read or is in µm and no scale
-/// is known.
+/// If detection fails, or a file of cones cannot be read or is in µm and no scale is known.
 pub(super) fn cones_of(
     origin: &Origin,
     input: &Input,
@@ -185,8 +186,8 @@ pub(super) fn cones_of(
     }
 }
 
-/// Returns the first two columns of a file of detections: a person who adds a row need not know
-/// scores or µm. Any other file is returned as it is.
+/// Returns the first two columns of a file of detections, as a person who adds a row need not know
+/// scores or µm. Any other file is returned unchanged.
 fn without_scores(bytes: &[u8]) -> Vec<u8> {
     match std::str::from_utf8(bytes) {
         Ok(text) if text.starts_with("x_px,y_px,") => {
@@ -209,7 +210,7 @@ fn read_cones(
     let factor = match file.unit.unwrap_or(LengthUnit::Pixel) {
         unit @ LengthUnit::Unit => return Err(BatchError::NotPixels { file: path.to_owned(), unit }),
         unit @ LengthUnit::Pixel => unit.factor_to(unit, scale),
-        // µm of the slide; the scale is that of the living tissue
+        // the file is in µm on the slide, but the scale in µm of living tissue
         unit @ LengthUnit::Micrometre => {
             let expansion = job.options.plan.scales.expansion();
             unit.factor_to(LengthUnit::Pixel, scale).map(|factor| factor * expansion)

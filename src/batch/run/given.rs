@@ -5,22 +5,22 @@ use crate::mosaic::io::ReadOptions;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Cones that were marked by hand, corrected or found by another program: a file per image.
+/// Cones that were marked by hand, corrected or found by another program: one file per image.
 #[derive(Clone, Debug)]
 pub struct GivenCones {
     /// Options of reading the files.
     pub read: ReadOptions,
-    /// The folder or file that they were looked for in.
+    /// The folder or file in which they were looked for.
     place: PathBuf,
-    /// Files by the name of the image that they belong to.
+    /// Files by the name of the image to which they belong.
     files: BTreeMap<String, Vec<PathBuf>>,
 }
 
 impl GivenCones {
     /// Looks for files of cones at `place`, a folder or one file.
     ///
-    /// A file belongs to the image of its name, less the extension and a final `_coords`;
-    /// `NAME/points.csv`, as this program writes it, to the image NAME.
+    /// A file belongs to the image of the same name, without the extension and a final `_coords`.
+    /// `NAME/points.csv`, as this program writes it, belongs to the image NAME.
     ///
     /// # Errors
     /// If there is no such folder, or no coordinate file in it.
@@ -61,12 +61,12 @@ impl GivenCones {
         }
     }
 
-    /// Returns where the cones come from, in words.
+    /// Returns the place that the cones come from, in words.
     pub(super) fn describe(&self) -> String {
         self.place.display().to_string()
     }
 }
-
+/// Returns the name of the image to which a file of cones belongs.
 fn name_of(file: &Path) -> String {
     let folder = file.parent().and_then(Path::file_name);
     match (file.file_name(), folder) {

@@ -1,4 +1,4 @@
-//! One image: its cones, their analysis, its folder.
+//! The work on one image of a run: its cones, their analysis and its folder.
 
 use super::cones::{Cones, Origin, cones_of};
 use super::done::{Done, METRICS, OVERLAY, POINTS, Seconds, earlier_cones};
@@ -15,7 +15,7 @@ use crate::report::{ConesFrom, DetectionRecord, ImageRecord};
 use sha2::{Digest, Sha256};
 use std::time::Instant;
 
-/// Works on one image and writes its folder, or keeps that of an earlier run.
+/// Works on one image and writes its folder, or keeps the folder of an earlier run.
 pub(super) fn one_image(input: &Input, job: &Job) -> Result<(Done, String), BatchError> {
     let mut clock = Instant::now();
     let mut lap = || std::mem::replace(&mut clock, Instant::now()).elapsed().as_secs_f64();
@@ -63,8 +63,10 @@ pub(super) fn one_image(input: &Input, job: &Job) -> Result<(Done, String), Batc
 }
 
 impl Job<'_> {
-    /// Replaces the folder of an image. Corrections that an earlier run has used and this one gives up
-    /// are put away first; so are points of which nothing tells any more where they are from.
+    /// Replaces the folder of an image.
+    ///
+    /// Cones that an earlier run took from a person's corrections, and that this run gives up, are
+    /// put away first; so are cones whose origin is no longer recorded.
     fn replace(
         &self,
         input: &Input,
@@ -81,7 +83,7 @@ impl Job<'_> {
     }
 }
 
-/// Draws the cones on the image.
+/// Draws the cones of an image on it.
 fn picture(image: &Plane, cones: &Cones, specimen: &Specimen) -> Result<Vec<u8>, BatchError> {
     match &cones.found {
         Some(found) => overlay_of(image, found),
@@ -89,6 +91,7 @@ fn picture(image: &Plane, cones: &Cones, specimen: &Specimen) -> Result<Vec<u8>,
     }
 }
 
+/// Collects the record of an image.
 fn record_of(
     input: &Input,
     image: &Plane,

@@ -1,4 +1,5 @@
-//! The main job: the cones of every image, found or given, analysed and reported into one folder.
+//! The main job: the cones of every image, detected or given, analysed and reported into one
+//! folder.
 
 mod cones;
 mod done;
@@ -15,6 +16,7 @@ use super::output::{Ending, OutputFolder, ResultFolder, Worked, for_each, write_
 use super::window::ImageWindows;
 use super::{BatchError, Crop, Failure, ImageWindow, Input, Progress};
 use crate::compare::References;
+use crate::detect::DetectOptions;
 use crate::report::tables::RoiRow;
 use crate::report::{ImageRecord, LandmarkRecord, Subject, SummaryKind, page};
 use done::Done;
@@ -23,15 +25,15 @@ use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
-/// Folder of the images' own folders.
+/// Name of the folder that holds the folders of the images.
 const IMAGES: &str = "images";
-/// Stands among an image's earlier results when the image failed in the latest run.
+/// Note among an image's earlier results that the image failed in the latest run.
 const FAILED: &str = "FAILED.txt";
 
 /// Options of the main job.
 #[derive(Clone)]
 pub struct RunOptions {
-    /// Everything that is computed and written of every mosaic.
+    /// The plan: everything that is computed and written for each mosaic.
     pub plan: Plan,
     /// Source of the cones.
     pub cones: ConeSource,
@@ -39,23 +41,39 @@ pub struct RunOptions {
     pub window: ImageWindow,
     /// The rectangle of that area that counts; `None`: all of it.
     pub crop: Option<Crop>,
-    /// Start anew, instead of keeping the results of an earlier run for images, options and a
-    /// program that did not change.
+    /// Starts anew. Otherwise results of an earlier run are kept where image, options and program
+    /// have not changed.
     pub fresh: bool,
-    /// Replace cones that a person has corrected; the corrected files are put away.
+    /// Replaces cones that a person has corrected; the corrected files are put away.
     pub replace_corrections: bool,
     /// The command line, for `run.json`.
     pub command: Vec<String>,
 }
 
-/// The results of a run, and what stays to be said about it.
+impl Default for RunOptions {
+    /// Returns options by which the default detector finds the cones in all that was imaged, and
+    /// earlier results are kept.
+    fn default() -> Self {
+        Self {
+            plan: Plan::default(),
+            cones: ConeSource::Detector(DetectOptions::default()),
+            window: ImageWindow::default(),
+            crop: None,
+            fresh: false,
+            replace_corrections: false,
+            command: Vec::new(),
+        }
+    }
+}
+
+/// Results of a run, and everything about it that remains to be told.
 #[derive(Clone, Debug)]
 pub struct RunOutcome {
-    /// One record per image, in the order of the inputs.
+    /// Records of the images, one per image, in the order of the inputs.
     pub records: Vec<ImageRecord>,
-    /// Images without results.
+    /// Images without results, with the reasons.
     pub failures: Vec<Failure>,
-    /// Images whose earlier results were kept.
+    /// Number of images whose earlier results were kept.
     pub reused: usize,
     /// The end of the run: complete or stopped.
     pub ending: Ending,
@@ -67,20 +85,21 @@ struct Job<'a> {
     windows: ImageWindows<'a>,
     references: References,
     out: ResultFolder,
-    /// `images/` in it.
+    /// The folder `images/` inside `out`.
     images: OutputFolder,
 }
 
-/// Finds, measures, compares and reports the cones of every image into `out`.
+/// Detects or reads the cones of every image, analyses them and writes the results into `out`.
 ///
 /// Writes `images/NAME/` (`points.csv`, `overlay.png`, `metrics.json`, `pcf.csv`, `figure.svg` and
-/// what the plan asks for), `summary.csv`, `index.html`, `run.json`, and as the plan asks
-/// `groups.csv`, `verdicts.csv`, `landmarks.csv`, `rois.csv`; if an image failed, `failures.csv`. An
-/// image's folder is replaced when its new content is complete.
+/// what the plan asks for), `summary.csv`, `index.html` and `run.json`; as the plan asks,
+/// `groups.csv`, `verdicts.csv`, `landmarks.csv` and `rois.csv`; and, if an image failed,
+/// `failures.csv`. The folder of an image is replaced when its new content is complete.
 ///
 /// # Errors
-/// If an option is out of range, the file of a window cannot be read, another run writes into `out`,
-/// or that folder cannot be written to. Images that fail are in the outcome and in `failures.csv`.
+/// If an option is out of range, the file of a window cannot be read, an image lies among the
+/// results, another run writes into `out`, or that folder cannot be written to. Images that fail
+/// are listed in the outcome and in `failures.csv`.
 pub fn run_files(
     inputs: &[Input],
     options: &RunOptions,
@@ -114,7 +133,7 @@ fn refuse_overlap(inputs: &[Input], images: &Path) -> Result<(), BatchError> {
 }
 
 impl Job<'_> {
-    /// Keeps the earlier results of an image that fails now, and says so beside them.
+    /// Keeps the earlier results of an image that fails now, with a note beside them that says so.
     fn keep_earlier<T>(
         &self,
         input: &Input,
@@ -131,12 +150,12 @@ impl Job<'_> {
              They are not part of summary.csv and the page.\n",
             progress.words(&error)
         );
-        // the failure itself is reported in any case
+        // the failure itself is reported whether or not the note can be written
         let _ = self.images.folder(name).and_then(|folder| folder.write(FAILED, note.as_bytes()));
         Err(BatchError::Outdated { source: Box::new(error), folder: format!("{IMAGES}/{name}") })
     }
 
-    /// Writes the tables and the page of all images.
+    /// Writes the tables and the page that cover all images.
     fn write_tables(&self, worked: &Worked<Done>, started: Instant) -> Result<(), BatchError> {
         let (plan, out, done) = (&self.options.plan, &self.out, &worked.done);
         write_failures(out, &worked.failures)?;
@@ -165,6 +184,7 @@ impl Job<'_> {
         out.write_json("run.json", &record::run_json(self.options, worked, started))
     }
 
+    /// Ends the run and collects what remains to be told about it.
     fn finish(self, inputs: &[Input], worked: Worked<Done>) -> Result<RunOutcome, BatchError> {
         let foreign = self.foreign_folders(inputs);
         let mut ending = self.out.close(worked.left)?;
@@ -174,8 +194,8 @@ impl Job<'_> {
         Ok(RunOutcome { records, failures: worked.failures, reused, ending })
     }
 
-    /// Returns folders among those of the images that belong to no image of the run and that the
-    /// program has not written.
+    /// Returns the folders in `images/` that belong to no image of the run and that the program did
+    /// not write.
     fn foreign_folders(&self, inputs: &[Input]) -> Vec<String> {
         let entries = fs::read_dir(self.images.join("")).into_iter().flatten().flatten();
         let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());

@@ -11,7 +11,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 use std::time::Instant;
 
-/// All of `metrics.json`.
+/// The whole content of `metrics.json`.
 #[derive(Serialize)]
 pub(super) struct Metrics<'a> {
     #[serde(flatten)]
@@ -32,7 +32,7 @@ struct SamplerNote<'a> {
     n: usize,
     realisations: usize,
     ri: Option<f64>,
-    /// From the table that comes with the program.
+    /// Marks a curve from the table that comes with the program.
     shipped: bool,
 }
 
@@ -56,7 +56,7 @@ pub(super) fn metrics<'a>(record: &'a ImageRecord, analysis: &'a Analysis) -> Me
     }
 }
 
-/// Returns the content of `run.json`: how the results came about.
+/// Returns the content of `run.json`: the origin of the results.
 pub(super) fn run_json(options: &RunOptions, worked: &Worked<Done>, started: Instant) -> Value {
     let image = |d: &Done| {
         json!({

@@ -1,5 +1,6 @@
-//! Results of an earlier run that still hold: the same image, options, cones and program, and every
-//! file as it was written.
+//! Results of an earlier run that still hold.
+//!
+//! They do if image, options, cones and program are the same and every file is as it was written.
 
 use super::cones::Origin;
 use super::done::{Done, METRICS, POINTS};
@@ -16,7 +17,7 @@ use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use std::fs;
 
-/// Parts of `metrics.json` outside the record that are wanted again.
+/// Parts of `metrics.json` beside the record that are read back.
 #[derive(Deserialize)]
 struct Kept {
     #[serde(default)]
@@ -25,8 +26,8 @@ struct Kept {
     regions: Vec<RoiRow>,
 }
 
-/// Identifies everything but the image that its results depend on: the program with all its weights,
-/// the plan, scale, window, labels and the origin of the cones.
+/// Returns a hash of everything but the image that its results depend on: the program with all its
+/// weights, the plan, scale, window, labels and origin of the cones.
 pub(super) fn fingerprint(
     plan: &Plan,
     scale: Option<Scale>,
@@ -43,8 +44,8 @@ pub(super) fn fingerprint(
 /// A hash of the program's source and weights, made when it was built.
 const BUILD: &str = env!("CONEMOSAIC_BUILD_HASH");
 
-/// Returns the results of an earlier run for an image, if they are complete, as they were written
-/// and belong to the same image and options.
+/// Returns the results of an earlier run for an image; `None` unless they are complete, unchanged
+/// and of the same image and options.
 pub(super) fn earlier(job: &Job, input: &Input, sha256: &str, options_sha256: &str) -> Option<Done> {
     let plan = &job.options.plan;
     let folder = job.images.join(&input.name);
@@ -53,7 +54,7 @@ pub(super) fn earlier(job: &Job, input: &Input, sha256: &str, options_sha256: &s
     if record.sha256 != sha256 || record.options_sha256 != options_sha256 {
         return None;
     }
-    // corrected cones are part of what the results were identified by
+    // corrected cones differ from what was written, and are already part of `options_sha256`
     let corrected = record.cones_from == ConesFrom::Corrected;
     let aside: &[&str] = if corrected { &[FAILED, POINTS] } else { &[FAILED] };
     let whole = job.out.is_whole(&format!("{IMAGES}/{}/", input.name), aside);
@@ -64,7 +65,7 @@ pub(super) fn earlier(job: &Job, input: &Input, sha256: &str, options_sha256: &s
     if landmarks.is_some() != plan.maps.is_some() {
         return None;
     }
-    // an earlier failure is over; a note that cannot be removed harms nobody
+    // an earlier failure is over; a note that cannot be removed does no harm
     let _ = fs::remove_file(folder.join(FAILED));
     let file = input.path.display().to_string();
     let landmarks = landmarks.map(|l| LandmarkRecord { file: file.clone(), ..l });

@@ -10,56 +10,58 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
 
-/// What follows of the scores of all images.
+/// The results of a validation over all images, computed from their scores.
 #[derive(Clone, Debug)]
 pub struct Analysis {
     /// Means over images and pooled rates.
     pub summary: Summary,
-    /// 95 % intervals of its values, by name.
+    /// Intervals (95 %) of the values of `summary`, by name.
     pub intervals: BTreeMap<&'static str, Interval>,
-    /// How they were made.
+    /// The method of the intervals, in words.
     pub method: String,
-    /// A summary a group; empty without groups.
+    /// Summaries of the groups, one per group; empty without groups.
     pub groups: Vec<GroupSummary>,
-    /// Means over groups.
+    /// Means over the groups, where there are groups.
     pub over_groups: Option<MeanOverGroups>,
-    /// The curve over the score, where all detections have one.
+    /// The FROC curve over the threshold of the score, where all detections have a score.
     pub froc: Option<Froc>,
-    /// Reliability of the score, where all lie between 0 and 1.
+    /// Reliability of the score, where all scores lie between 0 and 1.
     pub reliability: Option<Reliability>,
-    /// False alarms per image, expected from the scores and observed, where all lie between 0 and 1.
+    /// False alarms per image, first expected from the scores, then observed, where all scores lie
+    /// between 0 and 1.
     pub false_alarms: Option<(f64, f64)>,
-    /// Two detectors or graders compared.
+    /// The comparison with a second detector or grader, if one was given.
     pub comparison: Option<Comparison>,
-    /// What a reader must know, each a sentence.
+    /// Remarks that a reader of the numbers needs, each a sentence.
     pub notes: Vec<String>,
 }
 
-/// Two detectors or graders on the same images.
+/// The comparison of two detectors or graders on the same images.
 #[derive(Clone, Debug)]
 pub struct Comparison {
-    /// What the first is called.
+    /// Name of the first detector or grader.
     pub first: String,
-    /// What the second is called.
+    /// Name of the second detector or grader.
     pub second: String,
-    /// Paired differences.
+    /// Paired differences between the scores of the two.
     pub differences: Vec<Difference>,
-    /// The second against the marks.
+    /// Summary of the second against the marks.
     pub summary: Summary,
-    /// Its curve, where its detections have scores.
+    /// FROC curve of the second, where its detections have scores.
     pub froc: Option<Froc>,
-    /// The first against the second, taken as marks.
+    /// Summary of the first against the second, whose points are taken as marks.
     pub between: Summary,
-    /// 95 % intervals of that.
+    /// Intervals (95 %) of the values of `between`, by name.
     pub between_intervals: BTreeMap<&'static str, Interval>,
 }
 
-/// Streams of chance, so that no interval depends on what else is asked for.
+/// Numbers of random streams: with a stream of its own, no interval depends on what else is asked
+/// for.
 const AGAINST_MARKS: u64 = 1;
 const OF_TWO: u64 = 2;
 
 impl Analysis {
-    /// `None` without an image.
+    /// Computes the results of all images; `None` without an image.
     pub(super) fn of(rows: &[ValidationRow], options: &ValidationOptions) -> Option<Self> {
         let scores: Vec<Score> = rows.iter().map(|r| r.score).collect();
         let summary = summarise(&scores)?;
@@ -111,9 +113,10 @@ impl Analysis {
         Some(analysis)
     }
 
+    /// Returns the remarks that a reader of the numbers needs.
     fn remarks(&self, rows: &[ValidationRow]) -> Vec<String> {
         let mut notes = Vec::new();
-        // Half a pixel is what the conventions of the field differ by.
+        // The conventions of the field differ by half a pixel along both axes.
         if let Some([x, y]) = self.summary.offset_px
             && x.abs().min(y.abs()) > 0.3
             && x * y > 0.
@@ -154,7 +157,7 @@ impl Analysis {
         notes
     }
 
-    /// The tables that a person reads, each with its heading.
+    /// Returns the tables that a person reads, each with its heading.
     pub fn tables(&self) -> Vec<(&'static str, TextTable)> {
         let mut tables = vec![
             ("Accuracy", accuracy_table(&self.summary, &self.intervals)),
@@ -179,7 +182,7 @@ impl Analysis {
     }
 }
 
-/// Scores of what counts, and whether it was a hit.
+/// Returns the score of every detection that counts, and whether it is a hit.
 fn counted(images: &[JudgedImage]) -> Vec<(f64, bool)> {
     let all = images.iter().flat_map(|image| &image.judged);
     all.filter_map(|j| match j.verdict {
@@ -190,6 +193,7 @@ fn counted(images: &[JudgedImage]) -> Vec<(f64, bool)> {
     .collect()
 }
 
+/// Returns the method of the intervals, in words.
 fn method(groups: &[GroupSummary], resamples: usize) -> String {
     if groups.is_empty() {
         format!(

@@ -1,16 +1,18 @@
-//! The figures of a validation, from the scores of its images.
+//! The figures of a validation, drawn from the scores of its images.
 
 use super::Comparison;
 use crate::compare::{Agreement, Froc, Interval, Score, Summary};
 use crate::report::{AgreementLine, AgreementPanel, FrocLine, agreement_figure, froc_figure};
 use std::collections::BTreeMap;
 
-/// Marks in the place of detections, to be held against them.
+/// Returns the score with the marks in the place of the detections, as the other side of a
+/// comparison with them.
 pub(super) const fn marks_as_detections(score: &Score) -> Score {
     Score { detections_inside: score.marks_inside, ..*score }
 }
 
-/// Bland–Altman plots of count and density. `pairs` are first and second, `names` are of second and first.
+/// Draws Bland–Altman plots of count and density. Each of `pairs` is first and second; the names
+/// are given as second and first.
 pub(super) fn agreement(
     title: &str,
     (second, first): (&str, &str),
@@ -20,7 +22,7 @@ pub(super) fn agreement(
 ) -> String {
     let scaled = pairs.iter().all(|(a, b)| a.um_per_px.is_some() && b.um_per_px.is_some());
     let count = |s: &Score| s.detections_inside as f64;
-    // Without a scale, cones per 1000 px²: numbers that can be read.
+    // Cones per px² would be tiny numbers: without a scale the density is per 1000 px².
     let density =
         |s: &Score| count(s) / if scaled { s.area_mm2().unwrap_or(f64::NAN) } else { s.area_px / 1000. };
     let counts: Vec<(f64, f64)> =
@@ -64,7 +66,7 @@ pub(super) fn agreement(
     )
 }
 
-/// The curves of one detector or two.
+/// Draws the FROC curves of one detector, or of both if two are compared.
 pub(super) fn froc_svg(froc: &Froc, given: &Summary, comparison: Option<&Comparison>) -> String {
     let second = comparison
         .and_then(|c| Some(FrocLine { name: &c.second, froc: c.froc.as_ref()?, given: &c.summary }));

@@ -2,21 +2,22 @@ use crate::mosaic::io::GroupTable;
 use regex_lite::Regex;
 use std::str::FromStr;
 
-/// Which images belong together, by their names.
+/// The rule by which images form groups, from their names.
 #[derive(Clone, Debug)]
 pub enum Grouping {
-    /// The first so many parts of the name between underscores.
+    /// The first parts of the name, this many, as separated by underscores.
     Prefix(usize),
-    /// What the first group of a regular expression matches; without a group, what all of it does.
+    /// The text that the first group of a regular expression matches; in an expression without
+    /// groups, all that it matches.
     Pattern(Regex),
-    /// A table of names and groups.
+    /// A table of names and their groups.
     Table(GroupTable),
 }
 
 impl FromStr for Grouping {
     type Err = String;
 
-    /// `prefix:N` or a regular expression.
+    /// Reads `prefix:N` or a regular expression.
     fn from_str(text: &str) -> Result<Self, String> {
         if let Some(count) = text.strip_prefix("prefix:") {
             return match count.parse() {
@@ -31,10 +32,10 @@ impl FromStr for Grouping {
 }
 
 impl Grouping {
-    /// The group of the image called `name`.
+    /// Returns the group of the image called `name`.
     ///
     /// # Errors
-    /// If the name does not match or is not in the table: what to do about it.
+    /// If the name does not match or is not in the table. The error says what to do about it.
     pub fn group_of(&self, name: &str) -> Result<String, String> {
         match self {
             Self::Prefix(parts) => Ok(name.split('_').take(*parts).collect::<Vec<_>>().join("_")),

@@ -1,4 +1,4 @@
-//! One image: its marks, what was found in it, and how well they agree.
+//! The validation of one image: its marks, the detections in it, and how well they agree.
 
 use super::pairs::Pairs;
 use super::{Detected, ValidationRow, VersusRow};
@@ -18,11 +18,12 @@ use std::path::Path;
 /// Radius of the rings of an overlay, in cone spacings.
 const RING: f64 = 0.3;
 
-/// Points, each with a score if the file or the detector gives any.
+/// Detected points, each with a score if the file or the detector gives any.
 struct Found {
     points: Vec<Point>,
     scores: Option<Vec<f64>>,
-    /// What the detector looked at and did not take for a cone: the other end of the curve over the score.
+    /// Candidates that the detector did not take for cones; they continue the FROC curve below the
+    /// detector's threshold.
     rejected: Vec<Detection>,
 }
 
@@ -71,7 +72,7 @@ pub(super) fn score(input: &Input, pairs: &Pairs, out: &OutputFolder) -> Result<
     Ok(ValidationRow { file, name: input.name.clone(), group, score, judged, expected_false_alarms, versus })
 }
 
-/// What detections of an image are held against marks with.
+/// Everything but the points that is needed to score detections of an image against marks.
 struct Against<'a> {
     size: (usize, usize),
     um_per_px: Option<f64>,
@@ -79,6 +80,7 @@ struct Against<'a> {
 }
 
 impl Against<'_> {
+    /// Scores detections against marks; the last value judges each detection, if they have scores.
     fn marks(
         &self,
         marks: &[Point],
@@ -103,7 +105,8 @@ impl Against<'_> {
     }
 }
 
-/// Σ (1 − score) of the detections that count as hits or false alarms; `None` without scores between 0 and 1.
+/// Returns the expected number of false alarms: Σ (1 − score) over the detections that count as
+/// hits or false alarms; `None` if a score is missing or not between 0 and 1.
 fn expected(scores: &[f64], matching: &Matching) -> Option<f64> {
     let hits = matching.pairs.iter().filter(|p| p.counted).map(|p| p.detection);
     let mut counted: Vec<usize> = hits.chain(matching.false_alarms.iter().copied()).collect();
@@ -112,6 +115,7 @@ fn expected(scores: &[f64], matching: &Matching) -> Option<f64> {
     counted.into_iter().map(lack).sum()
 }
 
+/// Reads the image of a file of marks; `pixels_matter` tells whether more than its size is needed.
 fn picture(input: &Input, pairs: &Pairs, pixels_matter: bool) -> Result<Plane, BatchError> {
     let name = image_name(&input.path);
     let missing = || {
@@ -129,7 +133,8 @@ fn picture(input: &Input, pairs: &Pairs, pixels_matter: bool) -> Result<Plane, B
     Ok(read_image(&Input { path, name })?.1)
 }
 
-/// Why what was sought is not there: in a folder, or as a file.
+/// Says in words that what was sought is not in the folder `given`, or that the file `given` is
+/// another.
 fn nothing_in(given: &Path, sought: &str) -> String {
     let given_as = given.display();
     if given.is_file() {
@@ -139,6 +144,7 @@ fn nothing_in(given: &Path, sought: &str) -> String {
     }
 }
 
+/// Reads the detections that belong to a file of marks, or finds them in the image.
 fn find(
     input: &Input,
     detected: &Detected,
@@ -165,7 +171,8 @@ fn find(
     }
 }
 
-/// Points of a file in px. Without points there are no scores to miss.
+/// Reads the points of a file in px. A file without points counts as one with scores, since none is
+/// missing.
 fn read(path: &Path, options: &ReadOptions) -> Result<Found, BatchError> {
     let file = read_coordinates(path, options)?;
     match file.unit {
@@ -177,11 +184,13 @@ fn read(path: &Path, options: &ReadOptions) -> Result<Found, BatchError> {
     }
 }
 
+/// Returns the spacing of the marks in px, or the reach of a mark where there are too few.
 fn spacing_of(score: &Score) -> f64 {
     hexagonal_spacing(score.marks_inside, score.area_px).unwrap_or(score.limit_px)
 }
 
-/// Hits, misses and false alarms, and in grey what does not count.
+/// Returns the marks of an overlay: hits, misses and false alarms, and in grey the detections that
+/// do not count.
 fn drawn(marks: &[Point], found: &[Point], matching: &Matching, score: &Score) -> Vec<OverlayMark> {
     let radius = RING * spacing_of(score);
     let mark = |p: Point, kind: MarkKind| OverlayMark { x: p.x, y: p.y, radius, kind };

@@ -1,4 +1,5 @@
-//! Detections against hand marks, for folders or single files: pairs the files, scores every image, writes what follows of all.
+//! Validation of detections against hand marks: the files are paired, every image is scored, and
+//! the results over all images are written.
 
 mod analysis;
 mod figures;
@@ -18,22 +19,22 @@ use crate::detect::DetectOptions;
 use crate::mosaic::io::ReadOptions;
 use std::path::{Path, PathBuf};
 
-/// Where detections come from.
+/// The source of detections.
 #[derive(Clone, Debug)]
 pub enum Detected {
     /// Coordinate files NAME.csv of any program, with or without a column `score`.
     Files {
-        /// Their folder, or the only one.
+        /// Folder of the files, or the only file.
         path: PathBuf,
-        /// How its files are to be understood.
+        /// Options of reading the files.
         read: ReadOptions,
     },
-    /// This program, on the images.
+    /// Cones that this program detects in the images.
     Detector(DetectOptions),
 }
 
 impl Detected {
-    /// In a word or two.
+    /// Returns the source in a word or two.
     fn label(&self) -> String {
         match self {
             Self::Files { path, .. } => path.display().to_string(),
@@ -42,55 +43,64 @@ impl Detected {
     }
 }
 
-/// How detections are held against hand marks.
+/// Options of scoring detections against hand marks.
 #[derive(Clone, Debug)]
 pub struct ValidationOptions {
-    /// How the marks are to be understood.
+    /// Options of reading the marks.
     pub read: ReadOptions,
-    /// Where detections come from.
+    /// Source of the detections.
     pub detected: Detected,
-    /// Detections, or marks of another grader, to compare them with.
+    /// Detections, or marks of another grader, to compare the detections with.
     pub versus: Option<Detected>,
-    /// Folder of images NAME.png or .tif; `None`: they are beside the marks.
+    /// Folder of the images NAME.png or NAME.tif, or the only image; `None`: they lie beside the
+    /// marks.
     pub images: Option<PathBuf>,
-    /// Width and height of all images in px; `None`: from the images.
+    /// Width and height of all images in px; `None`: read from the images.
     pub size: Option<(usize, usize)>,
-    /// Which detection belongs to which mark.
+    /// Options of matching detections with marks.
     pub matching: MatchOptions,
-    /// Which images belong together; `None`: every image stands alone.
+    /// Rule by which images form groups; `None`: every image stands alone.
     pub grouping: Option<Grouping>,
-    /// Where scales come from.
+    /// Source of the scales of the images.
     pub scales: ScaleSource,
-    /// Whether hits, misses and false alarms are drawn on the images.
+    /// Draws hits, misses and false alarms on the images.
     pub overlays: bool,
-    /// Resamples of the bootstrap.
+    /// Number of resamples of the bootstrap.
     pub resamples: usize,
     /// Seed of the bootstrap and of permutation tests.
     pub seed: u64,
 }
 
-/// What came of a validation.
+/// Results of a validation.
 #[derive(Clone, Debug)]
 pub struct ValidationOutcome {
-    /// One row an image, in order of the files of marks.
+    /// Scores of the images, one row per image, in the order of the files of marks.
     pub rows: Vec<ValidationRow>,
-    /// What follows of all of them; `None` without an image.
+    /// Results over all images; `None` without an image.
     pub analysis: Option<Analysis>,
-    /// Marks that could not be scored.
+    /// Files of marks that could not be scored.
     pub failures: Vec<Failure>,
-    /// Files beside the marks that belong to no image: tables of scales and the like.
+    /// Coordinate files beside the marks that belong to no image, such as tables of scales.
     pub ignored: Vec<PathBuf>,
-    /// How the batch ended.
+    /// The end of the batch: complete or stopped.
     pub ending: Ending,
 }
 
-/// Scores every file of marks in `reference` (`NAME_coords.csv` or `NAME.csv`, or one such file) and writes `validation.csv` (a row an
-/// image), `validation.json` (everything), `index.html`, `bland_altman.svg`; `groups.csv` with groups; `froc.csv` and
-/// `froc.svg` where detections have scores, `reliability.csv` and `reliability.svg` where these lie between 0 and 1;
-/// `comparison.csv` and `comparison.svg` where two are compared; `NAME.overlay.png` if asked for.
+/// Scores the detections of every file of marks in `reference` and writes the results into `out`.
+///
+/// Files of marks are `NAME_coords.csv` or `NAME.csv`; `reference` may also be one such file.
+/// These files are written:
+/// - `validation.csv` (one row per image), `validation.json` (everything), `index.html` and
+///   `bland_altman.svg`;
+/// - `groups.csv` with groups;
+/// - `froc.csv` and `froc.svg` where detections have scores;
+/// - `reliability.csv` and `reliability.svg` where the scores lie between 0 and 1;
+/// - `comparison.csv` and `comparison.svg` where two detectors or graders are compared;
+/// - `NAME.overlay.png` if overlays are asked for.
 ///
 /// # Errors
-/// If there are no marks or `out` cannot be written to. Marks that fail are in the outcome and in `failures.csv`.
+/// If a folder or file cannot be read, there are no marks, or `out` cannot be written to. Files of
+/// marks that fail are listed in the outcome and in `failures.csv`.
 pub fn validate_files(
     reference: &Path,
     options: &ValidationOptions,

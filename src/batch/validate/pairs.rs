@@ -5,16 +5,21 @@ use crate::batch::{BatchError, Input};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-/// Which files belong to a file of marks.
+/// The search for the files that belong to a file of marks.
 #[derive(Clone, Copy)]
 pub(super) struct Pairs<'a> {
+    /// The folder of marks, or the only file of marks.
     pub reference: &'a Path,
+    /// Options that say where images and detections lie.
     pub options: &'a ValidationOptions,
 }
 
 impl Pairs<'_> {
-    /// The files of marks, one an image and called like it, and what else lies there: a file counts if it is called
-    /// `…_coords` or an image or a detection has its name.
+    /// Returns the files of marks, one per image and named like it, and the other coordinate files
+    /// that lie there.
+    ///
+    /// A file counts as marks if its name ends in `_coords`, or if an image or detections of its
+    /// name are found. Where both `NAME_coords` and `NAME` exist, only the first is returned.
     pub fn marks(&self, out: &Path) -> Result<(Vec<Input>, Vec<PathBuf>), BatchError> {
         let files = coordinate_files(&[self.reference.to_owned()], Some(out))?;
         let belongs = |input: &Input| {
@@ -48,7 +53,7 @@ impl Pairs<'_> {
         Ok((marks, ignored.into_iter().map(|i| i.path).collect()))
     }
 
-    /// The image that belongs to a file of marks.
+    /// Returns the image that belongs to a file of marks; `None` if there is none.
     pub fn image(&self, marks: &Path) -> Option<PathBuf> {
         match &self.options.images {
             Some(given) => self.sought(given, marks, |folder| image_in(folder, &image_name(marks))),
@@ -56,7 +61,8 @@ impl Pairs<'_> {
         }
     }
 
-    /// The file of detections that belongs to a file of marks, never that file itself.
+    /// Returns the file of detections that belongs to a file of marks, never that file itself;
+    /// `None` if there is none.
     pub fn detections(&self, marks: &Path, detected: &Detected) -> Option<PathBuf> {
         let Detected::Files { path: given, .. } = detected else { return None };
         let name = image_name(marks);
@@ -69,7 +75,8 @@ impl Pairs<'_> {
         self.sought(given, marks, in_folder).filter(is_other)
     }
 
-    /// The given file, if it belongs to a file of marks, or what `in_folder` finds in a given folder.
+    /// Returns `given` if it is a file that belongs to `marks`, or, if it is a folder, the file
+    /// that `in_folder` finds in it.
     fn sought(
         &self,
         given: &Path,
@@ -82,12 +89,16 @@ impl Pairs<'_> {
         self.places(marks, given).iter().find_map(|folder| in_folder(folder))
     }
 
-    /// Whether a file that was given instead of a folder belongs to a file of marks: to the only one, whatever their names.
+    /// Returns whether a file that was given instead of a folder belongs to a file of marks.
+    ///
+    /// If there is only one file of marks, it does whatever the names; otherwise both must name the
+    /// same image.
     fn belongs(&self, file: &Path, marks: &Path) -> bool {
         self.reference.is_file() || image_name(file) == image_name(marks)
     }
 
-    /// The folder that lies below the one given as the marks lie below the reference, and the one given.
+    /// Returns the folders to search: the subfolder of `folder` that corresponds to the one in
+    /// which the marks lie below the reference, and `folder` itself.
     fn places(&self, marks: &Path, folder: &Path) -> [PathBuf; 2] {
         let below = marks.parent().and_then(|p| p.strip_prefix(self.reference).ok()).unwrap_or(Path::new(""));
         [folder.join(below), folder.to_owned()]

@@ -5,12 +5,12 @@ use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
-/// The part of a window whose cones count: a centred rectangle or given edges, in px, in µm or in the unit of the
-/// coordinates.
+/// The part of a window whose cones count: a centred rectangle or one given by its edges, in px, in
+/// µm or in the unit of the coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crop {
     shape: Shape,
-    /// `None`: that of the coordinates; px of an image.
+    /// The unit that was given; `None`: the unit of the coordinates, or px for an image.
     unit: Option<LengthUnit>,
 }
 
@@ -60,16 +60,19 @@ impl fmt::Display for Crop {
 }
 
 impl Crop {
-    /// Whether it is in µm, so that an image needs a scale.
+    /// Returns whether the crop is in µm, so that an image needs a scale.
     pub fn in_micrometres(&self) -> bool {
         self.unit == Some(LengthUnit::Micrometre)
     }
 
-    /// The rectangle, in the `unit` of `bounds`, in which it is centred; `None` if none of it lies within. `option` is what
-    /// it was given as.
+    /// Returns the rectangle that the crop cuts out of `bounds`, both in `unit`; `None` if it has
+    /// no area within them.
+    ///
+    /// A crop given as a size is centred in `bounds`. `option` names the option that gave it, for
+    /// the error message.
     ///
     /// # Errors
-    /// If it is in another unit and there is no scale.
+    /// If the crop is in another unit than `unit` and no scale is known to convert it.
     pub(in crate::batch) fn frame(
         &self,
         option: &'static str,
@@ -95,10 +98,12 @@ impl Crop {
         Ok(Rectangle::new(x0, y0, x1.min(bounds.x1()), y1.min(bounds.y1())).ok())
     }
 
-    /// The window, in px, that the crop leaves of an image of `width` × `height` px.
+    /// Returns the window, in px, that the crop leaves of an image of `width` × `height` px.
+    ///
+    /// `option` names the option that gave the crop, for the error message.
     ///
     /// # Errors
-    /// If it leaves nothing, or is in µm and there is no scale.
+    /// If the crop leaves nothing of the image, or is in µm and no scale is known.
     pub(super) fn window(
         &self,
         option: &'static str,

@@ -5,7 +5,8 @@ use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
-/// A positive length: in the unit of the coordinates, or in µm.
+/// A positive length, either in the unit of the coordinates or in µm (text that ends in `um` or
+/// `µm`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Length {
     value: f64,
@@ -42,10 +43,12 @@ impl Serialize for Length {
 }
 
 impl Length {
-    /// In the unit of the mosaic. `option` is what it was given as.
+    /// Returns the length in the unit of `mosaic`.
+    ///
+    /// `option` names the option that gave the length, for the error message.
     ///
     /// # Errors
-    /// If it is in µm and no scale is known.
+    /// If the length is in µm and the scale of the mosaic is not known.
     pub(in crate::batch) fn of(
         &self,
         option: &'static str,

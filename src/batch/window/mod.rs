@@ -1,4 +1,4 @@
-//! Windows: where the cones of an image or the points of a file could have been seen.
+//! Windows: the area in which the cones of an image, or the points of a file, could have been seen.
 
 mod crop;
 mod length;

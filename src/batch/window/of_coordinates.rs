@@ -8,20 +8,22 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-/// Where the points of a coordinate file could have been seen.
+/// The area in which the points of a coordinate file could have been seen.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Region {
-    /// The unit square.
+    /// The unit square, `[0, 1] × [0, 1]`.
     Unit,
-    /// An image of this size: [−.5, W−.5] × [−.5, H−.5] px; in µm [0, W] × [0, H].
+    /// The area of an image of this width and height: `[−.5, W−.5] × [−.5, H−.5]` in px, in any
+    /// other unit `[0, W] × [0, H]`.
     Size(f64, f64),
     /// Left, upper, right and lower edge, in the unit of the coordinates.
     Edges([f64; 4]),
-    /// What was imaged of the image of that name beside the file; see [`imaged_area`].
+    /// The imaged part of the image that belongs to the file; see [`imaged_area`].
     Auto,
-    /// All of that image.
+    /// The whole of the image that belongs to the file.
     Image,
-    /// The polygons in a file, in the unit of the coordinates unless it names another; see [`read_outline`].
+    /// Polygons from this file, in the unit of the coordinates unless the file names another; see
+    /// [`read_outline`].
     File(PathBuf),
 }
 
@@ -61,17 +63,20 @@ impl fmt::Display for Region {
     }
 }
 
-/// Windows of coordinate files: what was asked for, its file read.
+/// Windows of the coordinate files of a batch, with the outline read if one was given as a file.
 pub(in crate::batch) struct Regions<'a> {
     asked: &'a Region,
-    /// Folder of the images; `None`: beside the files.
+    /// The folder of the images, or the only image; `None`: the images lie beside the coordinate
+    /// files.
     images: Option<&'a Path>,
     outline: Option<OutlineFile>,
 }
 
 impl<'a> Regions<'a> {
+    /// Prepares the windows that `options` ask for.
+    ///
     /// # Errors
-    /// If the file of a window cannot be read.
+    /// If the window is given as a file and that file cannot be read.
     pub(in crate::batch) fn new(options: &'a CoordinatesOptions) -> Result<Self, BatchError> {
         let outline = match &options.region {
             Region::File(path) => Some(read_outline(path, &options.read)?),
@@ -80,7 +85,7 @@ impl<'a> Regions<'a> {
         Ok(Self { asked: &options.region, images: options.images.as_deref(), outline })
     }
 
-    /// The image that a coordinate file belongs to.
+    /// Returns the image that belongs to a coordinate file; `None` if there is none.
     fn image_of(&self, file: &Path) -> Option<PathBuf> {
         match self.images {
             Some(image) if image.is_file() => Some(image.to_owned()),
@@ -89,17 +94,20 @@ impl<'a> Regions<'a> {
         }
     }
 
-    /// The window of a coordinate file, in `unit`, and the scale of its pixels.
+    /// Returns the window of a coordinate file, in `unit`, and the scale of its pixels if that is
+    /// known.
     ///
     /// # Errors
-    /// If there is no image beside the file where one is needed, or units do not agree and there is no scale.
+    /// If an image is needed and none is found, or the window is in another unit than the
+    /// coordinates and no scale is known to convert it.
     pub(in crate::batch) fn of(
         &self,
         file: &Path,
         unit: LengthUnit,
         scales: &ScaleSource,
     ) -> Result<(Window, Option<Scale>), BatchError> {
-        // a window, the unit it is in, and the width of the image
+        // the window, its unit, and the width of the image in `unit` (or in px where the window is
+        // an image), by which a scale may be computed
         let (window, given, width) = match (self.asked, &self.outline) {
             (Region::Auto | Region::Image, _) => {
                 let beside =
@@ -133,7 +141,7 @@ impl<'a> Regions<'a> {
         };
         let missing = || BatchError::NoScale { what: "one of window and coordinates", file: file.to_owned() };
         let window = match (given, unit) {
-            // as its coordinates, see `load`
+            // tissue that shrank: `load` expands the coordinates by the same factor
             (LengthUnit::Micrometre, LengthUnit::Micrometre) if scales.expansion() != 1. => {
                 window.scaled(scales.expansion())?
             }

@@ -11,14 +11,14 @@ use std::str::FromStr;
 /// The area of an image whose cones count.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum ImageWindow {
-    /// What was imaged: all but black margins. See [`imaged_area`].
+    /// The part that was imaged: everything but black margins. See [`imaged_area`].
     #[default]
     Auto,
-    /// All of the image.
+    /// The whole image, with its margins.
     Image,
-    /// A rectangle.
+    /// A rectangle, centred or given by its edges.
     Rectangle(Crop),
-    /// The polygons in a file; see [`read_outline`].
+    /// The polygons in this file; see [`read_outline`].
     File(PathBuf),
 }
 
@@ -52,7 +52,7 @@ impl fmt::Display for ImageWindow {
     }
 }
 
-/// Windows of a run: what was asked for, its file read.
+/// Windows of the images of a run, with the outline read if one was given as a file.
 pub(in crate::batch) struct ImageWindows<'a> {
     asked: &'a ImageWindow,
     crop: Option<&'a Crop>,
@@ -60,8 +60,10 @@ pub(in crate::batch) struct ImageWindows<'a> {
 }
 
 impl<'a> ImageWindows<'a> {
+    /// Prepares the windows that were asked for.
+    ///
     /// # Errors
-    /// If the file of a window cannot be read.
+    /// If the window is given as a file and that file cannot be read.
     pub(in crate::batch) fn new(asked: &'a ImageWindow, crop: Option<&'a Crop>) -> Result<Self, BatchError> {
         let outline = match asked {
             ImageWindow::File(path) => Some(read_outline(path, &ReadOptions::default())?),
@@ -70,10 +72,10 @@ impl<'a> ImageWindows<'a> {
         Ok(Self { asked, crop, outline })
     }
 
-    /// The window of an image in px: what was asked for, within the image and the crop.
+    /// Returns the window of an image in px: the area asked for, cut to the image and to the crop.
     ///
     /// # Errors
-    /// If nothing is left, or a length is in µm and there is no scale.
+    /// If nothing is left of the image, or a length is in µm and no scale is known.
     pub(in crate::batch) fn of(
         &self,
         file: &Path,
@@ -102,7 +104,7 @@ impl<'a> ImageWindows<'a> {
     }
 }
 
-/// The window of a file in px.
+/// Converts the window of a file to px.
 fn pixels_of(outline: &OutlineFile, file: &Path, scale: Option<Scale>) -> Result<Window, BatchError> {
     let missing = || BatchError::NoScale { what: "the file of the window", file: file.to_owned() };
     match outline.unit {

@@ -1,25 +1,52 @@
+//! Limits of agreement of two methods that measure the same quantity: the range in which 95 % of
+//! their differences lie, if those are normal.
+//!
+//! 1. The bias is the mean difference; the limits are bias ± 1.96 standard deviations (Bland &
+//!    Altman 1986, Lancet 327:307, <https://doi.org/10.1016/S0140-6736(86)90837-8>).
+//! 2. Confidence intervals of the bias and of the limits follow from Student's t distribution
+//!    (Bland & Altman 1999, Statistical Methods in Medical Research 8:135, section 2.2,
+//!    <https://doi.org/10.1177/096228029900800204>).
+
 use super::Interval;
 use crate::stats::{Deviation, moments};
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Two-sided 95 % point of the normal distribution, as Bland & Altman print it.
+/// Two-sided 95 % point of the normal distribution, rounded as Bland & Altman print it.
 const Z: f64 = 1.96;
 
-/// Agreement of two methods that measure the same (Bland & Altman 1986, Lancet 327:307): the differences first − second.
+/// Agreement of two methods that measure the same quantity, from the differences first − second.
+///
+/// Source: Bland & Altman (1986), <https://doi.org/10.1016/S0140-6736(86)90837-8>.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Agreement {
     /// Number of pairs of values.
     pub n: usize,
-    /// Mean difference.
+    /// Mean of the differences first − second.
     pub bias: f64,
-    /// Standard deviation (n − 1) of the differences; `None` of a single one.
+    /// Standard deviation (n − 1) of the differences; `None` for a single difference.
     pub sd: Option<f64>,
-    /// Limits of agreement, bias ± 1.96 standard deviations: between them lie 95 % of normal differences.
+    /// Limits of agreement, bias ± 1.96 standard deviations: 95 % of normal differences lie between
+    /// them. `None` for a single difference.
     pub limits: Option<Interval>,
 }
 
-/// Bias and limits of agreement of `differences`; `None` without any, or if one is not finite.
+/// Returns the bias and the limits of agreement of `differences`.
+///
+/// Returns `None` if there are no differences or one of them is not finite.
+///
+/// # Examples
+/// ```
+/// use conemosaic::compare::agreement;
+///
+/// let [first, second] = [[102., 97., 110., 95.], [100., 99., 107., 96.]]; // cones, two graders
+/// let differences: Vec<f64> = first.iter().zip(second).map(|(a, b)| a - b).collect();
+/// let found = agreement(&differences).ok_or("no differences")?;
+/// assert_eq!(found.bias, 0.5);
+/// let [low, high] = found.limits.ok_or("only one difference")?;
+/// assert!(low < -2. && high > 3.);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn agreement(differences: &[f64]) -> Option<Agreement> {
     let found = moments(differences, Deviation::Sample);
     let bias = found.mean?;
@@ -28,14 +55,18 @@ pub fn agreement(differences: &[f64]) -> Option<Agreement> {
 }
 
 impl Agreement {
-    /// 95 % confidence interval of the bias, bias ± t(n − 1) s/√n, taking the pairs as independent.
+    /// Returns the 95 % confidence interval of the bias, bias ± t(n − 1) s/√n.
+    ///
+    /// The pairs are taken as independent. Returns `None` for a single difference.
     pub fn bias_interval(&self) -> Option<Interval> {
         self.interval(self.bias, 1.)
     }
 
-    /// 95 % confidence intervals of the lower and the upper limit: limit ± t(n − 1) s √(1/n + 1.96²/(2(n − 1)))
-    /// (Bland & Altman 1999, Statistical Methods in Medical Research 8:135, section 2.2), taking the pairs as
-    /// independent.
+    /// Returns the 95 % confidence intervals of the lower and the upper limit of agreement.
+    ///
+    /// Each is limit ± t(n − 1) s √(1/n + 1.96²/(2(n − 1))) (Bland & Altman 1999, section 2.2,
+    /// <https://doi.org/10.1177/096228029900800204>). The pairs are taken as independent. Returns
+    /// `None` for a single difference.
     pub fn limit_intervals(&self) -> Option<[Interval; 2]> {
         let [low, high] = self.limits?;
         let n = self.n as f64;
@@ -43,7 +74,7 @@ impl Agreement {
         Some([self.interval(low, factor)?, self.interval(high, factor)?])
     }
 
-    /// centre ± t s √(factor/n).
+    /// Returns the interval `centre` ± t(n − 1) s √(`factor`/n).
     fn interval(&self, centre: f64, factor: f64) -> Option<Interval> {
         let freedom = self.n.checked_sub(1).filter(|f| *f > 0)? as f64;
         let t = StudentsT::new(0., 1., freedom).ok()?.inverse_cdf(0.975);
@@ -60,9 +91,12 @@ mod tests {
         assert!((a - b).abs() < tolerance, "{a} instead of {b}");
     }
 
-    /// Peak expiratory flow by two meters, 17 subjects, first measurements (Bland & Altman 1986, table 1): printed are a
-    /// mean difference of −2.1 l/min, a standard deviation of 38.8, limits −79.7 and 75.5, and 95 % intervals of
-    /// −22.0 to 17.8 for the bias, and (with a standard error of √(3 s²/n) = 16.3) −114.3 to −45.1 for the lower limit.
+    /// Peak expiratory flow of 17 subjects by two meters, first measurements (Bland & Altman 1986,
+    /// table 1), in l/min.
+    ///
+    /// The paper prints a mean difference of −2.1, a standard deviation of 38.8, limits of −79.7
+    /// and 75.5, and 95 % intervals of −22.0 to 17.8 for the bias and of −114.3 to −45.1 for the
+    /// lower limit, the latter with a standard error of √(3 s²/n) = 16.3.
     const FIRST: [f64; 17] = [
         494., 395., 516., 434., 476., 557., 413., 442., 650., 433., 417., 656., 267., 478., 178., 423., 427.,
     ];
@@ -76,14 +110,15 @@ mod tests {
         let found = agreement(&differences).unwrap();
         near(found.bias, -2.1, 0.05);
         near(found.sd.unwrap(), 38.8, 0.05);
-        // they double the standard deviation where 1.96 belongs: −2.1 ± 76
+        // the paper's limits are −2.1 ± 76, because it doubles the standard deviation instead of
+        // multiplying it by 1.96
         let [low, high] = found.limits.unwrap();
         near(low, -2.12 - 1.96 * 38.77, 0.02);
         near(high, -2.12 + 1.96 * 38.77, 0.02);
         let [from, to] = found.bias_interval().unwrap();
         near(from, -22., 0.1);
         near(to, 17.8, 0.1);
-        // 1 + 1.96²/2 · n/(n − 1) is 3.04, where they round to 3
+        // 1 + 1.96²/2 · n/(n − 1) is 3.04, which the paper rounds to 3
         let [[from, to], _] = found.limit_intervals().unwrap();
         near((to - from) / 2., 2.1199 * 38.77 * (3.041 / 17f64).sqrt(), 0.05);
         near((from + to) / 2., low, 1e-9);

@@ -1,25 +1,37 @@
+//! Bootstrap intervals of statistics of clustered values: whole clusters are drawn anew, and the
+//! spread of the statistic over the resamples gives its interval.
+//!
+//! 1. Draw as many clusters as there are, with replacement, and compute every statistic; repeat.
+//! 2. Leave each cluster out in turn (jackknife), which shows how skewed a statistic is.
+//! 3. Read off the quantiles of the resamples at levels corrected for bias and skewness (BCa; Efron
+//!    1987, Journal of the American Statistical Association 82:171,
+//!    <https://doi.org/10.1080/01621459.1987.10478410>).
+
 use crate::numeric::linear_quantile;
 use crate::numeric::mean;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use statrs::distribution::{ContinuousCDF, Normal};
 
-/// Lower and upper end.
+/// Lower and upper end of an interval, in this order.
 pub type Interval = [f64; 2];
 
-/// Resamples of an interval, unless told otherwise.
+/// Default number of resamples from which an interval is computed.
 pub const RESAMPLES: usize = 5000;
 
-/// Share of the resamples in either tail of a 95 % interval.
+/// Fraction of the resamples in each tail of a 95 % interval.
 const TAIL: f64 = 0.025;
 
-/// 95 % bootstrap intervals, bias-corrected and accelerated (BCa; Efron 1987, Journal of the American Statistical
-/// Association 82:171), of several statistics at once.
+/// Returns the 95 % bootstrap intervals of several statistics at once, bias-corrected and
+/// accelerated (BCa; Efron 1987, <https://doi.org/10.1080/01621459.1987.10478410>).
 ///
-/// `clusters` holds the indexes of the values that belong together (the images of a subject); whole clusters are drawn,
-/// as many as there are, with replacement. `statistics` is given the indexes drawn and returns every statistic, `None`
-/// where it is not defined; such resamples are left out of that statistic's interval. There is no interval from fewer
-/// than two clusters, or if a statistic is not defined for all values together.
+/// `clusters` holds the indices of the values that belong together, such as the images of one
+/// subject. Each resample draws whole clusters with replacement, as many as there are. `statistics`
+/// is given the indices drawn and returns every statistic, or `None` where one is undefined; such a
+/// resample is left out of that statistic's interval.
+///
+/// An interval is `None` for fewer than two clusters, or if its statistic is undefined for all
+/// values together.
 pub fn bootstrap(
     clusters: &[Vec<usize>],
     resamples: usize,
@@ -53,13 +65,15 @@ pub fn bootstrap(
         .collect()
 }
 
+/// Adds every value that is defined and finite to the list of its statistic.
 fn keep_finite(kept: &mut [Vec<f64>], values: Vec<Option<f64>>) {
     for (kept, value) in kept.iter_mut().zip(values) {
         kept.extend(value.filter(|v| v.is_finite()));
     }
 }
 
-/// The interval from the statistic of all values, of the resamples, and of all but one cluster.
+/// Returns the BCa interval of a statistic from its value for all clusters (`estimate`), for the
+/// resamples (`drawn`), and for all clusters but one (`left_out`).
 fn bca(estimate: f64, drawn: &mut [f64], left_out: &[f64], normal: &Normal) -> Option<Interval> {
     drawn.sort_unstable_by(f64::total_cmp);
     let below = drawn.partition_point(|v| *v < estimate);
@@ -73,7 +87,8 @@ fn bca(estimate: f64, drawn: &mut [f64], left_out: &[f64], normal: &Normal) -> O
     let tail = |tail: f64| {
         let z = bias + normal.inverse_cdf(tail);
         let corrected = normal.cdf(bias + z / (1. - acceleration * z));
-        // All resamples on one side of the estimate leave the correction undefined, and the plain percentile.
+        // If all resamples lie on one side of the estimate, the correction is undefined and the
+        // plain percentile is used.
         if bias.is_finite() && corrected.is_finite() { corrected } else { tail }
     };
     Some([linear_quantile(drawn, tail(TAIL))?, linear_quantile(drawn, tail(1. - TAIL))?])

@@ -1,42 +1,58 @@
+//! Limits of agreement where several pairs of measurements belong together, as the images of one
+//! eye do.
+//!
+//! 1. Split the variance of the differences into a part between and a part within clusters, by
+//!    one-way analysis of variance.
+//! 2. Take the limits of agreement from the sum of both parts (Bland & Altman 2007).
+//! 3. Take the interval of the bias from the number of clusters, those of the limits from the
+//!    intervals of both parts (Zou 2013).
+
 use super::{Agreement, Interval, agreement};
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 
-/// Two-sided 95 % point of the normal distribution, as Bland & Altman print it.
+/// Two-sided 95 % point of the normal distribution, rounded as Bland & Altman print it.
 const Z: f64 = 1.96;
 
-/// Agreement of two methods where several pairs of measurements belong together: the images of an
-/// eye.
+/// Agreement of two methods where several pairs of measurements belong together, as the images of
+/// one eye do.
 ///
-/// Images of one eye err alike, so that they say less than as many images of different eyes. Taken
-/// as independent, they make the intervals too narrow, and the limits of agreement too where eyes
-/// have unequal numbers of images.
+/// Errors in images of one eye are alike, so these tell less than as many images of different eyes.
+/// Taken as independent, they make the intervals too narrow, and also the limits of agreement where
+/// eyes have unequal numbers of images.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClusteredAgreement {
-    /// Number of clusters.
+    /// Number of clusters with at least one difference.
     pub clusters: usize,
-    /// Bias, the mean of all differences; `sd` is the root of both components of their variance
-    /// together.
+    /// Bias (mean of all differences) and limits of agreement. `sd` is the square root of the sum
+    /// of both variance components, between and within clusters.
     pub agreement: Agreement,
-    /// Standard deviation of the clusters' own biases; `None` of fewer than two clusters.
+    /// Standard deviation of the clusters' own biases; `None` for fewer than two clusters.
     pub between_sd: Option<f64>,
-    /// Standard deviation of differences within a cluster; `None` where every cluster has one.
+    /// Standard deviation of the differences within a cluster; `None` where every cluster has one
+    /// difference.
     pub within_sd: Option<f64>,
-    /// 95 % confidence interval of the bias.
+    /// 95 % confidence interval of the bias; `None` for fewer than two clusters.
     pub bias_interval: Option<Interval>,
-    /// 95 % confidence intervals of the lower and the upper limit of agreement.
+    /// 95 % confidence intervals of the lower and the upper limit of agreement; `None` for fewer
+    /// than two clusters.
     pub limit_intervals: Option<[Interval; 2]>,
 }
 
-/// Returns bias and limits of agreement of `differences`, the indices of a cluster's in each of
-/// `clusters`; `None` without any, or if one is not finite.
+/// Returns the bias and the limits of agreement of `differences` that fall into clusters.
 ///
-/// Every cluster is taken to have a bias of its own, the true value of what is measured being
-/// another in every image: components of the variance by one-way analysis of variance, the limits
-/// from their sum (Bland & Altman 2007, section 3, J Biopharm Stat 17:571,
-/// <https://doi.org/10.1080/10543400701329422>). The interval of the bias has as many degrees of
-/// freedom as there are clusters, less one; those of the limits recover the variance of either
-/// component (Zou 2013, Stat Methods Med Res 22:630, <https://doi.org/10.1177/0962280211402548>).
-/// Where each cluster has one difference, all is as [`agreement`] has it.
+/// `clusters` holds, for each cluster, the indices of its differences. Returns `None` if there are
+/// no differences or one of them is not finite.
+///
+/// The model gives every cluster a bias of its own and lets the true value of the measured quantity
+/// differ from image to image. The variance components come from one-way analysis of variance, the
+/// limits from their sum (Bland & Altman 2007, section 3, J Biopharm Stat 17:571,
+/// <https://doi.org/10.1080/10543400701329422>).
+///
+/// The interval of the bias has one degree of freedom fewer than there are clusters. The intervals
+/// of the limits are put together from those of the two components (“variance estimates recovery”;
+/// Zou 2013, Stat Methods Med Res 22:630, <https://doi.org/10.1177/0962280211402548>).
+///
+/// If each cluster has a single difference, the result equals that of [`agreement`].
 pub fn agreement_of_clusters(differences: &[f64], clusters: &[Vec<usize>]) -> Option<ClusteredAgreement> {
     let plain = agreement(differences)?;
     let groups: Vec<Vec<f64>> = clusters
@@ -67,25 +83,28 @@ pub fn agreement_of_clusters(differences: &[f64], clusters: &[Vec<usize>]) -> Op
     })
 }
 
-/// Components of the variance of differences in clusters.
+/// Variance components of differences that fall into clusters.
 #[derive(Clone, Copy)]
 struct Components {
-    /// Clusters and differences.
+    /// Number of clusters, as a float.
     clusters: f64,
+    /// Number of differences in all clusters.
     n: f64,
-    /// Sum of squared sizes of the clusters, and their harmonic mean.
+    /// Sum of the squared sizes of the clusters.
     squared_sizes: f64,
+    /// Harmonic mean of the sizes of the clusters.
     harmonic_size: f64,
-    /// Variance of the clusters' biases.
+    /// Variance of the clusters' own biases.
     between: f64,
-    /// Variance within a cluster.
+    /// Variance of the differences within a cluster.
     within: f64,
-    /// Variance (n − 1) of the clusters' means.
+    /// Variance (n − 1) of the clusters' mean differences.
     of_means: f64,
 }
 
 impl Components {
-    /// Of clusters not all of which have a single difference; `None` of a single cluster.
+    /// Estimates the components; `None` for a single cluster. At least one cluster must have more
+    /// than one difference.
     fn of(groups: &[Vec<f64>], bias: f64) -> Option<Self> {
         let clusters = groups.len() as f64;
         if groups.len() < 2 {
@@ -99,7 +118,7 @@ impl Components {
         let within_squares: f64 =
             groups.iter().zip(&means).flat_map(|(g, mean)| g.iter().map(move |v| square(v - mean))).sum();
         let within = within_squares / (n - clusters);
-        // what a cluster counts for where sizes differ
+        // effective cluster size where sizes differ
         let size = (n * n - squared_sizes) / ((clusters - 1.) * n);
         let between = ((between_squares / (clusters - 1.) - within) / size).max(0.);
         let middle = means.iter().sum::<f64>() / clusters;
@@ -112,7 +131,7 @@ impl Components {
         self.between + self.within
     }
 
-    /// Variance of the mean of all differences.
+    /// Returns the variance of the mean of all differences.
     fn of_bias(&self) -> f64 {
         (self.between * self.squared_sizes / self.n + self.within) / self.n
     }
@@ -123,9 +142,9 @@ impl Components {
         Some([bias - reach, bias + reach])
     }
 
-    /// By the closed form of Zou (2013), equations 4–6.
+    /// Returns the 95 % intervals of both limits by the closed form of Zou (2013), equations 4–6.
     fn limit_intervals(&self, bias: f64) -> Option<[Interval; 2]> {
-        // how far each component of the variance reaches downwards and upwards
+        // distance from a variance component down and up to the ends of its own interval
         let reach = |part: f64, freedom: f64| -> Option<[f64; 2]> {
             let chi = ChiSquared::new(freedom).ok()?;
             let ratio = |q: f64| freedom / chi.inverse_cdf(q);
@@ -154,9 +173,11 @@ mod tests {
         assert!((a - b).abs() < 1e-9, "{a} instead of {b}");
     }
 
-    /// Means of three clusters 1, 4 and 7 (mean 4, variance 9), within each −1, 0, 1: sums of
-    /// squares 54 between (two degrees of freedom, mean square 27), 6 within (six, mean square 1);
-    /// (27 − 1)/3 = 26/3 between clusters.
+    /// Three clusters with means 1, 4 and 7 (mean 4, variance 9) that each hold their mean and −1,
+    /// 0, 1.
+    ///
+    /// Sums of squares: 54 between clusters (two degrees of freedom, mean square 27), 6 within
+    /// (six, mean square 1). The component between clusters is (27 − 1)/3 = 26/3.
     #[test]
     fn components_are_those_counted_by_hand() {
         let differences = [0., 1., 2., 3., 4., 5., 6., 7., 8.];
@@ -167,8 +188,8 @@ mod tests {
         near(found.between_sd.unwrap().powi(2), 26. / 3.);
         near(found.agreement.sd.unwrap().powi(2), 29. / 3.);
         near(found.agreement.limits.unwrap()[1], 4. + 1.96 * (29f64 / 3.).sqrt());
-        // clusters of one size: the interval is that of the three means, t of two degrees of
-        // freedom 4.302653
+        // clusters of one size: the interval is that of the three means; t of two degrees of
+        // freedom is 4.302653
         near((found.bias_interval.unwrap()[1] - 4.) / 3f64.sqrt(), 4.302_652_729_696_142);
     }
 

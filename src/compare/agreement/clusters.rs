@@ -1,5 +1,7 @@
-/// Returns the images of every group, by index: groups in order of name, without names every image
-/// its own.
+/// Groups images by name and returns the indices of the images of every group.
+///
+/// Groups are sorted by name, images within a group by index. An image without a name is a group of
+/// its own; such groups come first.
 pub fn clusters(names: &[Option<&str>]) -> Vec<Vec<usize>> {
     let mut clusters: Vec<(Option<&str>, Vec<usize>)> = Vec::new();
     let mut order: Vec<usize> = (0..names.len()).collect();

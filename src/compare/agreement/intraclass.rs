@@ -1,35 +1,53 @@
+//! Intraclass correlations and repeatability from a two-way analysis of variance of a complete
+//! table of items × raters.
+//!
+//! 1. Split the sum of squares into items, raters and a rest.
+//! 2. Form ICC(2,1), absolute agreement, and ICC(3,1), consistency, from the mean squares (Shrout &
+//!    Fleiss 1979, <https://doi.org/10.1037/0033-2909.86.2.420>).
+//! 3. Take their intervals from quantiles of the F distribution (McGraw & Wong 1996,
+//!    <https://doi.org/10.1037/1082-989X.1.1.30>).
+
 use super::Interval;
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
-/// Reliability of measurements of the same items by several raters, sessions or programs, each item measured once by each, by
-/// analysis of variance (Shrout & Fleiss 1979; McGraw & Wong 1996).
+/// Reliability of measurements of the same items by several raters, sessions or programs, each item
+/// measured once by each.
+///
+/// Computed by analysis of variance: Shrout & Fleiss (1979),
+/// <https://doi.org/10.1037/0033-2909.86.2.420>; McGraw & Wong (1996),
+/// <https://doi.org/10.1037/1082-989X.1.1.30>.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Intraclass {
-    /// Items.
+    /// Number of items measured.
     pub items: usize,
-    /// Raters.
+    /// Number of raters, sessions or programs.
     pub raters: usize,
-    /// ICC(2,1), absolute agreement of single measurements by raters drawn at random: differences of their means count against it.
-    /// `None` where nothing varies.
+    /// Absolute agreement, ICC(2,1): reliability of single measurements by raters drawn at random.
+    /// Differences between the raters' means lower it. `None` where nothing varies.
     pub agreement: Option<f64>,
-    /// 95 % interval of it (McGraw & Wong 1996, case 2A).
+    /// 95 % confidence interval of `agreement` (McGraw & Wong 1996, case 2A).
     pub agreement_interval: Option<Interval>,
-    /// ICC(3,1), consistency of single measurements by these raters: differences of their means do not count. `None` where nothing
-    /// varies.
+    /// Consistency, ICC(3,1): reliability of single measurements by exactly these raters.
+    /// Differences between their means do not lower it. `None` where nothing varies.
     pub consistency: Option<f64>,
-    /// 95 % interval of it (case 3C).
+    /// 95 % confidence interval of `consistency` (McGraw & Wong 1996, case 3C).
     pub consistency_interval: Option<Interval>,
-    /// Standard deviation of the measurements of one item, in their unit (Bland & Altman 1996, BMJ 313:744).
+    /// Within-item standard deviation: that of repeated measurements of one item, in their unit
+    /// (Bland & Altman 1996, BMJ 313:744, <https://doi.org/10.1136/bmj.313.7059.744>).
     pub within_sd: f64,
-    /// Of two measurements of one item 95 % differ by less than this, 1.96 √2 times that deviation.
+    /// Repeatability coefficient, 1.96 √2 `within_sd`: 95 % of pairs of measurements of one item
+    /// differ by less.
     pub repeatability: f64,
-    /// That deviation over the mean of all measurements, in per cent; `None` where the mean is 0.
+    /// Within-item coefficient of variation: `within_sd` in per cent of the mean of all
+    /// measurements. `None` where that mean is 0.
     pub within_cv_percent: Option<f64>,
 }
 
-/// Intraclass correlations of a table with a row an item and a column a rater; `None` for fewer than two of either, rows of different
-/// lengths, or a value that is not finite.
+/// Returns the intraclass correlations of a table with one row per item and one column per rater.
+///
+/// Returns `None` for fewer than two items or raters, for rows of different lengths, or if a value
+/// is not finite.
 pub fn intraclass(rows: &[Vec<f64>]) -> Option<Intraclass> {
     let (items, raters) = (rows.len(), rows.first()?.len());
     let sound = rows.iter().all(|r| r.len() == raters && r.iter().all(|v| v.is_finite()));
@@ -44,7 +62,7 @@ pub fn intraclass(rows: &[Vec<f64>]) -> Option<Intraclass> {
     let between_items = k * squares(&mut rows.iter().map(|r| r.iter().sum::<f64>() / k));
     let rater = |j: usize| rows.iter().map(|r| r[j]).sum::<f64>() / n;
     let between_raters = n * squares(&mut (0..raters).map(rater));
-    // what is left of a sum of squares may be rounding
+    // rounding may leave a sum of squares slightly below 0
     let rest = (total - between_items - between_raters).max(0.);
     let (msr, msc, mse) = (between_items / (n - 1.), between_raters / (k - 1.), rest / ((n - 1.) * (k - 1.)));
     let within_sd = ((between_raters + rest) / (n * (k - 1.))).sqrt();
@@ -111,7 +129,7 @@ mod tests {
         let near = |a: f64, b: f64| assert!((a - b).abs() < 0.005, "{a} instead of {b}");
         near(found.agreement.unwrap(), 0.29);
         near(found.consistency.unwrap(), 0.71);
-        // mean squares are printed too: within items 6.26
+        // the paper prints mean squares too: 6.26 within items
         near(found.within_sd.powi(2), 6.26);
         let [[a, b], [c, d]] = [found.agreement_interval.unwrap(), found.consistency_interval.unwrap()];
         assert!(a < 0.29 && 0.29 < b && b < 1. && c < 0.71 && 0.71 < d && d < 1.);
@@ -135,7 +153,7 @@ mod tests {
         let mut normal = || (0..12).map(|_| rng.random::<f64>()).sum::<f64>() - 6.;
         let (mut agree, mut consistent) = (0, 0);
         for _ in 0..400 {
-            // variances 4 of items, 1 of raters, 1 of the rest
+            // variances: 4 of items, 1 of raters, 1 of the rest
             let raters: Vec<f64> = (0..4).map(|_| normal()).collect();
             let rows: Vec<Vec<f64>> = (0..15)
                 .map(|_| {
@@ -149,7 +167,7 @@ mod tests {
             consistent += usize::from(covers(found.consistency_interval, 4. / 5.));
         }
         println!("{agree} and {consistent} of 400");
-        // 380 expected, standard deviation 4.4
+        // 380 expected, with a standard deviation of 4.4
         assert!((362..=398).contains(&agree) && (365..=395).contains(&consistent), "{agree} {consistent}");
     }
 

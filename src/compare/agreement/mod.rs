@@ -1,4 +1,5 @@
-//! How far two series of values of the same things agree.
+//! Agreement between two series of measurements of the same items: limits of agreement, intraclass
+//! correlation, bootstrap intervals and permutation tests.
 
 mod bland_altman;
 mod bootstrap;

@@ -1,19 +1,30 @@
+//! Paired permutation test by flipping signs: if two methods do not differ, every difference could
+//! as well have had the other sign.
+//!
+//! 1. Sum the differences of each cluster, whose signs flip together.
+//! 2. Try all choices of signs, or draw some where there are too many.
+//! 3. Count the choices whose sum lies at least as far from zero as the observed one (Fisher 1935,
+//!    The Design of Experiments, section 21).
+
 use crate::numeric::mean;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-/// Up to so many clusters every choice of signs is tried (65,536); beyond, as many are drawn as
-/// below.
+/// Largest number of clusters for which every choice of signs is tried (2¹⁶ = 65,536 choices).
 const MOST_EXACT: usize = 16;
+/// Number of choices of signs drawn at random where there are more clusters than that.
 const DRAWN: usize = 49_999;
 
-/// Two-sided p-value of a paired sign-flip permutation test (Fisher 1935, The Design of
-/// Experiments, section 21): how often the mean difference is at least as far from zero as it is,
-/// if every difference might as well have the other sign.
+/// Returns the two-sided p-value of a paired sign-flip permutation test that the mean difference is
+/// zero (Fisher 1935, The Design of Experiments, section 21).
 ///
-/// The differences of a cluster (the images of a subject) change sign together. Up to 16 clusters
-/// all signs are tried, and p is exact (its least value is 2 / 2ⁿ: .06 for 5 clusters, .008 for 8);
-/// of more, 49,999 draws, and p is (1 + as far) / 50,000. `None` without differences.
+/// The p-value is the fraction of choices of signs whose mean difference lies at least as far from
+/// zero as the observed one. The differences of one cluster (the images of a subject) change sign
+/// together.
+///
+/// For up to 16 clusters all choices are tried and p is exact; its least value is 2 / 2ⁿ: .06 for 5
+/// clusters, .008 for 8. For more, 49,999 choices are drawn and p is (1 + those at least as far) /
+/// 50,000. Returns `None` without differences.
 pub fn sign_flip_test(differences: &[f64], clusters: &[Vec<usize>], rng: &mut ChaCha8Rng) -> Option<f64> {
     mean(differences)?;
     let sums: Vec<f64> = clusters
@@ -21,7 +32,7 @@ pub fn sign_flip_test(differences: &[f64], clusters: &[Vec<usize>], rng: &mut Ch
         .map(|c| c.iter().filter_map(|&i| differences.get(i)).sum())
         .filter(|sum: &f64| *sum != 0.)
         .collect();
-    // What is equal but for rounding is as far.
+    // Sums that are equal but for rounding count as equally far.
     let rounding = 1e-12 * sums.iter().map(|s| s.abs()).sum::<f64>();
     let observed = sums.iter().sum::<f64>().abs() - rounding;
     let is_as_far = |flipped: f64| flipped.abs() >= observed;
@@ -39,9 +50,11 @@ pub fn sign_flip_test(differences: &[f64], clusters: &[Vec<usize>], rng: &mut Ch
     Some((1 + far) as f64 / (1 + DRAWN) as f64)
 }
 
-/// Returns the least p-value that [`sign_flip_test`] can give for so many clusters whose
-/// differences are not all zero: of the 2ⁿ choices of signs two are as far as the one observed.
-/// Below 6 clusters it is above .05, whatever the data.
+/// Returns the least p-value that [`sign_flip_test`] can give for this number of clusters, if none
+/// of their summed differences is zero.
+///
+/// Two of the 2ⁿ choices of signs are always as far from zero as the one observed. Below 6 clusters
+/// the least p-value is above .05, whatever the data.
 pub fn least_p(clusters: usize) -> f64 {
     match i32::try_from(clusters) {
         Ok(0) => 1.,
@@ -75,7 +88,7 @@ mod tests {
 
     #[test]
     fn small_samples_have_the_p_values_counted_by_hand() {
-        // ±1 ±2 ±3 ±4: 1 + 2 + 3 − 4 is 2 or further from 0 in all but the two choices of sum 0
+        // ±1 ±2 ±3 ±4: 1 + 2 + 3 − 4 is 2; all sums but the two that are 0 lie that far from 0
         assert_eq!(p(&[1., 2., 3., -4.], &singles(4)), 14. / 16.);
         // sums of ±1 ±2 ±4 are the odd numbers −7…7, each once: 5 and 7 are as far as 4 + 2 − 1 = 5
         assert_eq!(p(&[-1., 2., 4.], &singles(3)), 4. / 8.);
@@ -83,8 +96,10 @@ mod tests {
         assert_eq!(p(&[0., 0., 0.], &singles(3)), 1.);
     }
 
-    /// Darwin's pairs of crossed and self-fertilised maize, eighths of an inch: Fisher counts 863
-    /// of 32,768 choices of signs with a sum of 314 or more, and as many of −314 or less.
+    /// Darwin's pairs of crossed and self-fertilised maize, in eighths of an inch.
+    ///
+    /// Fisher counts 863 of 32,768 choices of signs with a sum of 314 or more, and as many with
+    /// −314 or less.
     #[test]
     fn darwins_maize_has_fishers_p_value() {
         let maize = [49., -67., 8., 16., 6., 23., 28., 41., 14., 29., 56., 24., 75., 60., -48.];
@@ -102,7 +117,8 @@ mod tests {
     fn drawn_signs_agree_with_all_signs() {
         let differences: Vec<f64> = (0..15).map(|i| f64::from((i * 7) % 15) - 5.5).collect();
         let exact = p(&differences, &singles(15));
-        // two more that hardly matter make it draw
+        // two more differences that hardly matter raise the number of clusters above the exact
+        // test's limit
         let more: Vec<f64> = differences.iter().copied().chain([1e-6, -1e-6]).collect();
         assert!((p(&more, &singles(17)) - exact).abs() < 0.01, "{exact}");
         let alike = vec![1.; 20];

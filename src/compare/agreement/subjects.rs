@@ -1,20 +1,25 @@
 use super::{Interval, agreement, clusters};
 
-/// A mean over subjects of whom some have several images.
+/// Mean of a quantity over subjects, some of whom have several images.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SubjectMean {
-    /// Subjects; `None` where none is named, so that every image counts as a subject of its own.
+    /// Number of subjects; `None` if no value has a name, so that every image counts as its own
+    /// subject.
     pub subjects: Option<usize>,
     /// Mean of the subjects' means; `None` without values.
     pub mean: Option<f64>,
-    /// Standard deviation (n − 1) of the subjects' means over √n; `None` for fewer than two.
+    /// Standard error of the mean: standard deviation (n − 1) of the subjects' means over √n.
+    /// `None` for fewer than two subjects.
     pub standard_error: Option<f64>,
-    /// 95 % interval of the mean, mean ± t(n − 1) standard errors.
+    /// 95 % confidence interval of the mean, mean ± t(n − 1) standard errors; `None` for fewer than
+    /// two subjects.
     pub interval: Option<Interval>,
 }
 
-/// Averages finite values, each with the name of its subject. Values of one subject are not independent:
-/// every subject counts once, with the mean of its values. A value without a name stands alone.
+/// Averages finite values over subjects; each value comes with the name of its subject.
+///
+/// Values of one subject are not independent, so every subject counts once, with the mean of its
+/// values. A value without a name counts as a subject of its own.
 pub fn mean_over_subjects(values: &[(Option<&str>, f64)]) -> SubjectMean {
     let names: Vec<Option<&str>> = values.iter().map(|(name, _)| *name).collect();
     let of_subject = |images: &Vec<usize>| {
@@ -23,7 +28,7 @@ pub fn mean_over_subjects(values: &[(Option<&str>, f64)]) -> SubjectMean {
     };
     let means: Vec<f64> = clusters(&names).iter().map(of_subject).collect();
     let subjects = names.iter().any(Option::is_some).then_some(means.len());
-    // mean and interval are those of the bias of as many differences
+    // mean and interval of the subjects' means are those of the bias of as many differences
     let Some(found) = agreement(&means) else { return SubjectMean { subjects, ..SubjectMean::default() } };
     SubjectMean {
         subjects,

@@ -1,15 +1,22 @@
+//! Optimal one-to-one assignment on a sparse bipartite graph.
+//!
+//! 1. The graph is split into its connected components, which are many and small; each is solved
+//!    alone.
+//! 2. Within a component, rows are added one at a time by successive shortest augmenting paths with
+//!    potentials (Jonker & Volgenant 1987, <https://doi.org/10.1007/BF02278710>, on sparse graphs):
+//!    Dijkstra's search over reduced costs finds the cheapest way to place the new row, moving
+//!    others if needed.
+//! 3. Every row also has a private column that stands for “unassigned” and costs more than any
+//!    rearrangement of its component can save.
+
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// The largest one-to-one assignment along candidate edges, and of all largest ones that of least total cost.
+/// Computes the largest one-to-one assignment along candidate edges; among all largest ones, that
+/// of least total cost.
 ///
-/// `candidates[row]` holds the columns a row may take and what each costs, between 0 and `limit`. The graph falls
-/// into many small connected components; each is solved alone, by successive shortest augmenting paths with
-/// potentials (Jonker & Volgenant 1987, on sparse graphs): a row is added at a time, Dijkstra's search over reduced
-/// costs finds the cheapest way to place it, moving others if need be. Every row also has a private column that
-/// stands for "unassigned" and costs more than any rearrangement of its component can save.
-///
-/// Returns the column and cost of every row, `None` for those that get none.
+/// `candidates[row]` holds the columns that a row may take and the cost of each, between 0 and
+/// `limit`. Returns the column and cost of every row; `None` for a row that gets no column.
 pub(super) fn assign(
     candidates: &[Vec<(usize, f64)>],
     columns: usize,
@@ -43,7 +50,8 @@ pub(super) fn assign(
     result
 }
 
-/// Rows that have candidates, grouped by what they can reach of each other.
+/// Groups the rows that have candidates into connected components: rows that share columns,
+/// directly or through other rows.
 fn components(candidates: &[Vec<(usize, f64)>], columns: usize) -> Vec<Vec<usize>> {
     let mut rows_of = vec![Vec::new(); columns];
     for (row, edges) in candidates.iter().enumerate() {
@@ -76,14 +84,21 @@ fn components(candidates: &[Vec<(usize, f64)>], columns: usize) -> Vec<Vec<usize
     components
 }
 
-/// One connected component; column `real + row` is the private column of a row.
+/// Connected component of the graph; column `real + row` is the private column of a row.
 struct Component<'a> {
+    /// Candidates of each row: column and cost.
     edges: &'a [Vec<(usize, f64)>],
+    /// Number of columns that are not private.
     real: usize,
+    /// Cost of a private column.
     unassigned: f64,
+    /// Dual variable of each row.
     row_potential: Vec<f64>,
+    /// Dual variable of each column.
     column_potential: Vec<f64>,
+    /// Column assigned to each row.
     column_of: Vec<usize>,
+    /// Row to which each column is assigned.
     row_of: Vec<Option<usize>>,
 }
 
@@ -93,7 +108,7 @@ impl<'a> Component<'a> {
         Self {
             edges,
             real,
-            // Placing one more row can make each of the others dearer by `limit` at most.
+            // Placing one more row can raise the cost of each of the others by `limit` at most.
             unassigned: (limit + f64::MIN_POSITIVE) * (rows + 1) as f64,
             row_potential: vec![0.; rows],
             column_potential: vec![0.; real + rows],
@@ -102,7 +117,7 @@ impl<'a> Component<'a> {
         }
     }
 
-    /// The column of every row, real or private.
+    /// Returns the column of every row, real or private.
     fn solve(mut self) -> Vec<usize> {
         let columns = self.real + self.edges.len();
         let mut search = Search {
@@ -119,6 +134,7 @@ impl<'a> Component<'a> {
         self.column_of
     }
 
+    /// Adds the row `start` by the cheapest augmenting path and updates the potentials.
     fn place(&mut self, start: usize, search: &mut Search) {
         let mut row = start;
         let mut reached = 0.;
@@ -130,7 +146,7 @@ impl<'a> Component<'a> {
                 let reduced = (cost - self.row_potential[row] - self.column_potential[column]).max(0.);
                 search.offer(column, reached + reduced, row);
             }
-            // The private column of `start` is free, so there is always a next one.
+            // The private column of `start` is free, so there is always a next column.
             let Some(column) = search.next() else { return };
             reached = search.distance[column];
             settled.push(column);
@@ -159,16 +175,21 @@ impl<'a> Component<'a> {
     }
 }
 
-/// Dijkstra's search over columns; kept between searches to spare allocations.
+/// Dijkstra's search over columns; kept between searches to save allocations.
 struct Search {
+    /// Least reduced cost at which each column is known to be reached.
     distance: Vec<f64>,
+    /// Row from which each column is reached at that cost.
     via: Vec<usize>,
+    /// Flag per column: `true` once its distance is final.
     done: Vec<bool>,
+    /// Columns that the next search must reset.
     touched: Vec<usize>,
     heap: BinaryHeap<Waiting>,
 }
 
 impl Search {
+    /// Puts a column into the queue if `distance` is shorter than the shortest known so far.
     fn offer(&mut self, column: usize, distance: f64, via: usize) {
         if !self.done[column] && distance < self.distance[column] {
             self.distance[column] = distance;
@@ -178,6 +199,7 @@ impl Search {
         }
     }
 
+    /// Takes the nearest column out of the queue that was not taken out before.
     fn next(&mut self) -> Option<usize> {
         while let Some(Waiting { column, .. }) = self.heap.pop() {
             if !std::mem::replace(&mut self.done[column], true) {
@@ -187,6 +209,7 @@ impl Search {
         None
     }
 
+    /// Resets the columns that this search touched.
     fn clear(&mut self) {
         for column in self.touched.drain(..) {
             self.distance[column] = f64::INFINITY;
@@ -196,7 +219,7 @@ impl Search {
     }
 }
 
-/// A column in the queue; the nearest is the greatest, ties go to the lower index.
+/// Column in the queue, ordered so that the nearest is the greatest; ties go to the lower index.
 struct Waiting {
     distance: f64,
     column: usize,
@@ -227,7 +250,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Number of rows assigned and total cost of the best assignment, by trying everything.
+    /// Returns the number of rows assigned and the total cost of the best assignment, by trying
+    /// all.
     fn best(candidates: &[Vec<(usize, f64)>], row: usize, taken: u32) -> (usize, f64) {
         let Some(edges) = candidates.get(row) else { return (0, 0.) };
         let mut best_so_far = best(candidates, row + 1, taken);

@@ -1,48 +1,61 @@
+//! Paired comparison of two detectors or graders on the same images: mean differences with
+//! bootstrap intervals and permutation tests.
+
 use super::Score;
 use crate::compare::{Interval, bootstrap, least_p, sign_flip_test};
 use crate::numeric::mean;
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 
-/// A measure of two detectors or graders on the same images.
+/// Comparison of two detectors or graders by one measure on the same images.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Difference {
-    /// What is compared.
+    /// Name of the measure that is compared.
     pub measure: &'static str,
-    /// Images for which both have a value.
+    /// Number of images for which both have a value.
     pub images: usize,
-    /// Mean over these images of the first.
+    /// Mean of the first one's values over these images.
     pub first: f64,
-    /// Mean over these images of the second.
+    /// Mean of the second one's values over these images.
     pub second: f64,
-    /// Mean of the differences first − second of the same image.
+    /// Mean over these images of the differences first − second.
     pub difference: f64,
-    /// Its 95 % BCa bootstrap interval.
+    /// 95 % bootstrap interval (BCa) of the mean difference; `None` for fewer than two groups.
     pub interval: Option<Interval>,
     /// p-value of the paired sign-flip permutation test that the mean difference is zero.
     pub p: Option<f64>,
-    /// The least p-value that the test can give for as many groups as differ at all (images, where there are no groups).
+    /// Least p-value that the test can give for the number of groups that differ at all (of images,
+    /// where there are no groups).
     pub least_p: f64,
 }
 
+/// Name of a measure and its value for one image.
 type Measure = (&'static str, fn(&Score) -> Option<f64>);
 
+/// Measures that do not depend on the scale.
 const RATES: [Measure; 4] = [
     ("dice", |s| Some(s.rates.dice)),
     ("sensitivity", |s| Some(s.rates.sensitivity)),
     ("fdr", |s| Some(s.rates.fdr)),
     ("count", |s| Some(s.detections_inside as f64)),
 ];
+/// Density in cones per mm², for images whose scale is known.
 const PER_MM2: Measure = ("density_per_mm2", |s| density(s, s.area_mm2()));
+/// Density in cones per px², where the scale of some image is unknown.
 const PER_PX2: Measure = ("density_per_px2", |s| density(s, Some(s.area_px)));
 
+/// Returns the number of detections outside the border per unit of `area`; `None` without area.
 fn density(score: &Score, area: Option<f64>) -> Option<f64> {
     area.filter(|a| *a > 0.).map(|a| score.detections_inside as f64 / a)
 }
 
-/// Paired differences of Dice, sensitivity, false discovery rate, count and density (per mm² where every scale is
-/// known, else per px²) of two detectors or graders, each held against the same marks. `clusters` are the images that
-/// belong together: subjects. Every measure begins with the same `rng`, and so has the same resamples.
+/// Returns the paired differences between two detectors or graders that were scored against the
+/// same marks.
+///
+/// Compared are Dice, sensitivity, false discovery rate, count and density (per mm² if the scale of
+/// every image is known, else per px²). Each of `clusters` holds the indices of images that belong
+/// together, as those of one subject do. Every measure starts from a copy of the same `rng`, so all
+/// measures see the same resamples.
 pub fn compare_scores(
     first: &[Score],
     second: &[Score],
@@ -62,6 +75,8 @@ pub fn compare_scores(
         .collect()
 }
 
+/// Compares both sides of `pairs`, one per image, by one measure; `None` if no image has both
+/// values.
 fn difference(
     measure: &'static str,
     pairs: &[Option<(f64, f64)>],

@@ -1,49 +1,63 @@
+//! Free-response ROC curves (FROC): sensitivity against false alarms as the threshold of the score
+//! falls (Bunch et al. 1978).
+//!
+//! 1. Each image is judged once, from the surest detection to the least sure ([`judge`]).
+//! 2. The judged detections of all images are merged by score and counted up, one point of the
+//!    curve per score that occurs ([`froc`]).
+
 use super::Rates;
 use super::matching::{Field, Index, MOST_CANDIDATES, MatchError, MatchOptions, check, reach};
 use crate::geometry::Point;
 use serde::Serialize;
 
-/// What a detection turned out to be.
+/// Outcome of a detection that was compared with the marks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// It has a mark of its own.
+    /// Detection that has a mark of its own, both outside the border.
     Hit,
-    /// It has none.
+    /// Detection outside the border that has no mark.
     FalseAlarm,
-    /// It lies in the border, its mark does not: neither hit nor false alarm, and the mark is no miss.
+    /// Detection in the border whose mark lies outside: neither hit nor false alarm, and the mark
+    /// is no miss.
     Excuse,
-    /// It lies in the border, or its mark does, and nothing follows.
+    /// Detection without consequence: it lies in the border without a mark, or its mark lies there.
     Nothing,
 }
 
-/// A detection, judged.
+/// Detection with its score and outcome.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judged {
-    /// How sure the detector was; more is surer.
+    /// Confidence of the detector; the higher, the surer.
     pub score: f64,
-    /// What it was.
+    /// Outcome of the comparison with the marks.
     pub verdict: Verdict,
 }
 
-/// All detections of an image, judged.
+/// Outcome of all detections in one image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JudgedImage {
-    /// From the highest score to the lowest.
+    /// Judged detections, from the highest score to the lowest.
     pub judged: Vec<Judged>,
-    /// Marks outside the border.
+    /// Number of marks outside the border.
     pub marks: usize,
-    /// Area outside the border in mm², where the scale is known.
+    /// Area outside the border in mm²; `None` if the scale is unknown. [`judge`] leaves it `None`.
     pub area_mm2: Option<f64>,
 }
 
-/// Judges detections from the highest score to the lowest, equal ones in the order given: each takes the nearest mark
-/// within reach that is still free (as Everingham et al. 2010, International Journal of Computer Vision 88:303, section
-/// 4.2). So what a detection is depends on surer ones only, and one run holds for every threshold. Reach and border
-/// are those of [`match_points`](crate::compare::match_points), which lets marks choose instead; the two differ where several
-/// marks and detections are within reach of each other.
+/// Judges the detections of one image from the highest score to the lowest, equal ones in the order
+/// given.
+///
+/// Each takes the nearest mark within reach that is still free (as in Everingham et al. 2010,
+/// International Journal of Computer Vision 88:303, section 4.2,
+/// <https://doi.org/10.1007/s11263-009-0275-4>). The outcome of a detection thus depends on surer
+/// ones only, and one run holds for every threshold.
+///
+/// Reach and border are those of [`match_points`](crate::compare::match_points), which lets marks
+/// choose detections instead. The two differ where several marks and detections are within reach of
+/// each other.
 ///
 /// # Errors
-/// As [`match_points`](crate::compare::match_points).
+/// Fails under the same conditions as [`match_points`](crate::compare::match_points).
 pub fn judge(
     marks: &[Point],
     detections: &[Point],
@@ -79,7 +93,7 @@ pub fn judge(
     Ok(JudgedImage { judged, marks, area_mm2: None })
 }
 
-/// How good the detections are that score at least `threshold`.
+/// Accuracy of the detections that score at least `threshold`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FrocPoint {
     /// Least score of the detections that count.
@@ -88,29 +102,30 @@ pub struct FrocPoint {
     pub sensitivity: f64,
     /// Hits / (hits + false alarms), all images pooled; 0 without either.
     pub precision: f64,
-    /// 2 hits / (2 hits + misses + false alarms), the F1, all images pooled.
+    /// Dice coefficient (F1), 2 hits / (2 hits + misses + false alarms), all images pooled.
     pub dice: f64,
     /// Mean of the images' Dice coefficients.
     pub mean_dice: f64,
-    /// False alarms per image.
+    /// Number of false alarms per image.
     pub false_alarms_per_image: f64,
-    /// False alarms per mm² of retina, where the scale of every image is known.
+    /// False alarms per mm² of retina; `None` unless the scale of every image is known.
     pub false_alarms_per_mm2: Option<f64>,
-    /// False alarms per 100 marks.
+    /// False alarms per 100 marks; `None` without marks.
     pub false_alarms_per_100_marks: Option<f64>,
 }
 
-/// Free-response receiver operating characteristic (Bunch et al. 1978): what every threshold of the score makes of
-/// sensitivity and false alarms.
+/// Free-response receiver operating characteristic (Bunch et al. 1978): sensitivity and false
+/// alarms at every threshold of the score.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Froc {
-    /// One point a score that occurs, the highest first: sensitivity and false alarms never fall.
+    /// One point per score that occurs, the highest first. Sensitivity and false alarms never fall
+    /// along the list.
     pub points: Vec<FrocPoint>,
-    /// Index of the point of the highest mean Dice; of several, the one of the highest threshold.
+    /// Index of the point with the highest mean Dice; of several, that with the highest threshold.
     pub best: usize,
 }
 
-/// The curve of all images together; `None` without detections.
+/// Returns the curve of all images together; `None` without detections.
 pub fn froc(images: &[JudgedImage]) -> Option<Froc> {
     let mut events: Vec<(Judged, usize)> =
         images.iter().enumerate().flat_map(|(i, image)| image.judged.iter().map(move |j| (*j, i))).collect();
@@ -123,7 +138,7 @@ pub fn froc(images: &[JudgedImage]) -> Option<Froc> {
     let mut single: Vec<Counts> =
         images.iter().map(|image| Counts { misses: image.marks, ..Counts::default() }).collect();
     let mut points = Vec::new();
-    // every image's is 0 before its first detection
+    // the Dice coefficient of every image is 0 before its first detection
     let mut sum_of_dice = 0.;
     for (k, (judged, image)) in events.iter().enumerate() {
         all.add(judged.verdict);
@@ -152,6 +167,7 @@ pub fn froc(images: &[JudgedImage]) -> Option<Froc> {
     Some(Froc { points, best })
 }
 
+/// Running counts of hits and errors as the threshold falls.
 #[derive(Clone, Copy, Default)]
 struct Counts {
     hits: usize,
@@ -177,7 +193,8 @@ impl Counts {
 }
 
 impl Froc {
-    /// At most about `count` points, evenly along the curve; first, last and best always.
+    /// Returns about `count` points at most, evenly spaced along the curve; the first, last and
+    /// best are always kept.
     pub fn thinned(&self, count: usize) -> Vec<FrocPoint> {
         let step = self.points.len().div_ceil(count.max(1));
         let last = self.points.len().saturating_sub(1);

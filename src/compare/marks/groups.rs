@@ -4,22 +4,23 @@ use crate::numeric::mean;
 use crate::stats::{Deviation, moments};
 use serde::Serialize;
 
-/// The scores of a subject's images, or of any other group of images.
+/// Scores of the images of one subject, or of any other group of images.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GroupSummary {
-    /// Its name.
+    /// Name of the group.
     pub group: String,
-    /// Means over its images and pooled rates.
+    /// Means over the group's images, and pooled rates.
     #[serde(flatten)]
     pub summary: Summary,
-    /// Standard deviation (n − 1) of its images' Dice coefficients; `None` of a single image.
+    /// Standard deviation (n − 1) of the Dice coefficients of the group's images; `None` for a
+    /// single image.
     pub dice_sd: Option<f64>,
 }
 
-/// What groups have in common, every group counting once.
+/// Means over groups, in which every group counts once.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MeanOverGroups {
-    /// Number of groups.
+    /// Number of groups averaged.
     pub groups: usize,
     /// Mean of the groups' mean sensitivities.
     pub sensitivity: f64,
@@ -29,11 +30,13 @@ pub struct MeanOverGroups {
     pub precision: f64,
     /// Mean of the groups' mean Dice coefficients.
     pub dice: f64,
-    /// Standard deviation (n − 1) of the groups' mean Dice coefficients; `None` of a single group.
+    /// Standard deviation (n − 1) of the groups' mean Dice coefficients; `None` for a single group.
     pub dice_sd: Option<f64>,
 }
 
-/// The summary of every group, in order of name. Images without a group are in none.
+/// Returns the summary of every group, sorted by name.
+///
+/// `names` and `scores` have one entry per image. Images without a group are left out.
 pub fn by_group(names: &[Option<&str>], scores: &[Score]) -> Vec<GroupSummary> {
     let summary_of = |members: Vec<usize>| {
         let group = names[*members.first()?]?.to_owned();
@@ -45,7 +48,7 @@ pub fn by_group(names: &[Option<&str>], scores: &[Score]) -> Vec<GroupSummary> {
     clusters(names).into_iter().filter_map(summary_of).collect()
 }
 
-/// Means over groups; `None` without groups.
+/// Averages the summaries of groups; `None` without groups.
 pub fn mean_over_groups(groups: &[GroupSummary]) -> Option<MeanOverGroups> {
     let values = |value: fn(&Summary) -> f64| groups.iter().map(|g| value(&g.summary)).collect::<Vec<_>>();
     Some(MeanOverGroups {

@@ -1,3 +1,10 @@
+//! Pairing of hand marks with detections, by the rule of Cunefare et al. (2017),
+//! <https://doi.org/10.1038/s41598-017-07103-0>.
+//!
+//! 1. The reach is a fraction of the median nearest-neighbour distance of the marks.
+//! 2. Marks are paired with detections within reach ([`Assignment`]).
+//! 3. Pairs and single points are counted, except in a border along the edges of the image.
+
 use super::assignment::assign;
 use crate::choice::UnknownChoice;
 use crate::geometry::Point;
@@ -7,7 +14,7 @@ use std::num::NonZero;
 use strum::{Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
 use thiserror::Error;
 
-/// Who gets whom where several marks and detections are within reach of each other.
+/// Rule by which marks and detections are paired where several are within reach of each other.
 #[derive(
     Clone,
     Copy,
@@ -31,30 +38,32 @@ use thiserror::Error;
     parse_err_fn = UnknownChoice::among::<Assignment>
 )]
 pub enum Assignment {
-    /// Every mark claims its nearest detection, and of several claims the nearest is granted; the others are
-    /// misses even if a second detection is near (Cunefare et al. 2017).
+    /// Every mark claims its nearest detection; of several claims on one detection, the nearest is
+    /// granted. The other marks are misses even if a second detection is near (Cunefare et al.
+    /// 2017).
     #[default]
     Nearest,
-    /// As many pairs as possible, and of all such sets of pairs the one of least total distance (the "Hungarian"
-    /// assignment). Each mark is offered its 64 nearest detections.
+    /// Largest possible number of pairs; among all such sets of pairs, that of least total distance
+    /// (“Hungarian” assignment). Each mark is offered its 64 nearest detections.
     Optimal,
 }
 
 impl Assignment {
-    /// Returns the word for it in options and tables.
+    /// Returns the name used in options and tables.
     pub fn name(self) -> &'static str {
         self.into()
     }
 }
 
-/// How marks and detections are paired. The defaults are the rule of Cunefare et al. (2017).
+/// Options of the pairing; the defaults are the rule of Cunefare et al. (2017).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MatchOptions {
-    /// Width, in px, of the border in which nothing is counted; 0 and more. Default: 7.
+    /// Width, in px, of the border in which nothing is counted; 0 or more. Default: 7.
     pub border: f64,
-    /// Reach of a mark as a fraction of the median nearest-neighbour distance of the marks; above 0. Default: 0.75.
+    /// Reach of a mark as a positive fraction of the median nearest-neighbour distance of the
+    /// marks. Default: 0.75.
     pub fraction: f64,
-    /// Who gets whom. Default: nearest.
+    /// Rule by which marks and detections are paired. Default: nearest.
     pub assignment: Assignment,
 }
 
@@ -65,8 +74,10 @@ impl Default for MatchOptions {
 }
 
 impl MatchOptions {
+    /// Checks that every option is in its range.
+    ///
     /// # Errors
-    /// If a value is out of its range.
+    /// Returns the first option that is out of its range.
     pub fn validate(&self) -> Result<(), MatchError> {
         if !(self.border.is_finite() && self.border >= 0.) {
             return Err(MatchError::Border(self.border));
@@ -78,28 +89,28 @@ impl MatchOptions {
     }
 }
 
-/// Largest coordinate, in px, whose distances are still exact enough to compare.
+/// Largest coordinate, in px, at which distances are still exact enough to compare.
 const LARGEST: f64 = 1e9;
 
-/// Marks and detections that cannot be paired.
+/// Options, marks or detections that cannot be paired.
 #[derive(Debug, Error, PartialEq)]
 pub enum MatchError {
-    /// A border that is none.
+    /// Border width that is negative or not finite.
     #[error("the border is {0} px: it must be 0 or more")]
     Border(f64),
-    /// A reach that is none.
+    /// Reach that is not a positive number.
     #[error("the reach is {0} × the nearest-neighbour distance: it must be more than 0")]
     Fraction(f64),
-    /// A coordinate that is not a place in an image.
+    /// Coordinate that is no place in an image.
     #[error("{what} {index} is ({x}, {y}): expected pixels between −1e9 and 1e9")]
     Coordinate {
-        /// Mark or detection.
+        /// Kind of point, “mark” or “detection”.
         what: &'static str,
-        /// Its 0-based index.
+        /// 0-based index of the point.
         index: usize,
-        /// Its x.
+        /// Horizontal coordinate in px.
         x: f64,
-        /// Its y.
+        /// Vertical coordinate in px.
         y: f64,
     },
     /// More points than the spatial index can number.
@@ -107,67 +118,69 @@ pub enum MatchError {
     TooMany(usize),
 }
 
-/// A mark and the detection that belongs to it.
+/// Mark and the detection that belongs to it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Pair {
     /// 0-based index of the mark.
     pub mark: usize,
     /// 0-based index of the detection.
     pub detection: usize,
-    /// Their distance in px.
+    /// Distance between the two in px.
     pub distance: f64,
-    /// Neither of them lies in the border: the pair is a hit.
+    /// `true` if neither of them lies in the border, so that the pair is a hit.
     pub counted: bool,
 }
 
-/// Which detection belongs to which mark.
+/// Pairs of marks and detections, and the points left single.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Matching {
-    /// All pairs, by index of the mark.
+    /// All pairs, sorted by index of the mark.
     pub pairs: Vec<Pair>,
-    /// Marks without detection, outside the border: indexes in ascending order.
+    /// Marks outside the border without a detection: indices in ascending order.
     pub misses: Vec<usize>,
-    /// Detections without mark, outside the border: indexes in ascending order.
+    /// Detections outside the border without a mark: indices in ascending order.
     pub false_alarms: Vec<usize>,
-    /// For every mark, whether it lies in the border.
+    /// One flag per mark: `true` if it lies in the border.
     pub marks_in_border: Vec<bool>,
-    /// For every detection, whether it lies in the border.
+    /// One flag per detection: `true` if it lies in the border.
     pub detections_in_border: Vec<bool>,
-    /// Largest distance of a pair, in px.
+    /// Largest distance allowed in a pair, in px.
     pub limit: f64,
-    /// Who got whom.
+    /// Rule by which the points were paired.
     pub assignment: Assignment,
 }
 
 impl Matching {
-    /// Hits: pairs outside the border.
+    /// Returns the number of hits: pairs outside the border.
     pub fn true_positives(&self) -> usize {
         self.pairs.iter().filter(|p| p.counted).count()
     }
 
-    /// Misses: marks without detection, outside the border.
+    /// Returns the number of misses: marks outside the border without a detection.
     pub fn false_negatives(&self) -> usize {
         self.misses.len()
     }
 
-    /// False alarms: detections without mark, outside the border.
+    /// Returns the number of false alarms: detections outside the border without a mark.
     pub fn false_positives(&self) -> usize {
         self.false_alarms.len()
     }
 }
 
-/// Pairs hand marks with detections in an image of `width` × `height` px (Cunefare et al. 2017, Scientific Reports
-/// 7:6620).
+/// Pairs hand marks with detections in an image of `width` × `height` px (Cunefare et al. 2017,
+/// Scientific Reports 7:6620, <https://doi.org/10.1038/s41598-017-07103-0>).
 ///
-/// A pair is at most `fraction` × the median nearest-neighbour distance of the marks apart. Pairs with a member in
-/// the border are neither hits nor errors, and single points there are no errors. A point is in the border if it is
-/// at most `border` − ½ px from the centre of an outermost row or column, so that `border` whole pixels are.
+/// The members of a pair are at most `fraction` × the median nearest-neighbour distance of the
+/// marks apart. Fewer than two marks have no nearest neighbours: then the distance of the
+/// detections is used, and if there are fewer than two of those as well, the width of the border.
 ///
-/// Fewer than two marks have no nearest neighbours: then the detections' distance serves, and if there are fewer
-/// than two of those as well, the width of the border does.
+/// Pairs with a member in the border are neither hits nor errors, and single points there are no
+/// errors. A point is in the border if it is at most `border` − ½ px from the centre of an
+/// outermost row or column, so the border covers `border` whole pixels.
 ///
 /// # Errors
-/// If an option is out of its range or a coordinate is no place in an image.
+/// Fails if an option is out of its range, a coordinate is no place in an image, or there are too
+/// many points for the spatial index.
 pub fn match_points(
     marks: &[Point],
     detections: &[Point],
@@ -212,7 +225,7 @@ pub fn match_points(
     Ok(Matching { pairs, misses, false_alarms, marks_in_border, detections_in_border, limit, assignment })
 }
 
-/// Largest distance of a pair, in px.
+/// Returns the largest distance allowed in a pair, in px.
 pub(super) fn reach(
     marks: &[Point],
     detections: &[Point],
@@ -225,7 +238,7 @@ pub(super) fn reach(
     })
 }
 
-/// An image and the border in it that does not count; all in px.
+/// Image with a border that does not count; all in px.
 #[derive(Clone, Copy)]
 pub(super) struct Field {
     width: f64,
@@ -238,18 +251,20 @@ impl Field {
         Self { width: width as f64, height: height as f64, border }
     }
 
+    /// Returns whether a point lies in the border.
     pub(super) fn is_border(&self, p: &Point) -> bool {
         let Self { width: w, height: h, border: b } = *self;
         p.x <= b - 0.5 || p.x >= w - b - 0.5 || p.y <= b - 0.5 || p.y >= h - b - 0.5
     }
 
-    /// Area that counts, in px².
+    /// Returns the area inside the border, in px².
     pub(super) fn area(&self) -> f64 {
         let side = |pixels: f64| (pixels - 2. * self.border).max(0.);
         side(self.width) * side(self.height)
     }
 }
 
+/// Checks that the coordinates of all points are finite and within ±[`LARGEST`].
 pub(super) fn check(what: &'static str, points: &[Point]) -> Result<(), MatchError> {
     let is_place = |v: f64| v.abs() <= LARGEST;
     match points.iter().enumerate().find(|(_, p)| !(is_place(p.x) && is_place(p.y))) {
@@ -258,7 +273,7 @@ pub(super) fn check(what: &'static str, points: &[Point]) -> Result<(), MatchErr
     }
 }
 
-/// For every mark the index and distance of its detection, if it gets one.
+/// Returns, for every mark, the index and distance of its detection, if it gets one.
 fn nearest(marks: &[Point], detections: &Index, limit: f64) -> Vec<Option<(usize, f64)>> {
     let mut claims: Vec<Option<(usize, f64)>> =
         marks.iter().map(|&m| detections.nearest(m, 2).first().copied().filter(|c| c.1 <= limit)).collect();
@@ -282,11 +297,12 @@ pub(super) struct Index<'a> {
     tree: NeighbourTree,
 }
 
-/// Most detections that a mark is offered: more within reach means that the detections are not cones.
+/// Largest number of detections that a mark is offered. If more are within reach, the detections
+/// are no cones.
 pub(super) const MOST_CANDIDATES: usize = 64;
 
 impl<'a> Index<'a> {
-    /// `None` without points.
+    /// Builds the index; `None` without points.
     pub(super) fn new(points: &'a [Point]) -> Result<Option<Self>, MatchError> {
         if points.is_empty() {
             return Ok(None);
@@ -295,21 +311,24 @@ impl<'a> Index<'a> {
         Ok(Some(Self { points, tree }))
     }
 
-    /// Indexes and distances of the `count` points nearest to `p`, nearest first and ties by index.
+    /// Returns the indices and distances of the `count` points nearest to `p`, the nearest first,
+    /// ties by index.
     fn nearest(&self, p: Point, count: usize) -> Vec<(usize, f64)> {
         self.within(p, f64::INFINITY, count)
     }
 
-    /// The same, up to `limit` away.
+    /// Returns the same for points at most `limit` away.
     pub(super) fn within(&self, p: Point, limit: f64, count: usize) -> Vec<(usize, f64)> {
         let count = NonZero::new(count).unwrap_or(NonZero::<usize>::MIN);
-        // A little further, lest the rounding of squares cuts off what lies at the limit.
+        // Search slightly farther, so that rounding of the squares does not cut off points at the
+        // limit.
         let radius = limit * limit * (1. + 1e-9) + f64::MIN_POSITIVE;
         let mut found = self.sorted(p, self.tree.nearest_within(p, count, radius));
         found.retain(|(_, distance)| *distance <= limit);
         found
     }
 
+    /// Returns the indices and distances of `items`, the nearest to `p` first, ties by index.
     fn sorted(&self, p: Point, items: impl Iterator<Item = usize>) -> Vec<(usize, f64)> {
         let mut found: Vec<(usize, f64)> =
             items.filter_map(|i| self.points.get(i).map(|q| (i, distance(p, *q)))).collect();
@@ -317,10 +336,12 @@ impl<'a> Index<'a> {
         found
     }
 
-    /// Median over the points of the distance to the nearest other one; there must be two points.
+    /// Returns the median over the points of the distance to the nearest other point. There must be
+    /// two points.
     fn median_neighbour_distance(&self) -> f64 {
         let nearest_other = |(i, &p): (usize, &Point)| {
-            // Of several points in one place the point itself need not be among the first two.
+            // Where several points coincide, the point itself need not be among the first two
+            // found.
             self.nearest(p, 2).into_iter().find(|(other, _)| *other != i).map_or(0., |(_, d)| d)
         };
         let mut distances: Vec<f64> = self.points.iter().enumerate().map(nearest_other).collect();
@@ -328,7 +349,8 @@ impl<'a> Index<'a> {
     }
 }
 
-/// As SciPy computes it, so that comparisons with the limit fall on the same side.
+/// Returns the distance computed as SciPy does, so that comparisons with the limit fall on the same
+/// side.
 fn distance(a: Point, b: Point) -> f64 {
     let (dx, dy) = (a.x - b.x, a.y - b.y);
     (dx * dx + dy * dy).sqrt()

@@ -1,4 +1,5 @@
-//! Detections against reference marks: pairs, rates, curves and what groups of images have in common.
+//! Comparison of detections with reference marks: pairs, error rates, FROC curves, reliability of
+//! scores, and summaries over groups of images.
 
 mod assignment;
 mod comparison;

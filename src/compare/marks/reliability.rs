@@ -1,41 +1,54 @@
+//! Reliability of scores as probabilities: detections that score .8 should be right in 80 % of
+//! cases.
+//!
+//! 1. Sort the detections into ten bins of the score.
+//! 2. Compare the mean score of each bin with its fraction of hits.
+//! 3. Summarise by the expected calibration error and the Brier score.
+
 use crate::compare::Interval;
 use serde::Serialize;
 
-/// Bins of equal width between 0 and 1.
+/// Number of bins of equal width between 0 and 1.
 const BINS: usize = 10;
+/// Two-sided 95 % point of the normal distribution.
 const Z: f64 = 1.96;
 
-/// Detections of about the same score.
+/// Bin of detections of about the same score.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ReliabilityBin {
-    /// Least score of the bin.
+    /// Lowest score of the bin.
     pub from: f64,
-    /// Its upper end; it belongs to the next bin, but 1 to the last.
+    /// Upper end of the bin; a score of exactly that belongs to the next bin, but a score of 1 to
+    /// the last.
     pub to: f64,
-    /// Detections in it.
+    /// Number of detections in the bin.
     pub n: usize,
-    /// Their mean score.
+    /// Mean score of these detections; `None` if there are none.
     pub mean_score: Option<f64>,
-    /// How many of them, of 1, are hits.
+    /// Fraction of these detections that are hits; `None` if there are none.
     pub hits: Option<f64>,
-    /// Its 95 % interval (Wilson 1927), taking detections as independent.
+    /// 95 % interval of `hits` (Wilson 1927, <https://doi.org/10.1080/01621459.1927.10502953>),
+    /// with detections taken as independent.
     pub hits_interval: Option<Interval>,
 }
 
-/// Whether scores between 0 and 1 are the probabilities of being right.
+/// Agreement of scores between 0 and 1 with the probability of a hit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reliability {
-    /// Detections judged.
+    /// Number of detections judged.
     pub n: usize,
-    /// Ten bins of equal width.
+    /// Ten bins of equal width, the lowest scores first.
     pub bins: Vec<ReliabilityBin>,
-    /// Expected calibration error (Guo et al. 2017, eq. 3): mean over detections of |hits − mean score| of their bin.
+    /// Expected calibration error: mean over the detections of |hits − mean score| of their bin
+    /// (Guo et al. 2017, eq. 3, <https://doi.org/10.48550/arXiv.1706.04599>).
     pub expected_calibration_error: f64,
-    /// Brier score (1950): mean over detections of (score − hit)², hit being 1 or 0.
+    /// Brier score (1950): mean over the detections of (score − hit)², where hit is 1 or 0.
     pub brier: f64,
 }
 
-/// Reliability of scores, each with whether its detection is a hit; `None` without any, or if one is not between 0 and 1.
+/// Computes the reliability of scores, each given with whether its detection is a hit.
+///
+/// Returns `None` without detections or if a score is not between 0 and 1.
 pub fn reliability(scored: &[(f64, bool)]) -> Option<Reliability> {
     if scored.is_empty() || !scored.iter().all(|(score, _)| (0. ..=1.).contains(score)) {
         return None;
@@ -56,6 +69,7 @@ pub fn reliability(scored: &[(f64, bool)]) -> Option<Reliability> {
     })
 }
 
+/// Summarises the detections of bin number `k`.
 fn bin(k: usize, members: &[(f64, bool)]) -> ReliabilityBin {
     let edge = |k: usize| k as f64 / BINS as f64;
     let n = members.len() as f64;
@@ -71,7 +85,7 @@ fn bin(k: usize, members: &[(f64, bool)]) -> ReliabilityBin {
     }
 }
 
-/// Score interval of a proportion `p` of `n`.
+/// Returns the Wilson score interval of a fraction `p` of `n` trials.
 fn wilson(p: f64, n: f64) -> Interval {
     let squared = Z * Z / n;
     let centre = (p + squared / 2.) / (1. + squared);
@@ -109,7 +123,8 @@ mod tests {
         assert_eq!(reliability(&[]), None);
     }
 
-    /// Brown, Cai & DasGupta 2001 and every statistics program: 10 of 10 has a Wilson interval from 0.7225.
+    /// A Wilson interval of 10 hits of 10 begins at 0.7225, as in Brown, Cai & DasGupta 2001
+    /// (<https://doi.org/10.1214/ss/1009213286>) and every statistics program.
     #[test]
     fn wilson_intervals_end_where_others_do() {
         assert!((wilson(1., 10.)[0] - 0.7225).abs() < 1e-4);

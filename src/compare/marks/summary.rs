@@ -1,13 +1,16 @@
+//! Accuracy over several images: means over images, pooled rates, limits of agreement of counts and
+//! densities, and intervals of all of these.
+
 use super::{Rates, Score};
 use crate::compare::{Agreement, Interval, agreement, bootstrap};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// How well detections agree with hand marks over several images.
+/// Agreement of detections with hand marks over several images.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Summary {
-    /// Number of images.
+    /// Number of images averaged.
     pub images: usize,
     /// Mean of the images' sensitivities.
     pub sensitivity: f64,
@@ -19,21 +22,22 @@ pub struct Summary {
     pub dice: f64,
     /// Mean of the images' localisation errors in px, over images with a hit.
     pub localisation_px: Option<f64>,
-    /// The same in µm, over images whose scale is known.
+    /// Mean of the images' localisation errors in µm, over images with a hit whose scale is known.
     pub localisation_um: Option<f64>,
-    /// The same in hexagonal spacings.
+    /// Mean of the images' localisation errors in hexagonal spacings of the marks.
     pub localisation_s: Option<f64>,
-    /// Mean of the images' mean ways from mark to detection, in px to the right and down.
+    /// Mean of the images' mean displacements from mark to detection, in px to the right and down.
     pub offset_px: Option<[f64; 2]>,
-    /// All images' points counted together.
+    /// Rates of all images' points counted together.
     pub pooled: Rates,
-    /// Detections − marks, both outside the border, in cones per image.
+    /// Agreement of the counts, in cones per image: detections − marks, both outside the border.
     pub count: Option<Agreement>,
-    /// The difference of density as a percentage of the mean of both: 100 (detections − marks) / ½ (detections + marks).
+    /// Agreement of the densities: their difference in per cent of their mean, 100 (detections −
+    /// marks) / ½ (detections + marks).
     pub density_percent: Option<Agreement>,
 }
 
-/// Means over images, pooled rates and agreement; `None` without images.
+/// Computes means over images, pooled rates and agreement; `None` without images.
 pub fn summarise(scores: &[Score]) -> Option<Summary> {
     let values = |value: &dyn Fn(&Score) -> Option<f64>| scores.iter().filter_map(value).collect::<Vec<_>>();
     let mean = |value: &dyn Fn(&Score) -> Option<f64>| crate::numeric::mean(&values(value));
@@ -57,14 +61,15 @@ pub fn summarise(scores: &[Score]) -> Option<Summary> {
     })
 }
 
-/// The difference of two numbers as a percentage of their mean; `None` if both are zero.
+/// Returns the difference of two numbers as a percentage of their mean; `None` if both are zero.
 pub(super) fn percent_of_mean(first: f64, second: f64) -> Option<f64> {
     (first + second > 0.).then(|| 200. * (first - second) / (first + second))
 }
 
+/// Access to one value of a summary.
 type Value = fn(&Summary) -> Option<f64>;
 
-/// What has an interval, by its name in `validation.json`.
+/// Values that get an interval, by their names in `validation.json`.
 const VALUES: &[(&str, Value)] = &[
     ("sensitivity", |s| Some(s.sensitivity)),
     ("fdr", |s| Some(s.fdr)),
@@ -85,9 +90,11 @@ const VALUES: &[(&str, Value)] = &[
     ("density_percent.upper_limit", |s| Some(s.density_percent?.limits?[1])),
 ];
 
-/// 95 % intervals of the values of [`summarise`], by their names in `validation.json`; values without an interval are
-/// missing. They are [`bootstrap()`] intervals over `clusters`; but where every image stands alone, bias and limits of
-/// agreement have the intervals that follow from t (see [`Agreement`]).
+/// Returns the 95 % intervals of the values of [`summarise`], by their names in `validation.json`.
+///
+/// They are [`bootstrap()`] intervals over `clusters`. Where every image is a cluster of its own,
+/// bias and limits of agreement have the intervals that follow from Student's t instead (see
+/// [`Agreement`]). Values without an interval are missing.
 pub fn intervals(
     scores: &[Score],
     clusters: &[Vec<usize>],

@@ -3,29 +3,30 @@ use crate::geometry::Point;
 use crate::mosaic::hexagonal_spacing;
 use serde::Serialize;
 
-/// Counts and the rates that follow from them. 0 / 0 is 0, as in the evaluations published.
+/// Counts of hits and errors with the rates that follow from them. 0 / 0 counts as 0, as in the
+/// published evaluations.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Rates {
-    /// Hits: pairs outside the border.
+    /// Number of hits: pairs outside the border.
     pub tp: usize,
-    /// Misses: marks without detection, outside the border.
+    /// Number of misses: marks outside the border without a detection.
     #[serde(rename = "fn")]
     pub fn_: usize,
-    /// False alarms: detections without mark, outside the border.
+    /// Number of false alarms: detections outside the border without a mark.
     pub fp: usize,
     /// Recall, tp / (tp + fn); 0 without marks.
     pub sensitivity: f64,
     /// False discovery rate, fp / (tp + fp); 0 without detections.
     pub fdr: f64,
-    /// tp / (tp + fp); 0 without detections.
+    /// Precision, tp / (tp + fp); 0 without detections.
     pub precision: f64,
-    /// 2 tp / (2 tp + fp + fn), of points the same as F1, the harmonic mean of sensitivity and precision; 0 if there is
-    /// neither mark nor detection.
+    /// Dice coefficient, 2 tp / (2 tp + fp + fn); 0 if there is neither mark nor detection. For
+    /// points it equals F1, the harmonic mean of sensitivity and precision.
     pub dice: f64,
 }
 
 impl Rates {
-    /// From the numbers of hits, misses and false alarms.
+    /// Computes the rates from the numbers of hits, misses and false alarms.
     pub fn new(tp: usize, fn_: usize, fp: usize) -> Self {
         let ratio = |part: usize, whole: usize| part as f64 / whole.max(1) as f64;
         Self {
@@ -40,55 +41,72 @@ impl Rates {
     }
 }
 
-/// How well the detections of one image agree with hand marks.
+/// Agreement of the detections in one image with hand marks.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Score {
     /// Hits, misses, false alarms and their rates.
     #[serde(flatten)]
     pub rates: Rates,
-    /// Localisation error: median distance, in px, of the pairs outside the border.
+    /// Localisation error: median distance, in px, of the pairs outside the border; `None` without
+    /// pairs.
     pub localisation_px: Option<f64>,
-    /// The same in hexagonal spacings of the marks outside the border.
+    /// Localisation error in hexagonal spacings of the marks outside the border.
     pub localisation_s: Option<f64>,
-    /// Mean way, in px to the right and down, from mark to detection of the pairs outside the border: near zero, unless
-    /// one of the two counts pixels from elsewhere.
+    /// Mean displacement from mark to detection, in px to the right and down, of the pairs outside
+    /// the border. It is near zero unless marks and detections count pixels from different origins.
     pub offset_px: Option<[f64; 2]>,
-    /// Marks outside the border.
+    /// Number of marks outside the border.
     pub marks_inside: usize,
-    /// Detections outside the border.
+    /// Number of detections outside the border.
     pub detections_inside: usize,
-    /// The second over the first: 1 means equal density. `None` without marks.
+    /// Detections over marks, both outside the border: 1 means equal density. `None` without marks.
     pub density_ratio: Option<f64>,
     /// Area of the image without its border, in px².
     pub area_px: f64,
-    /// Micrometres on the retina per pixel, where known; [`validate`] leaves it open.
+    /// Scale in µm on the retina per pixel; `None` if unknown. [`validate`] leaves it `None`.
     pub um_per_px: Option<f64>,
-    /// Marks, border included.
+    /// Number of marks, border included.
     pub n_marks: usize,
-    /// Detections, border included.
+    /// Number of detections, border included.
     pub n_detections: usize,
-    /// Largest distance of a pair, in px.
+    /// Largest distance allowed in a pair, in px.
     pub limit_px: f64,
-    /// Who got whom where several were near.
+    /// Rule by which marks and detections were paired.
     pub assignment: Assignment,
 }
 
 impl Score {
-    /// Median distance of the pairs outside the border, in µm; `None` without pairs or scale.
+    /// Returns the localisation error in µm; `None` without pairs or scale.
     pub fn localisation_um(&self) -> Option<f64> {
         self.localisation_px.zip(self.um_per_px).map(|(px, um)| px * um)
     }
 
-    /// Area of the image without its border, in mm²; `None` without scale.
+    /// Returns the area of the image without its border, in mm²; `None` without scale.
     pub fn area_mm2(&self) -> Option<f64> {
         self.um_per_px.map(|um| self.area_px * um * um * 1e-6)
     }
 }
 
-/// Scores detections against hand marks of one image of `width` × `height` px, and says which belongs to which.
+/// Scores the detections in one image of `width` × `height` px against hand marks, and returns the
+/// pairs.
 ///
 /// # Errors
-/// As [`match_points`].
+/// Fails under the same conditions as [`match_points`].
+///
+/// # Examples
+/// ```
+/// use conemosaic::compare::validate;
+/// use conemosaic::prelude::*;
+///
+/// let place = |i: usize| Point::new((i % 10 * 10 + 5) as f64, (i / 10 * 10 + 5) as f64);
+/// let marks: Vec<Point> = (0..100).map(place).collect();
+/// let found: Vec<Point> = marks[45..].iter().map(|p| Point::new(p.x + 1., p.y)).collect();
+/// let (score, pairs) = validate(&marks, &found, 100, 100, &MatchOptions::default())?;
+/// assert_eq!(score.rates.precision, 1.);
+/// assert_eq!(score.localisation_px, Some(1.));
+/// assert_eq!(pairs.pairs.len(), 55);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn validate(
     marks: &[Point],
     detections: &[Point],

@@ -1,4 +1,16 @@
-//! The tables of Lanaro et al. about samplers: as printed, and re-made.
+//! The tables of Lanaro et al. (2020), <https://doi.org/10.1088/2399-6528/ab8064>, about samplers:
+//! the printed values, and the same values made anew.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::compare::paper::printed_regularity;
+//!
+//! let table_1 = printed_regularity();
+//! let bnot = table_1.iter().find(|row| row.name == "BNOT_1050").ok_or("no such row")?;
+//! println!("regularity index of BNOT as printed: {:.1}", bnot.ri);
+//! assert!(bnot.ri > 10.);
+//! # Ok::<(), &str>(())
+//! ```
 
 mod printed;
 mod remake;
@@ -10,7 +22,8 @@ pub use remake::{
 };
 pub use triangle::{PAIRS, Tightest, allowed, tightest};
 
-/// Rows of Table 1 that are samplers: the name printed, ours, and the number of points asked for.
+/// Rows of Table 1 that are samplers: printed name, name of our sampler, number of points asked
+/// for.
 pub const TABLE_1_SAMPLERS: [(&str, &str, usize); 7] = [
     ("GN_512", "green", 512),
     ("GN_1024", "green", 1024),
@@ -21,8 +34,8 @@ pub const TABLE_1_SAMPLERS: [(&str, &str, usize); 7] = [
     ("BNOT_4050", "bnot", 4050),
 ];
 
-/// The columns of Table 2, in its order: samplers of 1024 points.
+/// Samplers in the columns of Table 2, in its order; each has 1024 points.
 pub const TABLE_2_SAMPLERS: [&str; 3] = ["bnot", "dart-throwing", "jittered"];
 
-/// The samplers of Figure 1, in its order.
+/// Samplers of Figure 1, in its order.
 pub const FIGURE_1_SAMPLERS: [&str; 6] = ["uniform", "green", "pink", "jittered", "dart-throwing", "bnot"];

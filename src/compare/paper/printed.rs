@@ -1,45 +1,49 @@
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
+/// Table 1 of the paper as text.
 const TABLE_1: &str = include_str!("../../../fixtures/paper/table1.csv");
+/// Table 2 of the paper as text.
 const TABLE_2: &str = include_str!("../../../fixtures/paper/table2.csv");
 
-/// A row of Table 1 of Lanaro et al.: nearest-neighbour distances of a mosaic (µm) or of a sampler (unit square), with
-/// population deviation.
+/// Row of Table 1 of Lanaro et al.: nearest-neighbour distances of a mosaic (µm) or of a sampler
+/// (unit square), with population standard deviation.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct PrintedRegularity {
     /// Name of the mosaic or of the point set.
     #[serde(rename = "mosaic")]
     pub name: String,
-    /// Mean distance.
+    /// Mean of the nearest-neighbour distances.
     pub mean: f64,
-    /// Standard deviation.
+    /// Population standard deviation of the nearest-neighbour distances.
     pub sd: f64,
-    /// Regularity index.
+    /// Regularity index, mean over standard deviation.
     pub ri: f64,
 }
 
-/// A row of Table 2: l-infinity between the pair correlation functions of a mosaic and of three samplers of 1024 points.
+/// Row of Table 2 of Lanaro et al.: l-infinity between the pair correlation functions of a mosaic
+/// and of three samplers of 1024 points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrintedDistances {
     /// Name of the mosaic.
     pub name: String,
-    /// To each of [`super::TABLE_2_SAMPLERS`].
+    /// l-infinity distance to each of [`super::TABLE_2_SAMPLERS`].
     pub l_infinity: [f64; 3],
 }
 
-/// Table 1: 19 mosaics and 7 sets of samplers.
+/// Returns Table 1: 19 mosaics and 7 point sets of samplers.
 pub fn printed_regularity() -> Vec<PrintedRegularity> {
     rows(TABLE_1)
 }
 
-/// Table 2: 20 mosaics.
+/// Returns Table 2: 20 mosaics.
 pub fn printed_distances() -> Vec<PrintedDistances> {
     let rows: Vec<(String, f64, f64, f64)> = rows(TABLE_2);
     rows.into_iter().map(|(name, b, d, j)| PrintedDistances { name, l_infinity: [b, d, j] }).collect()
 }
 
-/// The tables are part of the program and tested: no row is lost.
+/// Reads the rows of a table. The tables are compiled into the program; a test checks that no row
+/// is lost.
 fn rows<T: DeserializeOwned>(text: &str) -> Vec<T> {
     csv::Reader::from_reader(text.as_bytes()).deserialize().flatten().collect()
 }
@@ -65,7 +69,7 @@ mod tests {
         }
     }
 
-    /// The paper's main finding, on its own numbers.
+    /// Checks the paper's main finding on its own numbers.
     #[test]
     fn the_more_regular_printed_mosaics_are_nearer_to_bnot_and_farther_from_dart_throwing() {
         let regularity = printed_regularity();

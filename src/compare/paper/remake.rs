@@ -1,3 +1,13 @@
+//! Repetition of the tables of Lanaro et al. with the samplers of this library, and comparison with
+//! the printed values.
+//!
+//! 1. Draw patterns of a sampler in the unit square and measure each as the paper does
+//!    ([`pattern`]).
+//! 2. Average the regularity of the patterns and ask whether the printed value could be that of one
+//!    of them ([`made_row`]).
+//! 3. Average the pair correlation functions, and measure the l-infinity between samplers with its
+//!    standard error ([`distance_between`]).
+
 use super::printed::PrintedRegularity;
 use crate::compare::{CompareError, curve, draw, l_infinity, mean_curve};
 use crate::geometry::{Point, Window};
@@ -9,32 +19,35 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use sha2::{Digest, Sha256};
 
-/// A pattern in the unit square, measured as the paper's tables are.
+/// Pattern in the unit square with the measurements of the paper's tables.
 #[derive(Clone, Debug)]
 pub struct Pattern {
-    /// Its points.
+    /// Points of the pattern.
     pub points: Vec<Point>,
-    /// Nearest-neighbour distances of all points, plain distance, population deviation.
+    /// Nearest-neighbour distances of all points: plain distances without edge correction,
+    /// population standard deviation.
     pub nearest: Moments,
-    /// Pair correlation function, default options.
+    /// Pair correlation function, estimated with default options.
     pub pcf: Pcf,
 }
 
-/// The pair correlation function of a pattern with another bandwidth, in spacings, from 1.5 of it on.
+/// Computes the pair correlation function of a pattern with another bandwidth, in spacings.
+/// Distances begin at 1.5 bandwidths or at the default, whichever is larger.
 ///
 /// # Errors
-/// If the bandwidth is out of range.
+/// Fails if the bandwidth is out of range.
 pub fn with_bandwidth(pattern: &Pattern, bandwidth: f64) -> Result<Pcf, StatsError> {
     let default = PcfOptions::default();
     let options = PcfOptions { bandwidth, r_min: default.r_min.max(1.5 * bandwidth), ..default };
     pcf_on_one_thread(&pattern.points, &Window::unit_square(), &options)
 }
 
-/// Pattern number `k` of about `n` points of `sampler` in the unit square; its generator is seeded by a hash of all of
-/// these and `seed`.
+/// Draws and measures pattern number `k` of about `n` points of `sampler` in the unit square.
+///
+/// The random generator is seeded by a hash of `seed`, the sampler's name, `n` and `k`.
 ///
 /// # Errors
-/// If the sampler makes no pattern of so many points.
+/// Fails if the sampler cannot make a pattern of that many points.
 pub fn pattern(sampler: &dyn Sampler, n: usize, k: usize, seed: u64) -> Result<Pattern, CompareError> {
     let window = Window::unit_square();
     let mut hash = Sha256::new_with_prefix(b"paper");
@@ -49,56 +62,63 @@ pub fn pattern(sampler: &dyn Sampler, n: usize, k: usize, seed: u64) -> Result<P
     Ok(Pattern { points, nearest, pcf })
 }
 
-/// A row of Table 1, printed and re-made: moments over patterns of what each pattern's row would be.
+/// Row of Table 1, printed and made anew. Each moment is taken over the patterns, of the value that
+/// a single pattern would have in the table.
 #[derive(Clone, Debug)]
 pub struct MadeRow {
-    /// As printed.
+    /// Row as printed in the paper.
     pub printed: PrintedRegularity,
     /// Name of our sampler.
     pub sampler: String,
-    /// Points asked for.
+    /// Number of points asked for.
     pub n: usize,
-    /// Patterns made.
+    /// Number of patterns made.
     pub patterns: usize,
-    /// Of mean distances.
+    /// Moments of the patterns' mean nearest-neighbour distances.
     pub mean: Moments,
-    /// Of standard deviations.
+    /// Moments of the patterns' standard deviations of these distances.
     pub sd: Moments,
-    /// Of regularity indexes.
+    /// Moments of the patterns' regularity indices.
     pub ri: Moments,
 }
 
-/// Most standard deviations that a printed set, one of its kind, may be away from the mean of ours.
+/// Largest distance, in standard deviations, that a single printed pattern may have from the mean
+/// of ours.
 const USUAL: f64 = 2.;
 
 impl MadeRow {
-    /// How many standard deviations of single patterns the printed index is above our mean.
+    /// Returns by how many standard deviations of single patterns the printed regularity index
+    /// exceeds our mean; `None` if our indices do not vary.
     pub fn deviations(&self) -> Option<f64> {
         let (mean, sd) = self.ri.mean.zip(self.ri.sd.filter(|sd| *sd > 0.))?;
         Some((self.printed.ri - mean) / sd)
     }
 
-    /// Whether the printed regularity index could be that of one of our patterns: within two standard deviations.
+    /// Returns whether the printed regularity index could be that of one of our patterns: it lies
+    /// within two standard deviations.
     pub fn agrees(&self) -> bool {
         self.deviations().is_some_and(|z| z.abs() <= USUAL)
     }
 
-    /// The number of points at which our patterns would have the printed mean distance, which goes with 1/√n, and how far
-    /// single patterns scatter about it (standard deviation).
+    /// Returns the number of points at which our patterns would have the printed mean distance, and
+    /// the standard deviation of that number for single patterns.
+    ///
+    /// The mean distance is proportional to 1/√n. Returns `None` for fewer than two patterns.
     pub fn points_by_mean_distance(&self) -> Option<(f64, f64)> {
         let (mean, sd) = self.mean.mean.zip(self.mean.sd)?;
         let points = self.n as f64 * (mean / self.printed.mean).powi(2);
         Some((points, 2. * points * sd / mean))
     }
 
-    /// Whether one of our patterns of as many points could have the printed mean distance: within two standard deviations.
+    /// Returns whether one of our patterns of `n` points could have the printed mean distance: it
+    /// lies within two standard deviations.
     pub fn mean_agrees(&self) -> bool {
         let off = |(points, sd): (f64, f64)| (points - self.n as f64).abs() <= USUAL * sd;
         self.points_by_mean_distance().is_some_and(off)
     }
 }
 
-/// The row that `patterns` make.
+/// Summarises `patterns` as one row of Table 1.
 pub fn made_row(printed: PrintedRegularity, sampler: &str, n: usize, patterns: &[&Pattern]) -> MadeRow {
     let over = |value: fn(&Moments) -> Option<f64>| {
         let values: Vec<f64> = patterns.iter().filter_map(|p| value(&p.nearest)).collect();
@@ -115,24 +135,26 @@ pub fn made_row(printed: PrintedRegularity, sampler: &str, n: usize, patterns: &
     }
 }
 
-/// The highest value of a curve, and the distance, in spacings, at which it has it.
+/// Returns the highest value of a curve and the distance, in spacings, at which it occurs; `None`
+/// for an empty curve.
 pub fn peak(curve: &Pcf) -> Option<(f64, f64)> {
     curve.g.iter().copied().zip(curve.r.iter().copied()).max_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// l-infinity between the mean curves of two samplers.
+/// l-infinity between the mean curves of two samplers, with its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DistanceBetween {
-    /// max |ḡ₁ − ḡ₂|.
+    /// Distance between the mean curves, max |ḡ₁ − ḡ₂|.
     pub l_infinity: f64,
-    /// Its standard error: jackknife over the patterns of each.
+    /// Standard error of the distance, by jackknife over the patterns of each sampler.
     pub error: f64,
 }
 
-/// Distance of the mean curves of two lists of patterns, and how sure it is.
+/// Computes the l-infinity between the mean curves of two lists of patterns, with its standard
+/// error.
 ///
 /// # Errors
-/// If a list is empty or curves do not compare.
+/// Fails if a list is empty or the curves were estimated differently.
 pub fn distance_between(a: &[&Pcf], b: &[&Pcf]) -> Result<DistanceBetween, CompareError> {
     let between = |a: &[&Pcf], b: &[&Pcf]| match (mean_curve(a), mean_curve(b)) {
         (Some(a), Some(b)) => l_infinity(&a, &b),

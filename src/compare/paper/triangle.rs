@@ -1,18 +1,25 @@
+//! Check of Table 2 by the triangle inequality.
+//!
+//! l-infinity is a metric, so the printed distances d₁ and d₂ of a mosaic to two samplers limit the
+//! distance D between these samplers: |d₁ − d₂| ≤ D ≤ d₁ + d₂.
+
 use super::printed::PrintedDistances;
 
-/// The triangle inequality that a row of Table 2 comes nearest to breaking.
+/// Triangle inequality that a row of Table 2 comes nearest to breaking.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tightest {
     /// Name of the mosaic.
     pub mosaic: String,
-    /// The two samplers, as columns of Table 2.
+    /// Pair of samplers, as columns of Table 2.
     pub between: [usize; 2],
-    /// Room left: negative where the inequality is broken, by so much.
+    /// Room that is left; negative, by the excess, where the inequality is broken.
     pub room: f64,
 }
 
-/// l-infinity is a metric: with d₁ and d₂ the printed distances of a mosaic to two samplers, the distance D between those
-/// satisfies |d₁ − d₂| ≤ D ≤ d₁ + d₂. Of the distances `between` the columns (0, 1), (0, 2), (1, 2), the pair with least room.
+/// Returns the pair of samplers whose distance leaves least room in the triangle inequality of a
+/// row.
+///
+/// `between` holds the distances between the columns [`PAIRS`], that is (0, 1), (0, 2) and (1, 2).
 pub fn tightest(row: &PrintedDistances, between: &[f64; 3]) -> Tightest {
     let rooms = PAIRS.into_iter().zip(between).map(|([a, b], &distance)| {
         let [low, high] = limits(row, [a, b]);
@@ -22,16 +29,18 @@ pub fn tightest(row: &PrintedDistances, between: &[f64; 3]) -> Tightest {
     rooms.fold(none, |least, next| if next.room < least.room { next } else { least })
 }
 
-/// The distances between two samplers that all rows allow: from, to.
+/// Returns the range of distances between two samplers that all rows allow: lower and upper end.
 pub fn allowed(rows: &[PrintedDistances], pair: [usize; 2]) -> [f64; 2] {
     rows.iter()
         .map(|row| limits(row, pair))
         .fold([0., f64::INFINITY], |[low, high], next| [low.max(next[0]), high.min(next[1])])
 }
 
-/// The pairs of columns of Table 2, in the order in which distances between its samplers are listed.
+/// Pairs of columns of Table 2, in the order in which the distances between its samplers are
+/// listed.
 pub const PAIRS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 
+/// Returns the range of distances between two samplers that one row allows.
 fn limits(row: &PrintedDistances, [a, b]: [usize; 2]) -> [f64; 2] {
     let (a, b) = (row.l_infinity[a], row.l_infinity[b]);
     [(a - b).abs(), a + b]

@@ -1,26 +1,32 @@
+//! Classes of mosaics that share the reference curves of samplers. A mean curve depends on the
+//! mosaic only through its number of points and the shape of its window, and slowly on both, so
+//! each is rounded to a power of 1.2.
+
 use crate::geometry::{Polygon, Rectangle, Window};
 
-/// Ratio of successive classes of n and of aspect. Mean curves at 250, 275, 300 and 330 points
-/// differ by no more (.002–.011 of seven samplers) than the noise that a mean over 58 realisations
-/// leaves (.006–.02).
+/// Ratio between neighbouring classes of n and of aspect.
+///
+/// Mean curves at 250, 275, 300 and 330 points differ by .002–.011 (seven samplers), which is no
+/// more than the noise of a mean over 58 realisations (.006–.02).
 const RATIO: f64 = 1.2;
-/// Points drawn for one curve, over all realisations.
+/// Number of points drawn for one curve, over all realisations.
 const POINTS_PER_CURVE: f64 = 16_000.;
-/// Bounds on the number of realisations, below [`LARGE`] points.
+/// Least and greatest number of realisations below [`LARGE`] points.
 const REALISATIONS: (usize, usize) = (4, 60);
-/// From here on 2 realisations, from five times as many on 1: large patterns scatter little and
-/// cost much.
+/// Number of points from which on a curve has 2 realisations, and from five times as many on 1:
+/// large patterns scatter little and cost much.
 const LARGE: usize = 20_000;
 
-/// Mosaics that share a curve: what it depends on of n and the window. Numbers are powers of 1.2.
+/// Class of mosaics that share a curve: number of points and shape of the window, where numbers are
+/// exponents of powers of 1.2.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Class {
     pub(super) n: i32,
     pub(super) shape: Shape,
 }
 
-/// Shapes of windows: rectangles by their proportions (width over height), polygons each for
-/// itself.
+/// Shape of a window: rectangles are classed by their aspect (width over height), every polygon is
+/// a shape of its own.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Shape {
     Rectangle { aspect: i32, torus: bool },
@@ -28,6 +34,7 @@ pub(super) enum Shape {
 }
 
 impl Class {
+    /// Returns the class of a mosaic of `n` points in `window`.
     pub(super) fn of(n: usize, window: &Window) -> Self {
         let shape = match window {
             Window::Rectangle(bounds) | Window::Torus(bounds) => {
@@ -38,18 +45,26 @@ impl Class {
         Self { n: nearest(n as f64), shape }
     }
 
-    /// The class whose curve serves for this one with samplers that do not stand in rows: for a
-    /// polygon without holes that is not longer than a 2.1 : 1 rectangle, the rectangle whose
-    /// border is as long for its area.
+    /// Returns the class whose curve serves for this one with samplers that do not stand in rows.
+    ///
+    /// For a polygon without holes that is not longer than a 2.16 : 1 rectangle, this is the class
+    /// of the rectangle with the same perimeter² / area; every other class serves itself.
     ///
     /// Measured on seven polygons (squares turned by 3 and 30°, a turned 2 : 1 rectangle, a slanted
-    /// side, a parallelogram, a cut corner, a circle) at 60, 300 and 1500 points as mean l-infinity
-    /// between a polygon's own curve and that of its rectangle, beside that between curves of two
-    /// seeds: uniform .072, .033, .030 beside .071, .032, .032; jittered .045, .025, .019 beside
-    /// .034, .018, .014; Bridson .039, .012, .014 beside .034, .011, .013; dart throwing .035,
-    /// .014, .012 beside .036, .014, .011; BNOT .046, .014, .015 beside .038, .014, .012. Not so
-    /// for lattices: .29, .15, .05 beside less than .006. In longer shapes BNOT of few points
-    /// differs, by .2 in a triangle and .09 in an L at 60.
+    /// side, a parallelogram, a cut corner, a circle) at 60, 300 and 1500 points: mean l-infinity
+    /// between a polygon's own curve and that of its rectangle, beside that between the curves of
+    /// two seeds.
+    ///
+    /// | sampler | polygon to rectangle | seed to seed |
+    /// |---|---|---|
+    /// | uniform | .072, .033, .030 | .071, .032, .032 |
+    /// | jittered | .045, .025, .019 | .034, .018, .014 |
+    /// | Bridson | .039, .012, .014 | .034, .011, .013 |
+    /// | dart throwing | .035, .014, .012 | .036, .014, .011 |
+    /// | BNOT | .046, .014, .015 | .038, .014, .012 |
+    ///
+    /// Lattices do differ: .29, .15, .05 beside less than .006. In longer shapes BNOT of few points
+    /// differs too: by .2 in a triangle and by .09 in an L, at 60 points.
     pub(super) fn stand_in(&self) -> Self {
         let shape = match &self.shape {
             Shape::Polygon(polygon) => Shape::like(polygon).unwrap_or_else(|| self.shape.clone()),
@@ -58,12 +73,13 @@ impl Class {
         Self { n: self.n, shape }
     }
 
-    /// Points asked of a sampler: the middle of the class.
+    /// Returns the number of points asked of a sampler: the middle of the class.
     pub(super) fn points(&self) -> usize {
         (RATIO.powi(self.n).round() as usize).max(2)
     }
 
-    /// A rectangle of area 1, or the polygon; `None` if the proportions are beyond numbers.
+    /// Returns a rectangle of area 1, or the polygon; `None` if the aspect is too extreme for a
+    /// number.
     pub(super) fn window(&self) -> Option<Window> {
         match &self.shape {
             Shape::Rectangle { aspect, torus } => {
@@ -75,7 +91,8 @@ impl Class {
         }
     }
 
-    /// What tells the generators of its realisations from those of other shapes.
+    /// Returns bytes that distinguish the random generators of this shape from those of other
+    /// shapes.
     pub(super) fn seed(&self) -> Vec<u8> {
         match &self.shape {
             Shape::Rectangle { aspect, torus } => {
@@ -87,7 +104,7 @@ impl Class {
         }
     }
 
-    /// Patterns that a curve is the mean of.
+    /// Returns the number of patterns over which a curve is averaged.
     pub(super) fn realisations(&self) -> usize {
         let n = self.points();
         match n {
@@ -98,17 +115,20 @@ impl Class {
     }
 }
 
-/// Squared length of the border over the area, of a rectangle of 2.13 : 1.
+/// Largest ratio of squared perimeter to area for which a rectangle stands in for a polygon: that
+/// of a 2.16 : 1 rectangle.
 const LONGEST: f64 = 18.5;
 
 impl Shape {
-    /// The rectangle like a polygon, if there is one. With longer over shorter side a, P²/A = 4 (a
-    /// + 1/a) + 8.
+    /// Returns the rectangle that has the same perimeter² / area as a polygon; `None` for polygons
+    /// with holes and for longer ones.
+    ///
+    /// For a rectangle whose longer side is a times the shorter one, P²/A = 4 (a + 1/a) + 8.
     fn like(polygon: &Polygon) -> Option<Self> {
         let [_] = polygon.rings() else { return None };
         let perimeter = Window::Polygon(polygon.clone()).perimeter();
         let roundness = perimeter * perimeter / polygon.area();
-        // below 16, rounder than a square
+        // a ratio below 16 is rounder than a square, the roundest rectangle
         let half = (roundness / 8. - 1.).max(1.);
         let aspect = half + (half * half - 1.).sqrt();
         let bounds = polygon.bounds();
@@ -116,11 +136,13 @@ impl Shape {
         (roundness <= LONGEST).then(|| Self::rectangle(aspect, false))
     }
 
+    /// Returns the shape of a rectangle of this aspect, rounded to a class.
     fn rectangle(aspect: f64, torus: bool) -> Self {
         Self::Rectangle { aspect: nearest(aspect), torus }
     }
 }
 
+/// Returns the exponent of the power of 1.2 that is nearest to `value`.
 fn nearest(value: f64) -> i32 {
     (value.ln() / RATIO.ln()).round() as i32
 }

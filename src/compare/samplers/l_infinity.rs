@@ -2,73 +2,76 @@ use crate::sample::SampleError;
 use crate::stats::{EdgeCorrection, Pcf, StatsError};
 use thiserror::Error;
 
-/// A comparison that would mean nothing, or whose other side cannot be made.
+/// Comparison that would mean nothing, or one side of which cannot be made.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum CompareError {
-    /// Two curves were estimated differently.
+    /// Curves that were estimated differently.
     #[error(
         "the pair correlation functions differ in {what} ({first} and {second}): estimate both with the same options"
     )]
     NotComparable {
-        /// In what.
+        /// Name of the property that differs.
         what: &'static str,
-        /// In the first curve.
+        /// Value in the first curve.
         first: String,
-        /// In the second curve.
+        /// Value in the second curve.
         second: String,
     },
     /// Too few points to compare.
     #[error("a comparison needs at least 2 points, there are {found}")]
     TooFewPoints {
-        /// What there was.
+        /// Number of points found.
         found: usize,
     },
-    /// A sampler made no pattern for the comparison.
+    /// Sampler that made no pattern for the comparison.
     #[error("sampler {sampler}: {source}")]
     Sample {
-        /// Its name.
+        /// Name of the sampler.
         sampler: String,
-        /// Why.
+        /// Reason of the failure.
         source: SampleError,
     },
-    /// A statistic of a sampler's pattern cannot be computed.
+    /// Statistic of a sampler's pattern that cannot be computed.
     #[error("sampler {sampler}: {source}")]
     Stats {
-        /// Its name.
+        /// Name of the sampler.
         sampler: String,
-        /// Why.
+        /// Reason of the failure.
         source: StatsError,
     },
-    /// A sampler has no pattern for a window of this shape.
+    /// Sampler that has no pattern for a window of this shape.
     #[error("sampler {sampler} made fewer than 2 of {n} points: the window is too narrow for it")]
     NoPattern {
-        /// Its name.
+        /// Name of the sampler.
         sampler: String,
-        /// What was asked for.
+        /// Number of points asked for.
         n: usize,
     },
-    /// Too few or too many simulations, or a level that is none.
+    /// Too few or too many simulations, or a level out of its range.
     #[error("a verdict of {found} simulations: it needs 39 to 9999, and a level between 0 and 0.5")]
     Simulations {
-        /// How many were asked for.
+        /// Number of simulations asked for.
         found: usize,
     },
-    /// A sampler stopped without a result, by a fault of its own.
+    /// Sampler that stopped without a result, by a fault of its own.
     #[error("sampler {sampler} stopped without a result: please report it with the command you ran")]
     Interrupted {
-        /// Its name.
+        /// Name of the sampler.
         sampler: String,
     },
 }
 
-/// l-infinity distance of two pair correlation functions: max |g₁ − g₂| over the bins (Öztireli & Gross 2012).
+/// Computes the l-infinity distance of two pair correlation functions: max |g₁ − g₂| over the bins
+/// (Öztireli & Gross 2012, <https://doi.org/10.1145/2366145.2366189>).
 ///
-/// Distances are in hexagonal spacings, so patterns of different densities and units compare. Set covariance,
-/// translation, isotropic and torus corrections estimate the same function (on average they agree within .01 at 300
-/// points) and may be mixed; an uncorrected curve compares only with another one.
+/// Distances r are in hexagonal spacings, so patterns of different densities and units can be
+/// compared. Set covariance, translation, isotropic and torus corrections estimate the same
+/// function (on average they agree within .01 at 300 points) and may be mixed; an uncorrected curve
+/// can only be compared with another one.
 ///
 /// # Errors
-/// If the curves are not on the same distances, or differ in kernel or bandwidth, or only one is corrected for edges.
+/// Fails if the curves are not given at the same distances, differ in kernel or bandwidth, or only
+/// one is corrected for edges.
 pub fn l_infinity(a: &Pcf, b: &Pcf) -> Result<f64, CompareError> {
     let differ =
         |what, first: String, second: String| Err(CompareError::NotComparable { what, first, second });

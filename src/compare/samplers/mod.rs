@@ -1,4 +1,5 @@
-//! A mosaic against samplers: curves, their distance and the verdict of a test.
+//! Comparison of a mosaic with samplers: reference curves of the samplers, the l-infinity to them,
+//! and the verdict of a Monte Carlo test.
 
 mod curve_class;
 mod curves;

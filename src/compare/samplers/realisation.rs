@@ -1,3 +1,5 @@
+//! Single realisations of a sampler for a class of mosaics, and the mean curve over them.
+
 use super::curve_class::Class;
 use super::{CompareError, ReferenceCurve, curve, draw, mean_curve};
 use crate::mosaic::hexagonal_spacing;
@@ -7,14 +9,19 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use sha2::{Digest, Sha256};
 
-/// One pattern of a sampler; without a curve where the sampler made fewer than two points.
+/// Curve and regularity of one pattern of a sampler; without a curve if the sampler made fewer than
+/// two points.
 pub(super) struct Realisation {
+    /// Pair correlation function; `None` for fewer than two points.
     pcf: Option<Pcf>,
+    /// Regularity index, where it is defined.
     ri: Option<f64>,
 }
 
-/// Draws and measures pattern `k` of a sampler for a class. Its generator is seeded by a hash of
-/// `seed`, the sampler's name, the class and `k`.
+/// Draws and measures pattern `k` of a sampler for a class.
+///
+/// The random generator is seeded by a hash of `seed`, the sampler's name, the class and `k`, so
+/// the result does not depend on threads.
 pub(super) fn realise(
     sampler: &dyn Sampler,
     class: &Class,
@@ -44,7 +51,8 @@ pub(super) fn realise(
     Ok(Realisation { pcf: Some(pcf), ri: moments(&nearest.distances, Deviation::Sample).ri })
 }
 
-/// Returns the means over a sampler's realisations; `None` stands for one that panicked.
+/// Averages the realisations of a sampler. In `patterns`, `None` stands for a realisation that
+/// panicked; one such, or one error, makes the whole curve fail.
 pub(super) fn average(
     sampler: &dyn Sampler,
     class: &Class,

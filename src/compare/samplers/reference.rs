@@ -1,3 +1,11 @@
+//! Reference curves: mean pair correlation functions of samplers, with which a mosaic is compared.
+//!
+//! 1. Assign the mosaic to a class of number of points and window shape ([`Class`]).
+//! 2. Look the samplers' curves for this class up in the table that comes with the program
+//!    ([`shipped`]).
+//! 3. Make missing curves from realisations, once per class for all threads ([`Workers`]), and keep
+//!    them.
+
 use super::curve_class::Class;
 use super::realisation::{average, realise};
 use super::shared_work::{Once, Workers};
@@ -8,7 +16,7 @@ use crate::stats::{Pcf, PcfOptions};
 use std::fmt;
 use std::sync::Arc;
 
-/// What a sampler looks like at some n in a window of some shape: the mean over realisations.
+/// Mean over realisations of a sampler for one number of points and one shape of window.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReferenceCurve {
     /// Name of the sampler.
@@ -17,27 +25,27 @@ pub struct ReferenceCurve {
     pub pcf: Pcf,
     /// Number of points asked of the sampler: the middle of the mosaic's class.
     pub n: usize,
-    /// Patterns averaged.
+    /// Number of patterns averaged.
     pub realisations: usize,
-    /// Mean regularity index (all points, sample deviation); `None` where it is not defined, as for
-    /// a lattice.
+    /// Mean regularity index (all points, sample standard deviation); `None` where it is undefined,
+    /// as for a lattice.
     pub ri: Option<f64>,
-    /// Taken from the table that comes with the program instead of made now: the same curve, g
-    /// rounded to 10⁻⁴.
+    /// `true` if the curve was taken from the table that comes with the program instead of made
+    /// now: the same curve with g rounded to 10⁻⁴.
     pub shipped: bool,
 }
 
-/// A sampler that a mosaic is not compared with.
+/// Sampler with which a mosaic is not compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NotCompared {
     /// Name of the sampler.
     pub sampler: String,
-    /// Reason why it has no curve.
+    /// Reason why there is no curve.
     pub reason: CompareError,
 }
 
 impl fmt::Display for NotCompared {
-    /// “not compared with bnot: ” and the reason, which does not name the sampler again.
+    /// Writes “not compared with bnot: ” and the reason, which does not name the sampler again.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "not compared with {}: ", self.sampler)?;
         match &self.reason {
@@ -51,39 +59,41 @@ impl fmt::Display for NotCompared {
     }
 }
 
-/// Curves of samplers for one mosaic: those that there are, and why the others are missing.
+/// Curves of samplers for one mosaic, with the samplers that have none.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SamplerCurves {
-    /// The curves, in the order of the samplers.
+    /// Curves in the order of the samplers.
     pub curves: Vec<ReferenceCurve>,
-    /// Samplers that have none.
+    /// Samplers without a curve, with the reason.
     pub missing: Vec<NotCompared>,
 }
 
-/// Curves of samplers, made when first asked for and kept.
+/// Reference curves of samplers, made when first asked for and then kept.
 ///
-/// They depend on the mosaic only through its n, in classes 20 % apart, the proportions of its
-/// window, likewise, and whether that is a torus: distances in spacings have no scale. A polygon
-/// without holes is taken for the rectangle whose border is as long for its area; longer ones, and
-/// any for lattices, have curves of their own.
+/// Curves depend on the mosaic only through its class: the number of points and the proportions of
+/// the window, both in steps of 20 %, and whether the window is a torus. Scale does not matter, as
+/// distances are in spacings. A polygon without holes uses the curves of the rectangle with the
+/// same perimeter² / area; longer polygons, and any polygon for lattices, have curves of their own.
 ///
-/// The number of realisations is 16 000/n, but at least 4 and at most 60 (2 from 20 000 points on,
-/// 1 from 100 000). Measured noise of a mean curve that leaves, as l-infinity: uniform .02–.03,
-/// jittered .01–.03, Poisson disks .01–.017 at n = 100, 300, 1024 and 4096; lattices below .001.
+/// A curve is the mean of 16 000/n realisations, but at least 4 and at most 60 (2 from 20 000
+/// points on, 1 from 100 000). The remaining noise of a mean curve, as l-infinity measured for 100,
+/// 300, 1024 and 4096 points: uniform .02–.03, jittered .01–.03, Poisson disks .01–.017; lattices
+/// below .001.
 ///
-/// Every realisation has its own generator, seeded by a hash of the seed, the sampler's name, the
-/// classes and its number, so results do not depend on order or threads. Curves of the default
-/// samplers, options and seed come with the program for the classes that images have.
+/// Every realisation has its own random generator, seeded by a hash of the seed, the sampler's
+/// name, the class and its number, so results do not depend on order or threads. Curves of the
+/// default samplers, options and seed come with the program for the classes that images have.
 pub struct References {
     setup: Arc<Setup>,
-    /// By class, of the samplers that stand in rows or of the others.
+    /// Curves made so far, by class and by whether the samplers stand in rows.
     made: Once<(Class, bool), Arc<Vec<Made>>>,
     workers: Workers,
 }
 
-/// A sampler's place in the list, and its curve or why it has none.
+/// Index of a sampler in the list, with its curve or the reason why it has none.
 type Made = (usize, Result<ReferenceCurve, CompareError>);
 
+/// Everything that the curves depend on besides the class.
 struct Setup {
     samplers: Vec<&'static dyn Sampler>,
     options: PcfOptions,
@@ -91,14 +101,16 @@ struct Setup {
 }
 
 impl References {
-    /// Curves of `samplers`, estimated with `options`; the same `seed` gives the same curves.
+    /// Prepares curves of `samplers`, estimated with `options`. The same `seed` gives the same
+    /// curves.
     pub fn new(samplers: Vec<&'static dyn Sampler>, options: PcfOptions, seed: u64) -> Self {
         let setup = Arc::new(Setup { samplers, options, seed });
         Self { setup, made: Once::new(), workers: Workers::like_the_caller() }
     }
 
-    /// Returns the samplers' curves for a mosaic of `n` points in `window`. None of fewer than two
-    /// points: then every sampler is among the missing.
+    /// Returns the samplers' curves for a mosaic of `n` points in `window`.
+    ///
+    /// For fewer than two points there is no curve, and every sampler is among the missing.
     pub fn curves(&self, n: usize, window: &Window) -> SamplerCurves {
         let class = Class::of(n, window);
         let groups = [(class.clone(), true), (class.stand_in(), false)].map(|group| {
@@ -118,8 +130,8 @@ impl References {
         found
     }
 
-    /// Looks curves up in the table that comes with the program and makes the others, of the
-    /// samplers that stand in rows or of those that do not.
+    /// Looks the curves up in the table that comes with the program and makes the missing ones,
+    /// either of the samplers that stand in rows or of the others.
     fn curves_of(&self, n: usize, class: &Class, in_rows: bool) -> Vec<Made> {
         let setup = &self.setup;
         let samplers = setup.samplers.iter().copied().enumerate().filter(|(_, s)| s.in_rows() == in_rows);
@@ -140,8 +152,8 @@ impl References {
         made
     }
 
-    /// The curve of each sampler, or why there is none: all realisations of all of them are one
-    /// list of tasks.
+    /// Makes the curve of each sampler, or gives the reason why there is none. All realisations of
+    /// all samplers form one list of tasks, which spreads them over all cores.
     pub(super) fn make(
         &self,
         samplers: Vec<&'static dyn Sampler>,
@@ -184,7 +196,7 @@ mod tests {
 
     #[test]
     fn one_class_of_n_and_shape_is_made_once_and_shared() {
-        /// Counts the patterns that it makes.
+        /// Sampler that counts the patterns it makes.
         #[derive(Debug)]
         struct Counts(AtomicUsize);
         impl Sampler for Counts {
@@ -248,7 +260,7 @@ mod tests {
         {
             let of = |seed| references(&[name], seed).curves(300, &window).curves[0].pcf.clone();
             let distance = l_infinity(&of(1), &of(2)).unwrap();
-            // Of two noisy curves, and half as much again for chance.
+            // both curves are noisy, and half as much again is left for chance
             assert!(distance < 1.5 * 2f64.sqrt() * noise, "{name}: {distance}");
         }
     }
@@ -268,7 +280,8 @@ mod tests {
         }
     }
 
-    /// Hands its work to other threads, so that its thread may meanwhile be given another question.
+    /// Sampler that spreads its work over threads, so that its own thread may meanwhile be given
+    /// another question.
     #[derive(Debug)]
     struct Parallel;
 
@@ -294,7 +307,7 @@ mod tests {
             let answers: Vec<_> = pool.install(|| {
                 (0..200).into_par_iter().map(|i| shared.curves(40 + i % 3, &Window::unit_torus())).collect()
             });
-            // Private work and shared work come to the same curves.
+            // private and shared work must give the same curves
             for (i, answer) in answers.iter().enumerate() {
                 assert_eq!(answer, &shared.curves(40 + i % 3, &Window::unit_torus()), "question {i}");
             }

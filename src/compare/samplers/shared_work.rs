@@ -1,4 +1,4 @@
-//! Work that many threads want the result of and that is done once, on all cores.
+//! Work whose result many threads want and that is done once, on all cores.
 
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -7,8 +7,8 @@ use std::hash::Hash;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError, mpsc};
 
-/// Values made when first asked for and kept. Threads that ask for one that is under way wait for
-/// it.
+/// Values made when first asked for and then kept. A thread that asks for a value under way waits
+/// for it.
 pub(super) struct Once<K, V> {
     cells: Mutex<HashMap<K, Arc<OnceLock<V>>>>,
 }
@@ -18,9 +18,9 @@ impl<K: Eq + Hash, V: Clone> Once<K, V> {
         Self { cells: Mutex::new(HashMap::new()) }
     }
 
-    /// Returns the value of `key`, made by `make` if there is none yet.
+    /// Returns the value of `key`, calling `make` if there is none yet.
     pub(super) fn get(&self, key: K, make: impl FnOnce() -> V) -> V {
-        // A panic elsewhere leaves the map whole: it changes by single steps.
+        // A panic elsewhere cannot leave the map half changed, as every change is a single step.
         let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
         let cell = Arc::clone(cells.entry(key).or_default());
         drop(cells);
@@ -28,28 +28,28 @@ impl<K: Eq + Hash, V: Clone> Once<K, V> {
     }
 }
 
-/// Threads of their own that work for others, who sleep meanwhile. They start with the first work
-/// there is.
+/// Thread pool of its own that works for callers, who sleep meanwhile. The threads start with the
+/// first work.
 ///
-/// The caller's own pool would not do. Its threads look for other work while they wait, and might
-/// be given an image that waits for the very curve below it on the same stack: a deadlock. And a
-/// thread of that pool that sleeps takes no part in what a sampler hands out, so that BNOT, whose
-/// cells are made in parallel, ran on one of two cores.
+/// The caller's own pool would not do, for two reasons. Its threads look for other work while they
+/// wait and might be given an image that waits for the very curve below it on the same stack: a
+/// deadlock. And a sleeping thread of that pool takes no part in work that a sampler spreads: BNOT,
+/// whose cells are made in parallel, ran on one of two cores.
 pub(super) struct Workers {
     threads: usize,
     pool: OnceLock<Option<ThreadPool>>,
 }
 
 impl Workers {
-    /// As many threads as the caller's pool has.
+    /// Prepares as many threads as the caller's pool has.
     pub(super) fn like_the_caller() -> Self {
         Self { threads: rayon::current_num_threads(), pool: OnceLock::new() }
     }
 
-    /// Returns the results of `task(0)` to `task(count − 1)`, in that order; `None` for one that
+    /// Returns the results of `task(0)` to `task(count − 1)`, in that order; `None` for a task that
     /// panicked.
     ///
-    /// Tasks must not ask for the results of others in their turn.
+    /// A task must not wait for the results of other tasks.
     pub(super) fn all<T, F>(&self, count: usize, task: F) -> Vec<Option<T>>
     where
         T: Send + 'static,
@@ -58,7 +58,7 @@ impl Workers {
         let guarded = move |k| catch_unwind(AssertUnwindSafe(|| task(k))).ok();
         let pool = self.pool.get_or_init(|| ThreadPoolBuilder::new().num_threads(self.threads).build().ok());
         let Some(pool) = pool.as_ref().filter(|_| count > 0) else {
-            // no more threads to be had
+            // the system grants no more threads: work on this one
             return (0..count).map(guarded).collect();
         };
         let (answer, answered) = mpsc::sync_channel(1);

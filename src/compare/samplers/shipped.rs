@@ -1,5 +1,5 @@
-//! Curves that come with the program: those of the default samplers, options and seed for the
-//! classes of mosaic that images have. `scripts/make-curves` makes `curves.bin` anew.
+//! Reference curves that come with the program: those of the default samplers, options and seed for
+//! the classes of mosaics that images have. `scripts/make-curves` makes `curves.bin` anew.
 
 use super::curve_class::{Class, Shape};
 use super::shipped_codec::{self as codec, Entry, Key};
@@ -12,21 +12,22 @@ use std::collections::HashMap;
 use std::ops::RangeInclusive;
 use std::sync::LazyLock;
 
-/// Seed of the shipped curves: the one that holds if none is given.
+/// Seed of the shipped curves, which is also the default seed.
 const SEED: u64 = 1;
-/// Classes of n that are shipped, as powers of 1.2: 18 to 22 645 points.
+/// Classes of n that are shipped, as exponents of 1.2: 18 to 22 645 points.
 const SIZES: RangeInclusive<i8> = 16..=55;
-/// Classes of proportions, width over height, as powers of 1.2: 1 : 2.07 to 2.07 : 1.
+/// Classes of aspect (width over height), as exponents of 1.2: 1 : 2.07 to 2.07 : 1.
 const ASPECTS: RangeInclusive<i8> = -4..=4;
 
 static BYTES: &[u8] = include_bytes!("curves.bin");
 
-/// The table, empty if it was made by other options or other samplers than the program now has.
+/// Table of shipped curves; empty if it was made with other options or samplers than the program
+/// now has.
 static TABLE: LazyLock<HashMap<Key, Entry>> =
     LazyLock::new(|| codec::read(BYTES, &fingerprint(), PcfOptions::default().bins).unwrap_or_default());
 
-/// Returns the shipped curve of a sampler, if there is one for this class, these options and this
-/// seed.
+/// Returns the shipped curve of a sampler; `None` if there is none for this class, these options
+/// and this seed.
 pub(super) fn find(
     sampler: &dyn Sampler,
     class: &Class,
@@ -52,23 +53,25 @@ pub(super) fn find(
     })
 }
 
-/// Whether a sampler is as mosaics are compared with it by default, not one of the same name with
-/// other parameters.
+/// Returns whether a sampler has the parameters with which mosaics are compared by default, and not
+/// only the same name.
 fn is_usual(of: &dyn Sampler) -> bool {
     sampler(of.name()).is_ok_and(|usual| format!("{:?}", as_reference(usual)) == format!("{of:?}"))
 }
 
-/// A hash of all that shipped curves depend on and that has a name: classes, options, seed,
+/// Returns a hash of everything named that the shipped curves depend on: classes, options, seed,
 /// samplers and their parameters.
 fn fingerprint() -> [u8; 32] {
     let (options, samplers) = (PcfOptions::default(), samplers_by_default());
     Sha256::digest(format!("{SIZES:?} {ASPECTS:?} {SEED} {options:?} {samplers:?}")).into()
 }
 
-/// Makes the table, for `scripts/make-curves`; `progress` hears of classes done and of how many.
+/// Makes the table of shipped curves, for `scripts/make-curves`.
+///
+/// `progress` is called with the number of classes done and the number of all classes.
 ///
 /// # Errors
-/// If a sampler has no curve for a class.
+/// Fails if a sampler has no curve for a class.
 #[doc(hidden)]
 pub fn make_table(mut progress: impl FnMut(usize, usize)) -> Result<Vec<u8>, CompareError> {
     let samplers = samplers_by_default();

@@ -1,19 +1,23 @@
-//! The bytes of `curves.bin`: [`MAGIC`], a hash of what the curves depend on, then, deflated, one
-//! entry after another.
+//! File format of `curves.bin`: [`MAGIC`], a hash of what the curves depend on, and one entry after
+//! another, compressed by zlib.
 //!
-//! An entry is its key and number of realisations (a byte each), the regularity index (f64, NaN for
-//! none), and g in units of [`STEP`] as second differences, each zigzag-coded in groups of seven
-//! bits, lowest first. A smooth curve so takes about a byte per bin.
+//! 1. An entry begins with its key and the number of realisations, one byte each.
+//! 2. The regularity index follows, as an `f64` that is NaN if there is none.
+//! 3. Then g, in units of [`STEP`], as second differences; each is zigzag-coded in groups of seven
+//!    bits, the lowest first.
+//!
+//! A smooth curve thus takes about a byte per bin.
 
 use flate2::{Compression, read::ZlibDecoder, write::ZlibEncoder};
 use std::collections::HashMap;
 use std::io::{Read, Write};
 
-/// What g is rounded to: 1/100 of the noise of the best curves.
+/// Step to which g is rounded: 1/100 of the noise of the best curves.
 pub(super) const STEP: f64 = 1e-4;
+/// First bytes of the file: name and version of the format.
 const MAGIC: &[u8] = b"curves 1";
 
-/// What an entry is of: classes of n and of proportions, place among the default samplers.
+/// Key of an entry: class of n, class of aspect, and index among the default samplers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Key {
     pub(super) n: i8,
@@ -21,7 +25,7 @@ pub(super) struct Key {
     pub(super) sampler: u8,
 }
 
-/// A curve and what stands beside it.
+/// Shipped curve with its number of realisations and regularity index.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry {
     pub(super) realisations: u8,
@@ -29,7 +33,7 @@ pub(super) struct Entry {
     pub(super) g: Vec<f64>,
 }
 
-/// Returns the bytes of a table of these entries.
+/// Returns the bytes of a table with these entries.
 pub(super) fn write(entries: &[(Key, Entry)], fingerprint: &[u8; 32]) -> Vec<u8> {
     let mut body = Vec::new();
     for (key, entry) in entries {
@@ -49,8 +53,8 @@ pub(super) fn write(entries: &[(Key, Entry)], fingerprint: &[u8; 32]) -> Vec<u8>
     packed.unwrap_or(head)
 }
 
-/// Returns the entries, each of `bins` values; `None` if the bytes are damaged or of another
-/// fingerprint.
+/// Returns the entries, with `bins` values per curve; `None` if the bytes are damaged or carry
+/// another fingerprint.
 pub(super) fn read(bytes: &[u8], fingerprint: &[u8; 32], bins: usize) -> Option<HashMap<Key, Entry>> {
     let packed = bytes.strip_prefix(MAGIC)?.strip_prefix(fingerprint)?;
     let mut body = Vec::new();
@@ -73,13 +77,14 @@ pub(super) fn read(bytes: &[u8], fingerprint: &[u8; 32], bins: usize) -> Option<
     Some(entries)
 }
 
+/// Takes the first `N` bytes off `rest`; `None` if fewer are left.
 fn take<const N: usize>(rest: &mut &[u8]) -> Option<[u8; N]> {
     let (first, after) = rest.split_first_chunk()?;
     *rest = after;
     Some(*first)
 }
 
-/// Small numbers of either sign take one byte.
+/// Appends a number in zigzag coding, by which small numbers of either sign take one byte.
 fn put(body: &mut Vec<u8>, number: i64) {
     let mut zigzag = ((number << 1) ^ (number >> 63)) as u64;
     while zigzag >= 0x80 {
@@ -89,6 +94,7 @@ fn put(body: &mut Vec<u8>, number: i64) {
     body.push(zigzag as u8);
 }
 
+/// Takes a number in zigzag coding off `rest`; `None` if it is cut short or too long.
 fn number(rest: &mut &[u8]) -> Option<i64> {
     let mut zigzag = 0u64;
     for shift in (0..64).step_by(7) {

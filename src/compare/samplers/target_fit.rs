@@ -1,45 +1,53 @@
+//! Fit of a point pattern to the pair correlation function that it was made for.
+
 use crate::geometry::{Point, Window};
 use crate::stats::{PcfOptions, StatsError, pcf};
 
-/// Difference of points from the pair correlation function that they were to have.
+/// Difference between the pair correlation function of points and the one that they were to have.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TargetFit {
-    /// Distances at which both are known, in hexagonal spacings.
+    /// Distances at which both functions are known, in hexagonal spacings.
     pub r: Vec<f64>,
-    /// The function that was wanted, between its rows by straight lines.
+    /// Target function, interpolated linearly between its rows.
     pub wanted: Vec<f64>,
-    /// The function of the points, estimated in their window by default options.
+    /// Function of the points, estimated in their window by default options.
     pub reached: Vec<f64>,
-    /// Greatest difference of the two.
+    /// Greatest difference between the two functions.
     pub l_infinity: f64,
-    /// Distance at which it is, in hexagonal spacings.
+    /// Distance at which it occurs, in hexagonal spacings.
     pub worst_r: f64,
 }
 
 impl TargetFit {
-    /// Returns whether the greatest difference is where the target ends: pairs farther apart are
-    /// left to chance, and disturb the last ones.
+    /// Returns whether the greatest difference lies where the target ends. Pairs farther apart are
+    /// left to chance and disturb the last distances.
     pub fn at_the_end(&self) -> bool {
         self.r.last().is_some_and(|last| *last < MOST - END && self.worst_r > last - END)
     }
 }
 
-/// Pairs beyond the end of a target disturb those nearer than this to it, in hexagonal spacings.
+/// Stretch before the end of a target, in hexagonal spacings, that is disturbed by pairs beyond the
+/// end.
 const END: f64 = 0.4;
 
-/// Least l-infinity of a poor fit: under it Lanaro et al. take two distributions for the same.
+/// Least l-infinity of a poor fit: below it Lanaro et al. (2020),
+/// <https://doi.org/10.1088/2399-6528/ab8064>, take two distributions for the same.
 pub const POOR_FIT: f64 = 0.1;
 
-/// Compares the pair correlation function of `points` with the rows of r (in hexagonal spacings,
-/// rising) and g that they were to reach, over the distances of both: at most 6 spacings and half
-/// the shorter side of the window, beyond which [`crate::sample::Shaped`] controls nothing.
+/// Compares the pair correlation function of `points` with the one that they were to reach.
+///
+/// `rows` holds r (in hexagonal spacings, rising) and g of the target. Compared are the distances
+/// that both functions have, up to 6 spacings and half the shorter side of the window, beyond which
+/// [`crate::sample::Shaped`] controls nothing. Rows that end before estimates begin, at .15
+/// spacings, are compared at that one distance; without rows the differences are NaN.
 ///
 /// Measured: the mean g of 20 patterns of dart throwing, given up to 6 spacings, is missed by
-/// .065–.073 at 300 to 3000 points, at the hard core's edge. Given up to 2.49 only it is missed by
-/// about .1, at 2.22: the last quarter of a spacing is not controlled ([`TargetFit::at_the_end`]).
+/// .065–.073 at 300 to 3000 points, at the edge of the hard core. Given up to 2.49 spacings only,
+/// it is missed by about .1, at 2.22: the last quarter of a spacing is not controlled
+/// ([`TargetFit::at_the_end`]).
 ///
 /// # Errors
-/// If there are fewer than two points or rows, or the rows end where estimates begin, at .15 spacings.
+/// Fails if the function of the points cannot be estimated, as for fewer than two points.
 pub fn target_fit(points: &[Point], window: &Window, rows: &[[f64; 2]]) -> Result<TargetFit, StatsError> {
     let usual = PcfOptions::default();
     let ends = rows.first().zip(rows.last()).map_or([0., 0.], |(first, last)| [first[0], last[0]]);
@@ -48,7 +56,7 @@ pub fn target_fit(points: &[Point], window: &Window, rows: &[[f64; 2]]) -> Resul
     let farthest = 0.5 * bounds.width().min(bounds.height()) / spacing;
     let step = (usual.r_max - usual.r_min) / usual.bins as f64;
     let r_min = ends[0].max(usual.r_min);
-    // left edges of bins: one more, so that the last row counts
+    // r holds the left edges of the bins, so one more bin makes the last row count
     let bins = ((ends[1].min(MOST).min(farthest) - r_min) / step + 1e-6).floor() + 1.;
     let bins = bins.max(1.);
     let options = PcfOptions { r_min, r_max: r_min + bins * step, bins: bins as usize, ..usual };
@@ -60,10 +68,11 @@ pub fn target_fit(points: &[Point], window: &Window, rows: &[[f64; 2]]) -> Resul
     Ok(TargetFit { r: reached.r, wanted, reached: reached.g, l_infinity, worst_r })
 }
 
-/// As far as points are moved for their pairs, in hexagonal spacings.
+/// Greatest distance of pairs for which [`crate::sample::Shaped`] moves points, in hexagonal
+/// spacings.
 const MOST: f64 = 6.;
 
-/// Linear between rows, constant beyond them.
+/// Interpolates linearly between rows; constant beyond them, NaN without rows.
 fn at(rows: &[[f64; 2]], r: f64) -> f64 {
     let after = rows.partition_point(|row| row[0] <= r);
     match (after.checked_sub(1).and_then(|i| rows.get(i)), rows.get(after)) {

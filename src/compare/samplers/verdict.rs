@@ -1,3 +1,15 @@
+//! Monte Carlo test whether a mosaic could be a realisation of a sampler, as far as its pair
+//! correlation function tells.
+//!
+//! 1. Simulate the sampler at the mosaic's own number of points and window.
+//! 2. Measure the l-infinity of every curve, the mosaic's included, to the mean of all others, and
+//!    rank the mosaic's.
+//! 3. Test the mosaic's curve against the global envelope of the simulations, by extreme rank
+//!    length (Myllymäki et al. 2017, <https://doi.org/10.1111/rssb.12172>).
+//!
+//! Both p-values are exact, as all curves are treated alike (Barnard 1963, in the discussion of
+//! Bartlett, <https://doi.org/10.1111/j.2517-6161.1963.tb00508.x>).
+
 use super::{CompareError, curve, draw, l_infinity};
 use crate::geometry::Window;
 use crate::numeric::stepped_quantile;
@@ -9,16 +21,20 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-/// Differences of g below this are none to the envelope: nobody could see them, though where no pair is possible the
-/// simulations agree to the last digit.
+/// Step to which g is rounded before the envelope test.
+///
+/// Where no pairs are possible, the simulations agree to the last digit, and without rounding a
+/// difference that nobody could see would count as extreme.
 const RESOLUTION: f64 = 1e-3;
 
-/// How a verdict is reached.
+/// Options of a verdict: number of simulations and significance level.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VerdictOptions {
-    /// Simulations of each sampler: 39–9999, default 199. The smallest p-value is one over this plus 1.
+    /// Number of simulations per sampler: 39 to 9999, default 199. The smallest p-value
+    /// is one over this number plus 1.
     pub simulations: usize,
-    /// A mosaic differs from a sampler if its p-value is not above this; default .05, the envelope's level too.
+    /// Significance level, also that of the envelope: a mosaic differs from a sampler if its
+    /// p-value is not above this. Between 0 and .5, default .05.
     pub level: f64,
 }
 
@@ -29,8 +45,10 @@ impl Default for VerdictOptions {
 }
 
 impl VerdictOptions {
+    /// Checks that every option is in its range.
+    ///
     /// # Errors
-    /// If an option is out of its range; the error says the range.
+    /// Fails if an option is out of its range; the error states the ranges.
     pub fn validate(&self) -> Result<(), CompareError> {
         if (39..=9_999).contains(&self.simulations) && self.level > 0. && self.level < 0.5 {
             return Ok(());
@@ -39,75 +57,81 @@ impl VerdictOptions {
     }
 }
 
-/// What a mosaic's pair correlation function is worth among those of simulations of a sampler.
+/// Standing of a mosaic's pair correlation function among those of simulations of a sampler.
 ///
-/// Two realisations of one process differ, the more the fewer points they have: at 300 points by .08–.09 in l-infinity. So
-/// no fixed distance means “the same”; the simulations, at the mosaic's own n and window, say what is usual.
+/// Two realisations of one process differ, the more the fewer points they have: at 300 points by
+/// .08–.09 in l-infinity. So no fixed distance means “the same”; the simulations, at the mosaic's
+/// own n and window, show which distance is usual.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SamplerVerdict {
     /// Name of the sampler.
     pub sampler: String,
-    /// Simulations that entered.
+    /// Number of simulations used.
     pub simulations: usize,
-    /// Fewest and most points of a simulation: some samplers make the nearest number they can.
+    /// Fewest and most points of a simulation; some samplers make the nearest number that they can.
     pub points: (usize, usize),
     /// l-infinity between the mosaic and the mean of all simulations.
     pub l_infinity: f64,
-    /// Median l-infinity between one simulation and the mean of all other curves.
+    /// Median over the simulations of the l-infinity between one and the mean of all other curves.
     pub l_infinity_usual: f64,
-    /// The value that 95 % of those stay within.
+    /// 95 % quantile over the simulations of the same distance.
     pub l_infinity_most: f64,
-    /// Share of curves, the mosaic's among them, that are at least as far from the mean of the others as the mosaic's is.
+    /// Fraction of curves, the mosaic's among them, that are at least as far from the mean of the
+    /// others as the mosaic's is.
     pub p_l_infinity: f64,
-    /// p-value of the global envelope test (extreme rank length), which weighs every distance by what is usual there; g to
-    /// three decimals.
+    /// p-value of the global envelope test (extreme rank length), which weighs every distance by
+    /// the scatter that is usual there; g is rounded to three decimals.
     pub p_envelope: f64,
-    /// The level it was held against.
+    /// Significance level of the test.
     pub level: f64,
-    /// Distances, in hexagonal spacings, from–to, at which the mosaic's g lies outside the envelope.
+    /// Ranges of distance, in hexagonal spacings, in which the mosaic's g lies outside the
+    /// envelope.
     pub outside: Vec<(f64, f64)>,
-    /// Regularity index of the simulations (all points, sample deviation): mean and standard deviation over them.
+    /// Regularity index of the simulations (all points, sample standard deviation): mean and
+    /// standard deviation over them.
     pub ri: Moments,
-    /// The band that simulations stay within.
+    /// Band within which the simulations stay.
     pub envelope: Envelope,
 }
 
-/// A global envelope of pair correlation functions, on the grid of the mosaic's.
+/// Global envelope of pair correlation functions, on the same grid as the mosaic's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Envelope {
     /// Distances in hexagonal spacings.
     pub r: Vec<f64>,
     /// Mean of the simulations.
     pub mean: Vec<f64>,
-    /// Lower edge.
+    /// Lower edge of the band.
     pub low: Vec<f64>,
-    /// Upper edge.
+    /// Upper edge of the band.
     pub high: Vec<f64>,
 }
 
 impl SamplerVerdict {
-    /// Whether the mosaic could be a realisation of the sampler, as far as g tells.
+    /// Returns whether the mosaic could be a realisation of the sampler, as far as g tells.
     pub fn alike(&self) -> bool {
         self.p_envelope > self.level
     }
 }
 
-/// One simulation: its curve, its points and their regularity.
+/// Curve, number of points and regularity of one simulation.
 struct Simulation {
     pcf: Pcf,
     n: usize,
     ri: Option<f64>,
 }
 
-/// Holds the pair correlation function of a mosaic of `n` points in `window` against simulations of `sampler` there.
+/// Tests the pair correlation function of a mosaic of `n` points in `window` against simulations of
+/// `sampler` there.
 ///
-/// All curves, the mosaic's among them, are treated alike, so that both p-values are exact Monte Carlo p-values (Barnard
-/// 1963; Myllymäki et al. 2017). Simulation k has a generator of its own, seeded by a hash of `seed`, the sampler's
-/// name, n, the window and k: the same for any number of threads.
+/// All curves, the mosaic's among them, are treated alike, so both p-values are exact Monte Carlo
+/// p-values (Barnard 1963; Myllymäki et al. 2017, <https://doi.org/10.1111/rssb.12172>). Each
+/// simulation has a random generator of its own, seeded by a hash of `seed`, the sampler's name, n,
+/// the window and the number of the simulation; the result is the same for any number of threads.
 ///
 /// # Errors
-/// If an option is out of range, the sampler cannot fill the window, or the mosaic's curve is of another kind than
-/// `pcf_options` make.
+/// Fails if an option is out of range, the sampler cannot fill the window, or the mosaic's curve
+/// was estimated with other options than `pcf_options`.
 pub fn verdict(
     mosaic: &Pcf,
     n: usize,
@@ -146,7 +170,7 @@ pub fn verdict(
         Some(first) => Pcf { g: mean.clone(), ..first.pcf.clone() },
         None => return Err(CompareError::Simulations { found: 0 }),
     };
-    // also refuses curves that do not compare
+    // also refuses curves that cannot be compared
     let distance = l_infinity(mosaic, &mean_pcf)?;
     let mut usual: Vec<f64> = curves.iter().map(|g| from_others(g)).collect();
     usual.sort_unstable_by(f64::total_cmp);
@@ -176,6 +200,7 @@ pub fn verdict(
     })
 }
 
+/// Returns a hash of everything that the simulations depend on, but their number.
 fn seed_of(sampler: &str, n: usize, window: &Window, seed: u64) -> Sha256 {
     let bounds = window.bounds();
     let mut hash = Sha256::new_with_prefix(b"verdict");

@@ -1,24 +1,36 @@
+//! Classical filter of confocal images, in which a cone is a bright spot.
+//!
+//! The response is −∇² of G(σ)∗I, with σ from .13 spacings in a clear image to .21 spacings in
+//! noise.
+
 use super::{Criterion, negative_laplacian};
 use crate::detect::spacing::CLEAR;
 use crate::image::{Plane, gaussian};
 
-/// Width of the Gaussian, in spacings, where the image is clear: narrow, so that close neighbours stay apart.
+/// Width of the Gaussian in a clear image, in spacings: narrow, so that close neighbours stay
+/// apart.
 const NARROWEST: f64 = 0.13;
-/// Where it is not, the Gaussian is wider by so much for every unit of clarity below `CLEAR`, up to `WIDEST`. Chosen on
-/// hand-marked images with white, smooth and Poisson-like noise of 0–1 standard deviations, and at .7 and 1.5 times their size.
+/// Increase of the width, in spacings, for every unit of clarity below `CLEAR`.
+///
+/// It was chosen on hand-marked images with white, smooth and Poisson-like noise of 0–1 standard
+/// deviations, and on the same images at .7 and 1.5 times their size.
 const WIDENING: f64 = 0.0174;
+/// Largest width of the Gaussian, in spacings.
 const WIDEST: f64 = 0.21;
 
+/// Criterion for cones: any concave place is a candidate.
 const CRITERION: Criterion = Criterion { threshold: 0., suppression: 0.55, relative: None };
 
-/// A cone is a bright spot: −∇² of G(σ)∗I, σ = .13 s, up to .21 s in noise (by the `clarity` of the image's ring). Any concave
-/// place is a candidate.
+/// Returns the response of the filter to an image with this spacing in px, and the criterion for
+/// cones.
+///
+/// `clarity` is that of the image's ring.
 pub(in crate::detect) fn response(image: &Plane, spacing: f64, clarity: f64) -> (Plane, Criterion) {
     let blurred = gaussian(image, sigma(clarity) * spacing);
     (negative_laplacian(&blurred), CRITERION)
 }
 
-/// In spacings.
+/// Returns the width of the Gaussian, in spacings.
 fn sigma(clarity: f64) -> f64 {
     (NARROWEST + WIDENING * (CLEAR - clarity)).clamp(NARROWEST, WIDEST)
 }

@@ -1,4 +1,6 @@
-//! Filters whose local maxima are cones, one a modality. All take a plane and the cone spacing in px.
+//! Classical filters whose local maxima are cones, one per modality.
+//!
+//! All take a plane and the cone spacing in px.
 
 pub(super) mod confocal;
 pub(super) mod histology;
@@ -13,37 +15,37 @@ use crate::detect::spec::spec;
 use crate::detect::{Detection, Modality, Polarity, local_maxima, suppress};
 use crate::image::{Plane, fill_rows, values};
 
-/// What counts as a cone in a filter's response.
+/// Criterion by which the maxima of a filter's response are taken for cones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Criterion {
-    /// Maxima must be higher than this.
+    /// Height, in the unit of the response, that maxima must exceed.
     pub threshold: f32,
-    /// Of two maxima nearer to each other than this, in units of the spacing, the lower one goes.
+    /// Distance, in spacings, below which only the higher of two maxima stays.
     pub suppression: f64,
-    /// How high those that remain must be for this image, if that depends on the image.
+    /// Threshold for the maxima that remain, if it depends on the image.
     pub relative: Option<RelativeThreshold>,
 }
 
-/// A threshold that follows the image: slope × upper quartile of the maxima + offset.
+/// Threshold that follows the image: slope × upper quartile of the maxima + offset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RelativeThreshold {
     /// Weight of the upper quartile.
     pub slope: f64,
-    /// In the unit of the response.
+    /// Constant part of the threshold, in the unit of the response.
     pub offset: f64,
 }
 
 impl Criterion {
-    /// The cones among maxima that suppression has left, highest first.
+    /// Returns the cones among the maxima that suppression has left, the highest first.
     pub fn select(&self, mut maxima: Vec<Detection>) -> Vec<Detection> {
         let least = self.least(&maxima);
         maxima.retain(|d| d.score > least);
         maxima
     }
 
-    /// How high a cone must be among `maxima`, the highest first.
+    /// Returns the height that a cone must exceed among `maxima`, the highest first.
     fn least(&self, maxima: &[Detection]) -> f64 {
-        // highest first: the upper quartile stands a quarter of the way down
+        // with the highest first, the upper quartile stands a quarter of the way down
         match (self.relative, maxima.get(maxima.len() / 4)) {
             (Some(relative), Some(quartile)) => relative.slope * quartile.score + relative.offset,
             _ => f64::from(self.threshold),
@@ -51,19 +53,23 @@ impl Criterion {
     }
 }
 
-/// A classical filter, and the probability that its maxima are cones.
+/// A classical filter, and the calibration of its maxima as probabilities.
 pub(super) struct Filter {
-    /// Returns the response of an image whose cones are so many px apart, of positive polarity, and what counts as a cone in it; the
-    /// last argument is the clarity of the image.
+    /// Function that returns the response of an image, and the criterion for its cones.
+    ///
+    /// Its arguments are the image, in which cones have positive polarity, the cone spacing in px,
+    /// and the clarity of the image.
     pub response: fn(&Plane, f64, f64) -> (Plane, Criterion),
-    /// Probability of a cone by the height of its maximum,
+    /// Probability of a cone, given the height of its maximum relative to `reference`.
     pub probability: Logistic,
-    /// measured against this.
+    /// Height that the height of a maximum is measured against.
     pub reference: Reference,
 }
 
 impl Filter {
-    /// Returns the response in either polarity. The filters are odd: the other polarity is the same with the sign turned.
+    /// Returns the response in either polarity.
+    ///
+    /// The filters are odd: for negative polarity the response only changes its sign.
     fn respond(&self, image: &Plane, sought: Sought) -> (Plane, Criterion) {
         let (mut response, criterion) = (self.response)(image, sought.spacing, sought.clarity);
         if sought.polarity == Polarity::Negative {
@@ -86,14 +92,18 @@ impl ConeFinder for Filter {
         Ok(found)
     }
 
-    /// A filter follows the spacing closely.
+    /// Returns .5 %, since a filter follows the spacing closely.
     fn settled(&self) -> f64 {
         0.005
     }
 }
 
-/// The response of the modality's classical filter at the given cone spacing (px), and what counts as a cone in it. That of confocal images is wider where the `clarity` of
-/// the image is low ([`RingProfile::clarity`](crate::detect::RingProfile::clarity)); infinity: a clear one.
+/// Returns the response of a modality's classical filter at the given cone spacing (px), and the
+/// criterion for cones in it.
+///
+/// The filter of confocal images is wider where the `clarity` of the image is low
+/// ([`RingProfile::clarity`](crate::detect::RingProfile::clarity)); infinity stands for a clear
+/// image.
 pub fn response(
     image: &Plane,
     modality: Modality,
@@ -104,7 +114,7 @@ pub fn response(
     spec(modality).filter.respond(image, Sought { polarity, spacing, clarity })
 }
 
-/// −∇² by five points, the border mirrored.
+/// Returns −∇² of a plane by differences of five points; beyond the border lies a mirror image.
 fn negative_laplacian(plane: &Plane) -> Plane {
     let (h, w) = plane.dim();
     let data = values(plane);
@@ -120,7 +130,7 @@ fn negative_laplacian(plane: &Plane) -> Plane {
         for (o, right) in out.iter_mut().zip(&here[1..]) {
             *o -= right;
         }
-        // beyond the border lies the edge pixel itself
+        // beyond the border lies the edge pixel itself, since mirroring repeats it
         out[0] -= here[0];
         out[w - 1] -= here[w - 1];
     })

@@ -1,29 +1,45 @@
+//! Convolution of feature maps by SIMD instructions.
+//!
+//! 1. The weights are put into the order of their use, so that they are read one after the other.
+//! 2. A block of sums (outputs × neighbouring pixels) stays in registers while all taps are added
+//!    to it.
+//! 3. The frame of zeros around the maps makes every tap readable, so no tap is tested for the
+//!    border.
+
 use super::maps::{LANES, Maps};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 
-/// The weights of one convolution, out × in × side × side, and its bias, one an output channel.
+/// Weights of one convolution, out × in × side × side, and one bias per output channel.
 #[derive(Clone, Debug)]
 pub(super) struct Kernel {
+    /// Number of output channels.
     pub outputs: usize,
+    /// Number of input channels.
     pub inputs: usize,
+    /// Side of the window of taps in px, an odd number.
     pub side: usize,
+    /// Weights, by output, input, row and column.
     pub weights: Vec<f32>,
+    /// Biases, one per output channel.
     pub bias: Vec<f32>,
 }
 
 impl Maps {
-    /// What `kernel` makes of these maps: each output Σ weight · input + bias, zeros outside.
+    /// Returns the convolution of these maps with `kernel`: Σ weight · input + bias, zeros outside.
     pub(super) fn convolved(&self, kernel: &Kernel) -> Self {
         self.through(kernel, false)
     }
 
-    /// The same, and what is below zero becomes zero.
+    /// Returns the convolution with `kernel`, negative values replaced by zero (ReLU).
     pub(super) fn layer(&self, kernel: &Kernel) -> Self {
         self.through(kernel, true)
     }
 
-    /// By the widest registers that the processor has. So many sums are kept in them (outputs × registers along x) that
-    /// their additions overlap, and so few that 16 registers hold them and their factors.
+    /// Dispatches to the widest SIMD level available.
+    ///
+    /// Each pass accumulates 4 outputs × 2 vectors (1 × 4 for a single output): enough independent
+    /// sums to hide the latency of the multiply-add, few enough to stay in 16 registers together
+    /// with their factors.
     fn through(&self, kernel: &Kernel, rectified: bool) -> Self {
         let mut out = Self::framed(kernel.outputs, self.height, self.width);
         let pass = |together| Pass {
@@ -41,7 +57,7 @@ impl Maps {
         out
     }
 
-    /// How far before or after a pixel every tap reads, by input, row and column.
+    /// Returns the offset in memory from a pixel to each tap, by input, row and column.
     fn offsets(&self, kernel: &Kernel) -> Vec<isize> {
         let half = (kernel.side / 2) as isize;
         let (stride, plane) = (self.stride as isize, self.plane() as isize);
@@ -56,8 +72,10 @@ impl Maps {
 }
 
 impl Kernel {
-    /// Weights in the order in which they are used: for blocks of outputs, by input, row and column, the block's outputs
-    /// side by side. Outputs that fill the last block are zero.
+    /// Returns the weights in the order of their use: for blocks of outputs, by input, row and
+    /// column, with the block's outputs side by side.
+    ///
+    /// Missing outputs of the last block have weights of zero.
     fn blocks(&self, together: usize) -> Vec<f32> {
         let taps = self.inputs * self.side * self.side;
         let mut blocks = Vec::with_capacity(self.outputs.next_multiple_of(together) * taps);
@@ -72,17 +90,27 @@ impl Kernel {
     }
 }
 
-/// One convolution of all rows. Its functions are compiled once for every kind of processor, into their caller.
+/// One convolution of all rows.
+///
+/// Its functions are inlined into the dispatching caller, so that they are compiled once per SIMD
+/// level.
 struct Pass<'a> {
+    /// Maps that are convolved.
     input: &'a Maps,
+    /// Convolution, for its biases.
     kernel: &'a Kernel,
+    /// Weights in the order of their use.
     blocks: Vec<f32>,
+    /// Offset in memory of each tap.
     taps: Vec<isize>,
+    /// `true` if negative sums become zero.
     rectified: bool,
 }
 
 impl Pass<'_> {
-    /// `TOGETHER` outputs and `VECTORS` registers along x at a time, at the end of a row one register.
+    /// Computes all rows, `TOGETHER` outputs and `VECTORS` registers along x at a time.
+    ///
+    /// At the end of a row it takes one register at a time.
     #[inline(always)]
     fn run<S: Simd, const TOGETHER: usize, const VECTORS: usize>(&self, simd: S, out: &mut Maps) {
         const { assert!(S::f32s::LEN <= LANES) };
@@ -108,7 +136,7 @@ impl Pass<'_> {
         }
     }
 
-    /// The sums of a block of outputs from the pixel `at` on.
+    /// Returns the sums of a block of outputs, for the pixels from index `at` on.
     #[inline(always)]
     fn sums<S: Simd, const TOGETHER: usize, const VECTORS: usize>(
         &self,
@@ -134,7 +162,8 @@ impl Pass<'_> {
         sums
     }
 
-    /// Writes the sums of the outputs from `channel` on to their places in row `y` from `x` on, as far as the row goes.
+    /// Writes the sums of the outputs from `channel` on into row `y` from `x` on, up to the end of
+    /// the row.
     #[inline(always)]
     fn write<S: Simd, const TOGETHER: usize, const VECTORS: usize>(
         &self,
@@ -189,6 +218,7 @@ mod tests {
         }
     }
 
+    /// Returns the convolution at one pixel by its definition.
     fn defined(maps: &Maps, kernel: &Kernel, (o, y, x): (usize, usize, usize)) -> f32 {
         let (side, half) = (kernel.side, kernel.side / 2);
         let mut sum = kernel.bias[o];

@@ -1,13 +1,26 @@
+//! Input of the networks: an image resampled so that cones have the network's spacing, and
+//! normalised.
+//!
+//! 1. Where the grid gets wider, a Gaussian removes detail that it cannot hold.
+//! 2. Cubics (Catmull and Rom 1974, <https://doi.org/10.1016/B978-0-12-079050-0.50020-5>) give the
+//!    values at the new grid.
+//! 3. The drift is subtracted, and the contrast is made even.
+
 use crate::image::{PARALLEL_PIXELS, Plane, gaussian, mirror, plane_of, values};
 use rayon::prelude::*;
 
-/// Widths, in px of the network, of what is taken off as drift and of the neighbourhood that contrast is measured in.
+/// Width, in px of the network, of the Gaussian that is subtracted as drift.
 const DRIFT: f64 = 8.;
+/// Width, in px of the network, of the neighbourhood in which contrast is measured.
 const CONTRAST: f64 = 12.;
-/// This part of the mean contrast is added to the local one: places without structure must not be blown up.
+/// Fraction of the mean contrast that is added to the local contrast.
+///
+/// Without it, places without structure would be blown up.
 const FLOOR: f64 = 0.1;
 
-/// `image` with its drift taken off and its contrast made even: a / (d + .1 mean d), a = g − G(8)∗g, d = √(G(12)∗a²).
+/// Returns `image` with its drift subtracted and its contrast made even.
+///
+/// The result is a / (d + .1 mean d) with a = g − G(8)∗g and d = √(G(12)∗a²), g the image.
 pub(super) fn normalised(image: &Plane) -> Plane {
     let level = image - &gaussian(image, DRIFT);
     let deviation = gaussian(&level.mapv(|v| v * v), CONTRAST).mapv(|v| v.max(0.).sqrt());
@@ -18,10 +31,10 @@ pub(super) fn normalised(image: &Plane) -> Plane {
     out
 }
 
-/// `image` at every `step` px, the pixels' outer edges staying where they are, by cubics (Catmull & Rom 1974); before, where
-/// the grid gets wider, a Gaussian takes off what it cannot hold.
+/// Returns `image` resampled at every `step` px; the outer edges of the pixels stay where they are.
 pub(super) fn resampled(image: &Plane, step: f64) -> Plane {
     let (h, w) = image.dim();
+    // added to a pixel's own extent, this width suits the wider grid
     let blurred = if step > 1. { gaussian(image, 0.5 * (step * step - 1.).sqrt()) } else { image.clone() };
     let source = values(&blurred);
     let (rows, columns) = (taps(h, step), taps(w, step));
@@ -44,12 +57,13 @@ pub(super) fn resampled(image: &Plane, step: f64) -> Plane {
     plane_of(rows.len(), width, data)
 }
 
-/// Which samples make a new one, and how.
+/// Samples that make a new one, and their weights.
 struct Tap {
     at: [usize; 4],
     weights: [f32; 4],
 }
 
+/// Returns the taps of all new samples along a side of `length` px.
 fn taps(length: usize, step: f64) -> Vec<Tap> {
     let count = ((length as f64 / step + 0.5).floor() as usize).max(1);
     (0..count)

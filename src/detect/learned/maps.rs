@@ -1,34 +1,47 @@
+//! Feature maps of the networks, and the memory they are kept in.
+
 use rayon::prelude::*;
 use std::cell::RefCell;
 
-/// Zeros around every channel, in px: no layer reaches further, so none has to ask where the image ends.
+/// Width of the frame of zeros around every channel, in px.
+///
+/// No layer reaches further, so none has to ask where the image ends.
 pub(super) const MARGIN: usize = 4;
-/// The most pixels that a register holds: rows are padded so that whole registers can be read at their end.
+/// Largest number of pixels that a register holds.
+///
+/// Rows are padded so that whole registers can be read at their end.
 pub(super) const LANES: usize = 16;
 
-/// Feature maps: planes of one size, one a channel, each inside a frame of zeros.
+/// Feature maps: planes of one size, one per channel, each inside a frame of zeros.
 #[derive(Debug)]
 pub(super) struct Maps {
+    /// Number of planes, one per channel.
     pub(super) channels: usize,
+    /// Height in px, without the frame.
     pub(super) height: usize,
+    /// Width in px, without the frame.
     pub(super) width: usize,
+    /// Distance in memory from one row to the next.
     pub(super) stride: usize,
+    /// Values by channel, row and column, the frames included.
     pub(super) data: Vec<f32>,
 }
 
-/// How many maps a thread keeps the memory of: as many as a network has at once.
+/// Number of maps whose memory a thread keeps: as many as a network has at once.
 const KEPT: usize = 6;
 
 thread_local! {
-    /// Memory of maps that are gone. Layers follow each other so fast that asking the system for it anew takes as long as
-    /// the convolutions.
+    /// Memory of maps that were dropped.
+    ///
+    /// Layers follow each other so fast that allocating their memory anew takes as long as the
+    /// convolutions.
     static MEMORY: RefCell<Vec<Vec<f32>>> = const { RefCell::new(Vec::new()) };
 }
 
 impl Drop for Maps {
     fn drop(&mut self) {
         let data = std::mem::take(&mut self.data);
-        // fails where the thread itself is ending
+        // fails only while the thread itself is ending
         let _ = MEMORY.try_with(|memory| {
             let mut memory = memory.borrow_mut();
             if memory.len() < KEPT {
@@ -38,12 +51,16 @@ impl Drop for Maps {
     }
 }
 
-/// Memory for `length` values, whatever they are: the smallest that is kept and large enough.
+/// Returns memory for `length` values, whose contents are arbitrary.
+///
+/// It is the smallest piece that is kept and large enough.
 fn memory(length: usize) -> Vec<f32> {
     let kept = MEMORY.try_with(|memory| {
         let mut memory = memory.borrow_mut();
         let fits = (0..memory.len()).filter(|&k| memory[k].capacity() >= length);
         let best = fits.min_by_key(|&k| memory[k].capacity());
+        // if none is large enough, one is taken out all the same, or small pieces would fill the
+        // store
         best.or_else(|| memory.len().checked_sub(1)).map(|k| memory.swap_remove(k))
     });
     let mut data = kept.ok().flatten().unwrap_or_default();
@@ -55,13 +72,14 @@ fn memory(length: usize) -> Vec<f32> {
 }
 
 impl Maps {
+    /// Returns maps in which every value is zero.
     pub(super) fn zeros(channels: usize, height: usize, width: usize) -> Self {
         let mut maps = Self::framed(channels, height, width);
         maps.data.fill(0.);
         maps
     }
 
-    /// Zeros around, anything inside.
+    /// Returns maps with zeros in the frame and arbitrary values inside.
     pub(super) fn framed(channels: usize, height: usize, width: usize) -> Self {
         let stride = 2 * MARGIN + width.next_multiple_of(LANES);
         let length = channels * (height + 2 * MARGIN) * stride + LANES;
@@ -80,26 +98,29 @@ impl Maps {
         maps
     }
 
-    /// From the beginning of one channel to that of the next.
+    /// Returns the distance in memory from one channel to the next.
     pub(super) fn plane(&self) -> usize {
         (self.height + 2 * MARGIN) * self.stride
     }
 
+    /// Returns the index of the first pixel of a row.
     pub(super) fn start(&self, channel: usize, y: usize) -> usize {
         channel * self.plane() + (y + MARGIN) * self.stride + MARGIN
     }
 
+    /// Returns the pixels of a row.
     pub(super) fn row(&self, channel: usize, y: usize) -> &[f32] {
         let start = self.start(channel, y);
         &self.data[start..start + self.width]
     }
 
+    /// Returns the pixels of a row, to be changed.
     pub(super) fn row_mut(&mut self, channel: usize, y: usize) -> &mut [f32] {
         let start = self.start(channel, y);
         &mut self.data[start..start + self.width]
     }
 
-    /// Means of 2 × 2 px. Height and width must be even.
+    /// Returns the means over 2 × 2 px; height and width must be even.
     pub(super) fn halved(&self) -> Self {
         let mut out = Self::framed(self.channels, self.height / 2, self.width / 2);
         for channel in 0..out.channels {
@@ -114,7 +135,7 @@ impl Maps {
         out
     }
 
-    /// Every pixel as 2 × 2 px, added to `others` of that size.
+    /// Returns the maps with every pixel repeated as 2 × 2 px, added to `others` of that size.
     pub(super) fn doubled_onto(&self, others: &Self) -> Self {
         let mut out = Self::framed(self.channels, 2 * self.height, 2 * self.width);
         for channel in 0..out.channels {
@@ -134,7 +155,7 @@ pub(super) fn for_all<T: Sync, R: Send>(items: &[T], part: impl Fn(&T) -> R + Sy
     if items.len() < 2 { items.iter().map(part).collect() } else { items.par_iter().map(part).collect() }
 }
 
-/// Maps with something in every place.
+/// Returns maps with a value in every place.
 #[cfg(test)]
 pub(super) fn textured(channels: usize, height: usize, width: usize) -> Maps {
     let mut maps = Maps::zeros(channels, height, width);

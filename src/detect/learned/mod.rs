@@ -1,5 +1,7 @@
-//! The learned filter bank: a small convolutional network a modality, trained by `scripts/train-detector`, its weights compiled
-//! into the program. See MODEL_CARD.md beside this file for data, scores and limits.
+//! Learned filters: one small convolutional network per modality.
+//!
+//! They are trained by `scripts/train-detector`, and their weights are compiled into the program.
+//! MODEL_CARD.md beside this file describes data, scores and limits.
 
 mod convolution;
 mod input;
@@ -22,33 +24,35 @@ use crate::image::Plane;
 use std::ops::RangeInclusive;
 use weights::Weights;
 
-/// Spacings that a model can be made for, in px, and radii of suppression, in spacings.
+/// Range of spacings, in px, that a model can be made for.
 const SPACING: RangeInclusive<f64> = 2. ..=64.;
+/// Range of the radius of suppression, in spacings.
 const SUPPRESSION: RangeInclusive<f64> = 0.1..=2.;
-/// Logits below are never cones.
+/// Logit below which a maximum is never a cone.
 const CANDIDATE: f32 = -4.5;
-/// The rank, among the stronger maxima, that an image-relative threshold is counted from.
+/// Quantile of the stronger maxima from which an image-relative threshold is counted.
 const QUANTILE: f64 = 0.75;
 
-/// A network with all that turns its answer into cones.
+/// A network with everything that turns its output into cones.
 #[derive(Debug)]
 pub(super) struct Model {
     network: Network,
-    /// Distance of cones, in px, in the plane that the network sees.
+    /// Cone spacing, in px, in the plane that the network sees.
     spacing: f64,
     threshold: Threshold,
-    /// Of two maxima nearer to each other than this, in units of the spacing, the lower one goes.
+    /// Distance, in spacings, below which only the higher of two maxima stays.
     suppression: f64,
-    /// The images it is for; `None`: all.
+    /// Modality that the model is for; `None` if it is for all images.
     pub(super) modality: Option<Modality>,
-    /// The probability of a cone by how far a logit is above the threshold.
+    /// Probability of a cone, given the difference of its logit from the threshold.
     calibration: Logistic,
-    /// Whether it was measured to find cones better than the classical filters do: by mean Dice coefficients on subjects left out
-    /// of training.
+    /// `true` if the network was measured to find cones better than the classical filter.
+    ///
+    /// The measure is the mean Dice coefficient on subjects left out of training.
     pub(super) better: bool,
 }
 
-/// What gives the logit of a cone's centre for every pixel.
+/// A network that gives the logit of a cone's centre for every pixel.
 #[derive(Debug)]
 enum Network {
     Own(Box<network::Network>),
@@ -56,17 +60,19 @@ enum Network {
     Onnx(Box<onnx::Onnx>),
 }
 
-/// From which logit on a maximum is a cone.
+/// Threshold of the logit above which a maximum is a cone.
 #[derive(Debug)]
 enum Threshold {
-    /// A logit, and by how much it rises with every unit that the image's clarity is below [`CLEAR`].
+    /// A logit, which rises by `in_noise` for every unit of the image's clarity below [`CLEAR`].
     Absolute { logit: f64, in_noise: f64 },
-    /// So far below the upper quartile of the image's maxima above `floor`, after suppression at `radius` spacings.
+    /// A logit that lies `below` the upper quartile of the image's stronger maxima.
+    ///
+    /// Those are the maxima above `floor`, after suppression at `radius` spacings.
     Relative { below: f64, floor: f32, radius: f64 },
 }
 
 impl Model {
-    /// Returns the network in a file of weights.
+    /// Reads the network in a file of weights.
     ///
     /// # Errors
     /// If the weights are damaged, or their metadata out of range.
@@ -75,7 +81,7 @@ impl Model {
         let threshold = match weights.word("rule")? {
             "absolute" => Threshold::Absolute {
                 logit: weights.number("threshold")?,
-                // files of before this rule have none
+                // files from before this rule have no such number
                 in_noise: weights.number_or("threshold_in_noise", 0.)?,
             },
             "relative" => Threshold::Relative {
@@ -107,7 +113,7 @@ impl Model {
         Err(WeightsError::NoOnnx)
     }
 
-    /// The logit from which on a maximum is looked at.
+    /// Returns the logit above which a maximum is a candidate.
     fn candidate(&self) -> f32 {
         match self.threshold {
             Threshold::Absolute { logit, .. } => CANDIDATE.min(logit as f32),
@@ -115,7 +121,8 @@ impl Model {
         }
     }
 
-    /// From which logit on a maximum is a cone.
+    /// Returns the logit above which a maximum is a cone, given all `maxima` and the clarity of the
+    /// image.
     fn threshold_for(&self, maxima: &[Detection], clarity: f64) -> f64 {
         match self.threshold {
             Threshold::Absolute { logit, in_noise } => logit + in_noise * (CLEAR - clarity).max(0.),
@@ -153,13 +160,13 @@ impl ConeFinder for Model {
         Ok(Found { cones, rejected })
     }
 
-    /// Networks are trained at spacings off by up to 15 %.
+    /// Returns 3 %: networks tolerate more, since they are trained at spacings off by up to 15 %.
     fn settled(&self) -> f64 {
         0.03
     }
 }
 
-/// A number among a model's metadata.
+/// Returns a number in a model's metadata, if it is in range.
 fn in_range(
     key: &'static str,
     text: &str,
@@ -170,7 +177,8 @@ fn in_range(
     number.ok_or_else(|| WeightsError::value(key, text, expected))
 }
 
-/// The quantile of values in rising order, between two of them linearly; infinite if there are none.
+/// Returns the quantile of values in rising order, interpolated linearly; infinity if there are
+/// none.
 fn quantile(rising: &[f64], part: f64) -> f64 {
     crate::numeric::linear_quantile(rising, part).unwrap_or(f64::INFINITY)
 }
@@ -180,7 +188,8 @@ mod tests {
     use super::*;
     use crate::detect::spec::{SPECS, spec};
 
-    /// The script that trains writes an image, in which cones are 10 px apart, and its own network's answer beside the weights.
+    /// The script that trains writes two things beside the weights: an image in which cones are
+    /// 10 px apart, and its own network's output for that image.
     #[test]
     fn the_program_and_the_script_that_trained_it_see_the_same() {
         let examples: [&[u8]; 3] = [

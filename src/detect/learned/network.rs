@@ -1,19 +1,29 @@
+//! A U-Net (Ronneberger et al. 2015, <https://doi.org/10.1007/978-3-319-24574-4_28>) that finds
+//! cones.
+//!
+//! 1. The plane is cut into pieces that overlap as far as the network reaches.
+//! 2. Each piece, if the network wants it also mirrored, goes through two halvings and back.
+//! 3. The pieces of logits are joined without a seam.
+
 use super::convolution::Kernel;
 use super::maps::{Maps, for_all};
 use super::weights::{Weights, WeightsError};
 use crate::image::{Plane, mirror};
 
-/// Longest side of a piece that is looked at in one go; larger planes are cut so that all cores work and memory is bounded.
+/// Longest side, in px, of a piece that goes through the network in one go.
+///
+/// Larger planes are cut so that all cores work and memory is bounded.
 const PIECE: usize = 256;
 
-/// From an even plane, in which cones are 8 px apart, to the logit of a cone's centre at every pixel.
+/// A network from a normalised plane, in which cones are 8 px apart, to the logit of a cone's
+/// centre at every pixel.
 #[derive(Debug)]
 pub(super) struct Network {
     unet: Unet,
     views: Views,
 }
 
-/// A U-Net of two halvings and back. Its widths are those of the tensors in the file.
+/// A U-Net with two halvings and back, whose widths are those of the tensors in the file.
 #[derive(Debug)]
 struct Unet {
     first: Kernel,
@@ -29,22 +39,26 @@ struct Unet {
     last: Kernel,
 }
 
-/// As what an image is looked at.
+/// Views of an image whose logits are averaged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Views {
-    /// Only as it is.
+    /// Only the image as it is.
     One,
-    /// Mirrored along x, along y and along both as well, and the logits averaged. Mirrored along x the image has `sign`: a split
-    /// detector then has the other polarity.
+    /// The image as it is, mirrored along x, along y and along both.
+    ///
+    /// A view mirrored along x is multiplied by `sign`: a split detector then has the other
+    /// polarity.
     Mirrored { sign: f32 },
 }
 
-/// Sides must be multiples of this.
+/// Number of px that the sides of a piece must be multiples of, because they are halved twice.
 const UNIT: usize = 4;
-/// How far, in px, an input can act; a multiple of the unit.
+/// Distance, in px, up to which an input can act, rounded up to a multiple of the unit.
 const REACH: usize = 24;
 
 impl Network {
+    /// Builds the network from a file of weights.
+    ///
     /// # Errors
     /// If the architecture is unknown or a tensor is missing or of another shape.
     pub(super) fn new(weights: &Weights) -> Result<Self, WeightsError> {
@@ -61,11 +75,15 @@ impl Network {
         Ok(Self { unet: Unet::new(weights)?, views })
     }
 
-    /// The logit at every pixel of `seen`.
+    /// Returns the logit at every pixel of `seen`.
     pub(super) fn logits(&self, seen: &Plane) -> Plane {
         self.logits_by_pieces(seen, PIECE)
     }
 
+    /// Returns the logits, computed in pieces whose sides are at most about `piece` px.
+    ///
+    /// Beyond the right and lower border, the plane continues as its mirror image to a multiple of
+    /// [`UNIT`].
     fn logits_by_pieces(&self, seen: &Plane, piece: usize) -> Plane {
         let (h, w) = seen.dim();
         let (height, width) = (h.next_multiple_of(UNIT), w.next_multiple_of(UNIT));
@@ -94,12 +112,13 @@ impl Network {
         out
     }
 
-    /// The mean over the views of a piece.
+    /// Returns the mean of the logits over the views of a piece.
     fn viewed(&self, seen: Maps) -> Maps {
         let Views::Mirrored { sign } = self.views else { return self.unet.apply(&seen) };
         let mut sum = self.unet.apply(&seen);
         let mut view = seen;
-        // along y, then x, then y again: every view once, the piece itself first
+        // mirroring along y, x and y in turn gives every view once, the piece itself first; the sum
+        // is mirrored with them, and once more along x at the end, which brings it back
         for (along_x, factor) in [(false, 1.), (true, sign), (false, 1.)] {
             view = mirrored(&view, along_x, factor, None);
             sum = mirrored(&sum, along_x, 1., Some(&self.unet.apply(&view)));
@@ -128,6 +147,7 @@ impl Unet {
         })
     }
 
+    /// Returns the logits of one view of a piece.
     fn apply(&self, seen: &Maps) -> Maps {
         let layer = Maps::layer;
         let top = layer(&layer(seen, &self.first), &self.top);
@@ -140,7 +160,7 @@ impl Unet {
     }
 }
 
-/// One map mirrored along x or along y and multiplied, `others` added.
+/// Returns one map, mirrored along x or along y and multiplied by `factor`, with `others` added.
 fn mirrored(maps: &Maps, along_x: bool, factor: f32, others: Option<&Maps>) -> Maps {
     let mut out = Maps::framed(1, maps.height, maps.width);
     for y in 0..maps.height {
@@ -158,7 +178,8 @@ fn mirrored(maps: &Maps, along_x: bool, factor: f32, others: Option<&Maps>) -> M
     out
 }
 
-/// A stretch `first..end` of a side that is answered for, and the stretch `from..to` that has to be looked at.
+/// A stretch `first..end` of a side whose logits are used, inside the stretch `from..to` that goes
+/// through the network.
 struct Piece {
     first: usize,
     end: usize,
@@ -166,7 +187,9 @@ struct Piece {
     to: usize,
 }
 
-/// Cuts a side into equal pieces of at most `longest`, all cuts multiples of 4.
+/// Cuts a side into equal pieces of about `longest` at most, with all cuts at multiples of 4.
+///
+/// Each piece sees up to `reach` px beyond its ends.
 fn pieces(length: usize, longest: usize, reach: usize) -> Vec<Piece> {
     let count = length.div_ceil(longest).max(1);
     let step = length.div_ceil(count).next_multiple_of(4);

@@ -1,4 +1,4 @@
-//! ONNX models, run by rten.
+//! ONNX models of users, run by `rten`.
 
 use super::{Model, Network, SPACING, SUPPRESSION, Threshold, WeightsError, in_range};
 use crate::detect::Modality;
@@ -8,16 +8,21 @@ use rten::{Dimension, RunOptions, ThreadPool, Value};
 use std::fmt;
 use std::sync::Arc;
 
-/// Sides of what the model sees are multiples of this, unless its metadata say otherwise: as far as five halvings go.
+/// Number of px that the sides of the input are multiples of, unless the metadata say otherwise: it
+/// allows five halvings.
 const MULTIPLE: &str = "32";
-/// Probabilities are kept this far from 0 and 1, where the logit is infinite.
+/// Distance from 0 and 1 at which probabilities are held, since the logit is infinite there.
 const SURE: f32 = 1e-6;
 
-/// A model and how its answer is to be understood.
+/// An ONNX model, and the meaning of its output.
 pub(super) struct Onnx {
+    /// Model as `rten` has read it.
     model: rten::Model,
+    /// Options of a run, with a pool of threads.
     options: RunOptions,
+    /// `true` if the output is a probability, `false` if it is a logit.
     probability: bool,
+    /// Number of px that the sides of the input are multiples of.
     multiple: usize,
 }
 
@@ -28,7 +33,7 @@ impl fmt::Debug for Onnx {
 }
 
 impl Model {
-    /// The ONNX model in `bytes`, with what its metadata say.
+    /// Reads the ONNX model in `bytes` and its metadata.
     ///
     /// # Errors
     /// If it cannot be run, has another shape, or its metadata are out of range.
@@ -62,7 +67,7 @@ impl Model {
             threshold: Threshold::Absolute { logit, in_noise: 0. },
             suppression,
             modality,
-            // nothing is known of its errors: the score is the network's own probability
+            // the errors of the model are unknown, so the score is the model's own probability
             calibration: Logistic { offset: logit, slope: 1. },
             better: false,
         })
@@ -70,7 +75,10 @@ impl Model {
 }
 
 impl Onnx {
-    /// Whether the model takes one plane of any size and gives one of the same.
+    /// Checks that the model takes one plane of any size and gives one of the same size.
+    ///
+    /// # Errors
+    /// If it does not, or fails on a plane of waves.
     fn check(&self) -> Result<(), WeightsError> {
         let (inputs, outputs) = (self.model.input_ids().len(), self.model.output_ids().len());
         if (inputs, outputs) != (1, 1) {
@@ -90,10 +98,12 @@ impl Onnx {
         self.run(&Plane::from_shape_fn((side, 2 * side), waves)).map(|_| ())
     }
 
-    /// The logit at every pixel of `seen`, which goes on mirrored to a multiple beyond its right and lower border.
+    /// Returns the logit at every pixel of `seen`.
+    ///
+    /// Beyond its right and lower border, the plane continues as its mirror image up to a multiple.
     ///
     /// # Errors
-    /// If the model fails or what it says is no plane of logits or probabilities.
+    /// If the model fails, or its output is no plane of logits or probabilities.
     pub(super) fn logits(&self, seen: &Plane) -> Result<Plane, WeightsError> {
         let (height, width) = seen.dim();
         let padded = Plane::from_shape_fn(
@@ -103,7 +113,7 @@ impl Onnx {
         Ok(crop(&self.run(&padded)?, 0, 0, height, width))
     }
 
-    /// The logits of a plane whose sides are multiples as the model wants them.
+    /// Returns the logits of a plane whose sides are multiples as the model wants them.
     fn run(&self, seen: &Plane) -> Result<Plane, WeightsError> {
         let (h, w) = seen.dim();
         let refused = |e: &dyn fmt::Display| WeightsError::Onnx(e.to_string());
@@ -140,7 +150,7 @@ mod tests {
     use super::*;
     use crate::detect::UserModel;
 
-    /// A field of a protocol buffer that holds bytes: a text, or another message.
+    /// Returns a field of a protocol buffer that holds bytes: a text, or another message.
     fn field(number: u8, bytes: impl AsRef<[u8]>) -> Vec<u8> {
         let bytes = bytes.as_ref();
         assert!(bytes.len() < 1 << 14);
@@ -148,11 +158,12 @@ mod tests {
         [&[number << 3 | 2][..], &length, bytes].concat()
     }
 
+    /// Returns a field of a protocol buffer that holds a small integer.
     fn integer(number: u8, value: u8) -> Vec<u8> {
         vec![number << 3, value]
     }
 
-    /// A value of 1 × 1 × `sides`.
+    /// Returns the description of a value of 1 × 1 × `sides`.
     fn plane(name: &str, sides: [Vec<u8>; 2]) -> Vec<u8> {
         let one = field(1, integer(1, 1));
         let [h, w] = sides.map(|side| field(1, side));
@@ -160,7 +171,7 @@ mod tests {
         [field(1, name), field(2, field(1, kind))].concat()
     }
 
-    /// A model of one operator, its input and output of 1 × 1 × `sides`.
+    /// Returns a model of one operator, whose input and output are 1 × 1 × `sides`.
     fn model(operator: &str, sides: [Vec<u8>; 2], metadata: &[(&str, &str)]) -> Vec<u8> {
         let node = [field(1, "seen"), field(2, "heat"), field(4, operator)].concat();
         let (input, output) = (plane("seen", sides.clone()), plane("heat", sides));

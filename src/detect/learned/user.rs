@@ -4,13 +4,23 @@ use serde::{Serialize, Serializer};
 use sha2::{Digest, Sha256};
 use std::sync::Arc;
 
-/// A network of the user's own. Cheap to clone; equal to every other of the same bytes.
+/// A network of the user's own, cheap to clone and equal to every other of the same bytes.
 ///
-/// Either weights as `scripts/train-detector` writes them (safetensors), or, with the feature `onnx`, an ONNX model from
-/// 1×1×H×W (the image resampled and normalised, bright cones positive; H and W multiples of 32 px) to 1×1×H×W, how surely a
-/// cone's centre lies in each pixel. Its metadata, all optional, are `spacing` (px between cones in what it sees, 8),
-/// `output` (`probability`, the default, or `logit`), `multiple` (of which H and W are one, 32), `threshold` (probability, 0.5), `suppression` (in spacings, 0.5) and
-/// `modality` (default: every image).
+/// There are two kinds:
+///
+/// - Weights as `scripts/train-detector` writes them (safetensors).
+/// - With the feature `onnx`, an ONNX model from 1×1×H×W to 1×1×H×W. The input is the image,
+///   resampled and normalised, with bright cones positive; H and W are multiples of 32 px. The
+///   output is the probability that a cone's centre lies in each pixel.
+///
+/// An ONNX model may have these metadata:
+///
+/// - `spacing`: px between cones in the input, default 8
+/// - `output`: `probability` (the default) or `logit`
+/// - `multiple`: the number of px that H and W are multiples of, default 32
+/// - `threshold`: probability above which a maximum is a cone, default 0.5
+/// - `suppression`: radius of suppression in spacings, default 0.5
+/// - `modality`: the images that the model is for, by default all
 #[derive(Clone, Debug)]
 pub struct UserModel {
     name: Arc<str>,
@@ -19,15 +29,15 @@ pub struct UserModel {
 }
 
 impl UserModel {
-    /// The model in the bytes of a file. `name` stands for it in errors.
+    /// Reads the model in the bytes of a file; `name` stands for it in errors.
     ///
     /// # Errors
     /// If it is neither kind, damaged, or its metadata are out of range.
     pub fn new(name: &str, bytes: &[u8]) -> Result<Self, WeightsError> {
         let model = match bytes {
-            // safetensors: the length of a JSON object, and the object
+            // safetensors begins with 8 bytes of length and a JSON object of that length
             [_, _, _, _, _, _, _, _, b'{', ..] => Model::read(bytes)?,
-            // ONNX: a protocol buffer whose first field is the version, a number
+            // ONNX is a protocol buffer whose first field is the version, a number
             [8, ..] => Model::onnx(bytes)?,
             _ => return Err(WeightsError::Kind),
         };
@@ -35,17 +45,17 @@ impl UserModel {
         Ok(Self { name: name.into(), model: Arc::new(model), sha256: sha256.into() })
     }
 
-    /// As it was given.
+    /// Returns the name of the model, as it was given.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The images it was made for; `None`: all.
+    /// Returns the modality that the model was made for; `None` if it is for all images.
     pub fn modality(&self) -> Option<Modality> {
         self.model.modality
     }
 
-    /// The model, if it was made for images of that modality.
+    /// Returns the model, if it is for images of that modality.
     pub(in crate::detect) fn for_modality(&self, modality: Modality) -> Option<&Model> {
         self.modality().is_none_or(|own| own == modality).then_some(&*self.model)
     }
@@ -57,7 +67,8 @@ impl PartialEq for UserModel {
     }
 }
 
-/// As the hash of its bytes: what depends on the model depends on nothing else.
+/// Serialisation as the hash of the bytes: results that depend on the model depend on nothing else
+/// of it, such as its name.
 impl Serialize for UserModel {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(&self.sha256)

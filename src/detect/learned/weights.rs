@@ -1,44 +1,46 @@
+//! Reader of weights in the safetensors format.
+
 use super::convolution::Kernel;
 use serde_json::{Map, Value};
 use thiserror::Error;
 
-/// Why a file of weights cannot be used.
+/// Reasons why a file of weights cannot be used.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum WeightsError {
-    /// Not in the safetensors format, or cut off.
+    /// The file is not in the safetensors format, or cut off.
     #[error("not a safetensors file: {0}")]
     Format(&'static str),
-    /// Neither of the formats that a model can have.
+    /// The file has neither of the formats that a model can have.
     #[error("neither a safetensors file of scripts/train-detector nor an ONNX model")]
     Kind,
-    /// An ONNX model for a program that can run none.
+    /// The file is an ONNX model, which this build of the program cannot run.
     #[error("ONNX models need a program built with them: cargo install --path . --features onnx")]
     NoOnnx,
-    /// The ONNX model cannot be run, or what it says is of no use.
+    /// The ONNX model cannot be run, or its output is of no use.
     #[error("the ONNX model cannot be used: {0}")]
     Onnx(String),
-    /// A word about the network that is out of range.
+    /// A value in the metadata is out of range.
     #[error("its metadata {key} is “{value}”: expected {expected}")]
     Value {
-        /// Which word.
+        /// Key of the metadata.
         key: &'static str,
-        /// What it says.
+        /// Value that was found.
         value: String,
-        /// What it may say.
+        /// Values that are accepted, in words.
         expected: &'static str,
     },
-    /// A word about the network is missing from the header, or is not what it should be.
+    /// A value in the metadata is missing or cannot be understood.
     #[error("the header's “{0}” is missing or cannot be read")]
     Metadata(String),
-    /// A network this program cannot run.
+    /// The network has an architecture that this program cannot run.
     #[error("unknown architecture “{0}”: expected unet")]
     Architecture(String),
     /// A tensor is missing, or of another shape or type.
     #[error("tensor “{name}” is missing or is not F32 of shape {shape:?}")]
     Tensor {
-        /// Its name.
+        /// Name of the tensor.
         name: String,
-        /// The expected shape.
+        /// Shape that was expected.
         shape: Vec<usize>,
     },
 }
@@ -49,16 +51,19 @@ impl WeightsError {
     }
 }
 
-/// More channels than this are a damaged header.
+/// Largest number of channels; more are a sign of a damaged header.
 const WIDEST: u64 = 1024;
 
-/// A safetensors file: eight bytes of length, a JSON header of that length, then the tensors' bytes.
+/// A safetensors file: eight bytes of length, a JSON header of that length, then the bytes of the
+/// tensors.
 pub(super) struct Weights<'a> {
     header: Map<String, Value>,
     tensors: &'a [u8],
 }
 
 impl<'a> Weights<'a> {
+    /// Splits a file into its header and its tensors.
+    ///
     /// # Errors
     /// If `bytes` does not begin with a safetensors header.
     pub(super) fn read(bytes: &'a [u8]) -> Result<Self, WeightsError> {
@@ -72,24 +77,24 @@ impl<'a> Weights<'a> {
         Ok(Self { header, tensors })
     }
 
-    /// A word of the header's metadata.
+    /// Returns the text under `key` in the header's metadata.
     pub(super) fn word(&self, key: &str) -> Result<&str, WeightsError> {
         let word = self.header.get("__metadata__").and_then(|m| m.get(key)).and_then(Value::as_str);
         word.ok_or_else(|| WeightsError::Metadata(key.to_owned()))
     }
 
-    /// A finite number of the header's metadata.
+    /// Returns the finite number under `key` in the header's metadata.
     pub(super) fn number(&self, key: &str) -> Result<f64, WeightsError> {
         let number = self.word(key)?.parse().ok().filter(|v: &f64| v.is_finite());
         number.ok_or_else(|| WeightsError::Metadata(key.to_owned()))
     }
 
-    /// The same, or `otherwise` where the header has no such word.
+    /// Returns the finite number under `key`, or `otherwise` if the metadata do not have that key.
     pub(super) fn number_or(&self, key: &'static str, otherwise: f64) -> Result<f64, WeightsError> {
         if self.word(key).is_err() { Ok(otherwise) } else { self.number(key) }
     }
 
-    /// The convolution `name`, from the tensors `name.weight` and `name.bias`.
+    /// Returns the convolution `name`, from the tensors `name.weight` and `name.bias`.
     pub(super) fn kernel(
         &self,
         name: &str,
@@ -102,7 +107,7 @@ impl<'a> Weights<'a> {
         Ok(Kernel { outputs, inputs, side, weights, bias })
     }
 
-    /// How many channels come out of the convolution `name`.
+    /// Returns the number of output channels of the convolution `name`.
     pub(super) fn outputs(&self, name: &str) -> Result<usize, WeightsError> {
         let name = format!("{name}.bias");
         let shape = self.header.get(&name).and_then(|entry| entry.get("shape"));
@@ -111,7 +116,7 @@ impl<'a> Weights<'a> {
         outputs.map(|n| n as usize).ok_or(WeightsError::Tensor { name, shape: vec![] })
     }
 
-    /// The values of a tensor, row by row.
+    /// Returns the values of a tensor of this shape, row by row.
     pub(super) fn tensor(&self, name: &str, shape: &[usize]) -> Result<Vec<f32>, WeightsError> {
         let find = || {
             let entry = self.header.get(name)?;

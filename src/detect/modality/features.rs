@@ -1,45 +1,66 @@
-//! What tells images of one modality and polarity from those of another.
+//! Features that tell images of one modality and polarity from those of another.
+//!
+//! 1. Slopes: differences of neighbouring pixels along x and along y, after fine and coarse
+//!    smoothing.
+//! 2. Blobs: the response of a filter as wide as a cone, its skewness and the scatter of its
+//!    maxima.
+//! 3. Grey values: the shape of their distribution around the local mean.
+//! 4. The power spectrum around Yellott's ring.
 
 use crate::detect::spacing::{AROUND as AROUND_RING, RingProfile};
 use crate::detect::{Modality, Polarity, filter, flatten::normalise, local_maxima, suppress};
 use crate::image::{Plane, gaussian, values};
 
-/// Widths of Gaussians, in spacings: of slopes, fine and coarse, and of grey values that noise must not blur.
+/// Width of the Gaussian before fine slopes are taken, in spacings.
 const FINE: f64 = 0.1;
+/// Width of the Gaussian before coarse slopes are taken, in spacings.
 const COARSE: f64 = 0.2;
+/// Width of the Gaussian before grey values are compared, in spacings; otherwise noise would blur
+/// their distribution.
 const GREY: f64 = 0.08;
-/// Neighbourhood, in spacings, in which grey values are compared.
+/// Width of the neighbourhood in which grey values are compared, in spacings.
 const AROUND: f64 = 1.5;
-/// Grey values, in local standard deviations, range over no less than this: more than half of an image may be one grey.
+/// Smallest range of grey values that is divided by, in local standard deviations.
+///
+/// More than half of an image may be a single grey value.
 const LEAST_RANGE: f64 = 1e-2;
-/// Maxima lower than this part of their median are not cones.
+/// Smallest height of a cone's maximum, as a fraction of the median height of all maxima.
 const CONE: f64 = 0.3;
 
-/// How many numbers tell modalities apart, and which way round a split detector is.
+/// Number of features that tell modalities apart.
 pub(super) const MODALITY: usize = 11 + AROUND_RING;
+/// Number of features that tell on which side a split detector shows cones dark.
 pub(super) const DIRECTION: usize = 4;
 
-/// What tells images apart.
+/// Features that tell images apart.
 pub(super) struct Features {
-    /// Spacing by the ring, px.
+    /// Spacing by the ring in px.
     spacing: f64,
-    /// Response of a filter as wide as a cone, and its skewness.
+    /// Response of a filter as wide as a cone.
     blobs: Plane,
+    /// Skewness of that response.
     pub blobs_skewness: f64,
-    /// Logarithm of the variance of slopes along x over that along y: a split detector shows the derivative along x.
+    /// Logarithm of the variance of slopes along x over that along y.
+    ///
+    /// A split detector shows the derivative along x.
     directed: f64,
-    /// Skewness of the slopes along x, fine and coarse: a cone between its dark and its bright side is steeper than what lies
-    /// between cones.
+    /// Skewness of the fine slopes along x.
+    ///
+    /// A cone is steeper between its dark and its bright side than the ground between cones is.
     fine_slopes: f64,
+    /// Skewness of the coarse slopes along x.
     coarse_slopes: f64,
-    /// The spectrum around the ring: round soft spots have little power above it, and an uneven brightness much below it; discs have
-    /// edges.
+    /// Logarithm of power around the ring.
+    ///
+    /// Round soft spots have little power above the ring's frequency, discs have more because of
+    /// their edges, and uneven brightness has much below it.
     spectrum: [f64; AROUND_RING],
-    /// Of local grey values, the brighter side that of the cones.
+    /// Distribution of local grey values, the side of the cones taken as the bright one.
     greys: Greys,
 }
 
 impl Features {
+    /// Returns the features of a flattened image with this ring.
     pub(super) fn of(flat: &Plane, ring: &RingProfile) -> Self {
         let spacing = ring.spacing().spacing;
         let blobs = filter::blobs(flat, spacing);
@@ -59,7 +80,9 @@ impl Features {
         }
     }
 
-    /// What shows the modality, without units, in the order of the code; of an image, its negative and its mirror image the same.
+    /// Returns the features that show the modality; they have no unit.
+    ///
+    /// They are the same for an image, its negative and its mirror image.
     pub(super) fn of_modality(&self) -> [f64; MODALITY] {
         let greys = &self.greys;
         let [fine, coarse] = [self.fine_slopes, self.coarse_slopes];
@@ -82,7 +105,9 @@ impl Features {
         features
     }
 
-    /// What shows which way round a split detector is; of the negative the same with the sign turned.
+    /// Returns the features that show on which side a split detector has cones dark.
+    ///
+    /// For the negative of an image, they have the opposite sign.
     pub(super) fn of_direction(&self, flat: &Plane) -> [f64; DIRECTION] {
         let (response, _) =
             filter::response(flat, Modality::Split, Polarity::Positive, self.spacing, f64::INFINITY);
@@ -90,7 +115,9 @@ impl Features {
         [response, self.coarse_slopes, self.fine_slopes, self.blobs_skewness]
     }
 
-    /// Coefficient of variation of the cones' heights: waveguides scatter more than cut discs.
+    /// Returns the coefficient of variation of the cones' heights.
+    ///
+    /// The heights of waveguides (confocal) scatter more than those of cut discs (histology).
     fn scatter_of_heights(&self) -> f64 {
         let upright = if self.blobs_skewness < 0. { self.blobs.mapv(|v| -v) } else { self.blobs.clone() };
         let maxima = suppress(local_maxima(&upright, 0.), 0.55 * self.spacing);
@@ -102,7 +129,7 @@ impl Features {
     }
 }
 
-/// Differences of neighbouring pixels.
+/// Moments of the differences of neighbouring pixels.
 struct Slopes {
     along_x: Moments,
     along_y: Moments,
@@ -119,21 +146,29 @@ impl Slopes {
     }
 }
 
-/// How grey values are distributed around their local mean, in local standard deviations.
+/// Distribution of grey values around their local mean, in local standard deviations.
 struct Greys {
     skewness: f64,
     kurtosis: f64,
-    /// Interquartile range over the range from 5 % to 95 %: large where most pixels are either disc or ground.
+    /// Interquartile range over the range from 5 % to 95 %.
+    ///
+    /// It is large where most pixels are either disc or ground.
     boxiness: f64,
-    /// How much further the bright end lies from the median than the dark end, in parts of the range from 5 % to 95 %.
+    /// Distance of the bright end from the median less that of the dark end, in units of the range
+    /// from 5 % to 95 %.
     asymmetry: f64,
-    /// How far the brightest and the darkest hundredth lie beyond those ends, in the same parts: where a camera was overexposed, or
-    /// its zero set too high, hardly at all.
+    /// Distance of the brightest hundredth from the bright end, in the same units.
+    ///
+    /// It is close to 0 where a camera was overexposed.
     bright_end: f64,
+    /// Distance of the darkest hundredth from the dark end, in the same units.
+    ///
+    /// It is close to 0 where the zero of a camera was set too high.
     dark_end: f64,
 }
 
 impl Greys {
+    /// Returns the distribution for an image; `negative` if cones are dark in it.
     fn of(flat: &Plane, spacing: f64, negative: bool) -> Self {
         let smooth = gaussian(flat, GREY * spacing);
         let local = normalise(&(&smooth - &gaussian(&smooth, AROUND * spacing)), AROUND * spacing);
@@ -160,7 +195,7 @@ impl Greys {
     }
 }
 
-/// Mean and central moments, per value.
+/// Mean and central moments of values, each divided by their number.
 struct Moments {
     mean: f64,
     second: f64,
@@ -186,12 +221,12 @@ impl Moments {
         self.second
     }
 
-    /// Third standardised moment; 0 for a constant.
+    /// Returns the third standardised moment; 0 for a constant.
     fn skewness(&self) -> f64 {
         self.third / self.second.max(f64::MIN_POSITIVE).powf(1.5)
     }
 
-    /// Fourth standardised moment; at least 1.
+    /// Returns the fourth standardised moment, which is at least 1.
     fn kurtosis(&self) -> f64 {
         (self.fourth / self.second.max(f64::MIN_POSITIVE).powi(2)).max(1.)
     }

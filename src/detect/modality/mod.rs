@@ -1,8 +1,10 @@
-//! How an image was taken and which way round its contrast runs, decided from the image.
+//! Modality and polarity of an image, decided from the image.
 //!
-//! A small network tells modalities apart; `scripts/train-modality` trains it on hand-marked and on simulated images, as they are and
-//! with gamma ½ and 2, noise, blur, over- and underexposed, as negatives and as crops. A logistic regression by the same script says
-//! which way round a split detector is. Once cut cells are found, their own contrast says which way round it runs ([`of_cells`]).
+//! A small network tells modalities apart; `scripts/train-modality` trains it on hand-marked and on
+//! simulated images: as they are, with gamma ½ and 2, with noise, blurred, over- and underexposed,
+//! as negatives and as crops. A logistic regression by the same script tells on which side a split
+//! detector shows cones dark. Once cut cells are detected, their own contrast gives the polarity
+//! ([`of_cells`]).
 
 mod features;
 mod network;
@@ -16,29 +18,40 @@ use crate::geometry::Point;
 use crate::image::{Plane, gaussian};
 use features::{DIRECTION, Features, MODALITY};
 
-/// Widths of Gaussians, in spacings: within a cut cell, and beyond its walls.
+/// Width of a Gaussian within a cut cell, in spacings.
 const MIDDLE: f64 = 0.1;
+/// Width of a Gaussian that reaches beyond the walls of a cut cell, in spacings.
 const CELL: f64 = 0.5;
 
-/// Pixels from which on an image may be larger than its flattened part.
+/// Number of pixels of the flattened part from which on the image may be larger than that part.
 const LARGE: usize = 512 * 512;
 
-/// Dark on the left is how instruments are set up: odds of two to one, in logits.
+/// Prior evidence, in logits, that a split detector shows cones dark on the left.
+///
+/// Instruments are usually set up that way: odds of two to one.
 const USUAL: f64 = 0.7;
 
-/// What tells images apart, as `scripts/train-modality` reads it: numbers without units.
+/// Features of an image, without units, as `scripts/train-modality` reads them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModalityFeatures {
-    /// What shows the modality: of slopes along x the excess over those along y and skewness, coarse and fine; skewness of blobs; of
-    /// grey values skewness, kurtosis, shape and ends; scatter of the cones' heights; the spectrum around the ring.
+    /// Features that show the modality.
+    ///
+    /// They are the excess of slopes along x over those along y, the skewness of slopes along x
+    /// (coarse, then fine), the skewness of blobs, the skewness, kurtosis, shape and ends of grey
+    /// values, the scatter of the cones' heights, and the spectrum around the ring.
     pub modality: [f64; MODALITY],
-    /// What shows on which side a split detector has cones dark: skewness of its filter's response, of slopes along x, coarse and fine,
-    /// and of blobs.
+    /// Features that show on which side a split detector has cones dark.
+    ///
+    /// They are the skewness of the filter's response, that of slopes along x (coarse, then fine),
+    /// and that of blobs.
     pub direction: [f64; DIRECTION],
 }
 
-/// The modality, the probability, 0–1, that it is the true one, and the polarity of a flattened image, or of a part that stands for
-/// all of it; what the user gave stays as given.
+/// Decides the modality and the polarity of a flattened image, or of a part that stands for all of
+/// it.
+///
+/// Returns the modality, the probability (0–1) that it is right, and the polarity. Whatever is
+/// given stays as it is, a given modality with probability 1.
 pub(super) fn decide(
     flat: &Plane,
     ring: &RingProfile,
@@ -60,19 +73,22 @@ pub(super) fn decide(
     (modality, confidence, polarity)
 }
 
-/// What [`decide`] looks at.
+/// Returns the features on which [`decide`] rests.
 pub(super) fn features(flat: &Plane, ring: &RingProfile) -> ModalityFeatures {
     let features = features_of(flat, ring);
     ModalityFeatures { modality: features.of_modality(), direction: features.of_direction(flat) }
 }
 
+/// Returns the features of a flattened image, or of a part that stands for all of it.
 fn features_of(flat: &Plane, ring: &RingProfile) -> Features {
-    // of a large image this is but a part: where cones are not equally dense everywhere, its ring is its own
+    // `flat` is only a part of a large image: where density is uneven, its ring differs from that
+    // of all
     let own = (flat.len() >= LARGE).then(|| RingProfile::of(flat));
     Features::of(flat, own.as_ref().unwrap_or(ring))
 }
 
-/// The polarity of cut cells whose centres are known: whether they are brighter there than all around.
+/// Returns the polarity of cut cells with these centres: positive if they are brighter in the
+/// middle than all around.
 pub(super) fn of_cells(image: &Plane, centres: &[Point], spacing: f64) -> Polarity {
     let [middle, around] = [MIDDLE, CELL].map(|width| gaussian(image, width * spacing));
     let (height, width) = image.dim();

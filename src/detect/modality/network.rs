@@ -1,33 +1,41 @@
-//! A small network that tells modalities apart by what [`Features`](super::features::Features) shows: one hidden layer; and a logistic
-//! regression that tells which way round a split detector is. Trained by scripts/train-modality.
+//! A small network with one hidden layer that tells modalities apart by their
+//! [`Features`](super::features::Features), and a logistic regression that tells on which side a
+//! split detector shows cones dark.
+//!
+//! Both are trained by `scripts/train-modality`.
 
 use super::features::{DIRECTION, MODALITY};
 use crate::detect::Modality;
 use std::sync::OnceLock;
 use strum::VariantArray;
 
-/// Units of the hidden layer: those of four networks whose scores are averaged.
+/// Number of units of the hidden layer: those of four networks whose scores are averaged.
 const HIDDEN: usize = 64;
 const CLASSES: usize = Modality::VARIANTS.len();
 
-/// Weights (out × in) and biases of either layer, modalities in the order of [`Modality::VARIANTS`], then those of the direction: 32-bit
-/// floats, little endian.
+/// File of the weights (out × in) and biases of both layers, then the weights of the direction, as
+/// 32-bit floats, little endian.
+///
+/// Modalities are in the order of [`Modality::VARIANTS`].
 static FILE: &[u8; 4 * COUNT] = include_bytes!("modality.f32");
+/// Number of weights and biases of the hidden layer.
 const FIRST: usize = HIDDEN * (MODALITY + 1);
+/// Number of weights and biases of the output layer.
 const LAST: usize = CLASSES * (HIDDEN + 1);
 const COUNT: usize = FIRST + LAST + DIRECTION;
 
-/// The file of the weights: results depend on it.
+/// Returns the file of the weights, on which results depend.
 pub(in crate::detect) const fn weights() -> &'static [u8] {
     FILE
 }
 
+/// Returns the numbers in the file.
 fn numbers() -> &'static [f64] {
     static NUMBERS: OnceLock<Vec<f64>> = OnceLock::new();
     NUMBERS.get_or_init(|| FILE.as_chunks().0.iter().map(|b| f64::from(f32::from_le_bytes(*b))).collect())
 }
 
-/// The most probable modality, and its probability, 0–1.
+/// Returns the most probable modality and its probability, 0–1.
 pub(super) fn most_probable(features: &[f64; MODALITY]) -> (Modality, f64) {
     let scores = scores(features);
     let best = (0..CLASSES).max_by(|&a, &b| scores[a].total_cmp(&scores[b])).unwrap_or(0);
@@ -35,18 +43,19 @@ pub(super) fn most_probable(features: &[f64; MODALITY]) -> (Modality, f64) {
     (Modality::VARIANTS[best], 1. / sum)
 }
 
-/// Logarithm of the odds of each modality, up to a constant.
+/// Returns the logarithm of the odds of each modality, up to a constant.
 fn scores(features: &[f64; MODALITY]) -> [f64; CLASSES] {
     let (first, rest) = numbers().split_at(FIRST);
     let hidden: [f64; HIDDEN] = layer::<MODALITY, HIDDEN>(first, features).map(f64::tanh);
     layer(&rest[..LAST], &hidden)
 }
 
-/// Evidence, in logits, that a split detector shows cones dark on the left.
+/// Returns the evidence, in logits, that a split detector shows cones dark on the left.
 pub(super) fn dark_left(features: &[f64; DIRECTION]) -> f64 {
     numbers()[FIRST + LAST..].iter().zip(features).map(|(w, f)| w * f).sum()
 }
 
+/// Returns the outputs of a layer before its activation.
 fn layer<const IN: usize, const OUT: usize>(weights: &[f64], inputs: &[f64; IN]) -> [f64; OUT] {
     let (factors, biases) = weights.split_at(IN * OUT);
     std::array::from_fn(|k| {
@@ -59,7 +68,8 @@ fn layer<const IN: usize, const OUT: usize>(weights: &[f64], inputs: &[f64; IN])
 mod tests {
     use super::*;
 
-    /// The file is what scripts/train-modality wrote beside the weights: features and scores of some images.
+    /// `scripts/train-modality` wrote the fixture beside the weights: features and scores of some
+    /// images.
     #[test]
     fn scores_are_those_of_the_network_that_was_trained() {
         let mut rows = 0;

@@ -1,22 +1,25 @@
-//! The axis of log-frequency that spectra are summed along.
+//! The axis of log-frequency along which spectra are summed.
 
-/// Log-frequency bins per octave.
+/// Number of log-frequency bins per octave.
 pub(super) const PER_OCTAVE: f64 = 24.;
 /// Period of the lowest bin, in px; bin b holds the period 64 / 2^(b/24).
 pub(super) const LONGEST_PERIOD: f64 = 64.;
-/// Up to half a cycle per pixel.
+/// Number of bins, up to half a cycle per pixel.
 pub(super) const BINS: usize = 121;
 
-/// Where among the bins a period, px, lies.
+/// Returns the place of a period (px) on the axis of bins.
 pub(super) fn bin_of(period: f64) -> f64 {
     PER_OCTAVE * (LONGEST_PERIOD / period).log2()
 }
 
-/// The bin of the widest spacing looked for (40.3 px), and how many there are down to the closest (4 px): as the network was trained.
+/// Index of the bin of the widest spacing that is looked for (40.3 px).
+///
+/// The network was trained with this bin and with this number of candidates.
 pub(super) const FIRST: usize = 16;
+/// Number of candidate spacings, from the widest down to the closest (4 px).
 pub(super) const CANDIDATES: usize = 81;
 
-/// The spacing, px, of a candidate.
+/// Returns the spacing, px, of candidate `k`.
 pub(super) fn candidate(k: f64) -> f64 {
     LONGEST_PERIOD / ((FIRST as f64 + k) / PER_OCTAVE).exp2()
 }

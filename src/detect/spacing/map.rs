@@ -1,26 +1,31 @@
 use crate::geometry::Point;
 use serde::{Deserialize, Serialize};
 
-/// Cone spacing in px as a smooth function of place: values on a grid of nodes, their logarithm interpolated bilinearly, the
-/// outermost values continued outwards.
+/// A map of the cone spacing in px: a smooth function of place.
+///
+/// It has values on a grid of nodes, between which their logarithm is interpolated bilinearly.
+/// Beyond the outermost nodes, their values continue outwards.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpacingMap {
-    /// Columns of nodes, px, rising.
+    /// Places of the columns of nodes, px, rising.
     x: Vec<f64>,
-    /// Rows of nodes, px, rising.
+    /// Places of the rows of nodes, px, rising.
     y: Vec<f64>,
-    /// Natural logarithm of the spacing in px, row by row.
+    /// Natural logarithms of the spacings in px at the nodes, row by row.
     log: Vec<f64>,
 }
 
 impl SpacingMap {
-    /// The same spacing, px, everywhere.
+    /// Returns the map of one spacing, px, that holds everywhere.
     pub fn constant(spacing: f64) -> Self {
         Self { x: vec![0.], y: vec![0.], log: vec![spacing.ln()] }
     }
 
-    /// Spacings, px, at the nodes `x` × `y` (both rising, not empty), row by row. A node without one takes the mean logarithm of
-    /// the nearest nodes that have one; without any, all are `otherwise`.
+    /// Returns the map of the spacings, px, at the nodes `x` × `y` (both rising, not empty), row by
+    /// row.
+    ///
+    /// A node without a spacing takes the mean logarithm of its nearest nodes that have one. If no
+    /// node has one, the map is constant at `otherwise`.
     pub(in crate::detect) fn on_grid(
         x: Vec<f64>,
         y: Vec<f64>,
@@ -32,6 +37,7 @@ impl SpacingMap {
         if log.iter().all(Option::is_none) {
             return Self::constant(otherwise);
         }
+        // each round fills the nodes next to known ones
         while log.contains(&None) {
             let known = log.clone();
             for (k, value) in log.iter_mut().enumerate().filter(|(_, v)| v.is_none()) {
@@ -48,13 +54,15 @@ impl SpacingMap {
         Self { x, y, log: log.into_iter().flatten().collect() }
     }
 
-    /// From `from` px at x = 0 to `to` px at x = `width`.
+    /// Returns a map that rises from `from` px at x = 0 to `to` px at x = `width`.
     #[cfg(test)]
     pub(in crate::detect) fn ramp(width: f64, from: f64, to: f64) -> Self {
         Self::on_grid(vec![0., width], vec![0.], &[Some(from), Some(to)], from)
     }
 
-    /// Every node's logarithm averaged with its neighbours' (weights 4, 2, 1 for itself, along a side, along a diagonal).
+    /// Returns the map with every node's logarithm averaged with those of its neighbours.
+    ///
+    /// The weights are 4 for the node itself, 2 for a neighbour along a side, 1 along a diagonal.
     pub(super) fn smoothed(&self) -> Self {
         let (columns, rows) = (self.x.len(), self.y.len());
         let log = (0..self.log.len())
@@ -71,7 +79,7 @@ impl SpacingMap {
         Self { x: self.x.clone(), y: self.y.clone(), log }
     }
 
-    /// Spacing in px at a place.
+    /// Returns the spacing, px, at a place.
     pub fn at(&self, p: Point) -> f64 {
         let ((i, s), (j, t)) = (between(&self.x, p.x), between(&self.y, p.y));
         let columns = self.x.len();
@@ -84,36 +92,37 @@ impl SpacingMap {
         (upper + t * (below - upper)).exp()
     }
 
-    /// Geometric mean over the nodes, px.
+    /// Returns the geometric mean of the spacings at the nodes, px.
     pub fn typical(&self) -> f64 {
         (self.log.iter().sum::<f64>() / self.log.len() as f64).exp()
     }
 
-    /// Smallest and largest spacing, px.
+    /// Returns the smallest and the largest spacing, px.
     pub fn range(&self) -> (f64, f64) {
         let (low, high) =
             self.log.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), l| (a.min(*l), b.max(*l)));
         (low.exp(), high.exp())
     }
 
-    /// Whether the spacing is the same everywhere.
+    /// Returns whether the spacing is the same everywhere.
     pub fn is_constant(&self) -> bool {
         self.log.iter().all(|l| *l == self.log[0])
     }
 
-    /// Moves all nodes.
+    /// Moves all nodes by `right` px to the right and `down` px down.
     pub(in crate::detect) fn move_by(&mut self, right: f64, down: f64) {
         self.x.iter_mut().for_each(|x| *x += right);
         self.y.iter_mut().for_each(|y| *y += down);
     }
 
-    /// Makes a px `times` as many px.
+    /// Scales all places and spacings by `times`, from px of means over blocks to px of the image.
     pub(in crate::detect) fn enlarge(&mut self, times: f64) {
         self.x.iter_mut().chain(&mut self.y).for_each(|x| *x = (*x + 0.5) * times - 0.5);
         self.log.iter_mut().for_each(|log| *log += times.ln());
     }
 
-    /// Largest change of the logarithm from `earlier`, over the nodes of this map.
+    /// Returns the largest absolute change of the logarithm from the map `earlier`, over the nodes
+    /// of this map.
     pub(in crate::detect) fn change_from(&self, earlier: &Self) -> f64 {
         let mut largest = 0f64;
         for (j, &y) in self.y.iter().enumerate() {
@@ -138,7 +147,9 @@ fn around(k: usize, columns: usize, rows: usize, mut visit: impl FnMut(usize, bo
     }
 }
 
-/// The node before a place and the part of the way to the next.
+/// Returns the index of the node before a place and the fraction of the way to the next node.
+///
+/// Beyond either end, that is the outermost node and 0.
 fn between(nodes: &[f64], place: f64) -> (usize, f64) {
     let after = nodes.partition_point(|n| *n <= place);
     match after {

@@ -1,5 +1,5 @@
-//! How far apart the cones are: first from Yellott's ring, then from the density of what was found; from place to place where
-//! it varies.
+//! Cone spacing: first from Yellott's ring, then from the density of the detections, and from place
+//! to place where it varies.
 
 mod bins;
 mod fourier;
@@ -20,6 +20,8 @@ pub use ring::{RingEstimate, RingProfile};
 pub(super) use ring_network::weights as ring_weights;
 pub(super) use rings::Rings;
 
-/// Smallest and largest spacing looked for, in px: closer cones are not resolved; wider ones are looked for in means of pixels (see
+/// Smallest and largest spacing that is looked for, in px.
+///
+/// Closer cones are not resolved. Wider ones are looked for in means of pixels (see
 /// [`WIDEST_SPACING`](super::WIDEST_SPACING)).
 pub const SPACING_RANGE: (f64, f64) = (4., 40.);

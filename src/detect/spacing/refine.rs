@@ -1,37 +1,55 @@
+//! Refines the spacing by the density of the detections: s = √(2A/(√3 n)) for n cones on the area
+//! A.
+//!
+//! 1. The density of the whole image gives one spacing, held within e^±0.35 of the ring's.
+//! 2. If there are enough cones, a square of about 80 cones around every node of a grid gives a
+//!    local spacing, held in the same way.
+//! 3. The local spacings are smoothed; where they differ too little, the single spacing stays.
+
 use super::{SPACING_RANGE, SpacingMap};
 use crate::geometry::Point;
 use crate::geometry::index::BucketGrid;
 use crate::image::EmptyPixels;
 use crate::mosaic::hexagonal_spacing;
 
-/// Cones nearer to the border than this, in px, are left out of the count: filters see half of them.
+/// Distance from the border, in px, below which cones are left out of the count.
+///
+/// Filters see only half of such cones.
 pub const BORDER: f64 = 7.;
 
-/// Detections may move the spacing this far from the ring's, as a factor e^±0.35: beyond, they are not to be trusted.
+/// Largest logarithm by which detections may move the spacing from the ring's: a factor of e^±0.35.
+///
+/// Detections that suggest a larger change are not to be trusted.
 const TRUST: f64 = 0.35;
 
-/// A local density is counted over about this many cones.
+/// Number of cones, approximately, over which a local density is counted.
 const COUNTED: f64 = 80.;
-/// With fewer cones than this, one spacing serves the whole image: local counts would be noise.
+/// Number of cones below which one spacing serves the whole image, because local counts would be
+/// noise.
 const ENOUGH_CONES: usize = 320;
-/// Nodes of a map are this many spacings apart.
+/// Distance between the nodes of a map, in spacings.
 const NODE_STEP: f64 = 4.;
-/// Of a square that is counted, at least this part must have been imaged.
+/// Smallest fraction of a square that must have been imaged for its count to be used.
 const IMAGED: f64 = 0.4;
-/// Spacings whose largest is within this factor of the smallest are the same: local counts scatter as much, and filters work
-/// that far off their spacing.
+/// Ratio of the largest to the smallest spacing below which all spacings count as the same.
+///
+/// Local counts scatter as much, and filters tolerate a spacing that far off their own.
 pub(in crate::detect) const EVEN: f64 = 1.2;
 
-/// What a search starts from.
+/// Spacing from which a search starts.
 #[derive(Clone, Debug)]
 pub(in crate::detect) struct Start {
+    /// Spacing from place to place.
     pub map: SpacingMap,
-    /// Detections may not make the spacing of the whole image smaller than this, px.
+    /// Lower limit, px, of the spacing that detections may give to the whole image.
     pub least: f64,
 }
 
 impl Start {
-    /// Where else to start if the density of `centres`, found from here, lies farther off than detections may carry the spacing.
+    /// Returns another start if the density of `centres`, found from this one, contradicts it.
+    ///
+    /// That is so if the spacing by density lies farther off than detections may move the spacing.
+    /// The other start is that spacing, the same everywhere.
     pub(in crate::detect) fn contradicted_by(
         &self,
         centres: &[Point],
@@ -45,8 +63,10 @@ impl Start {
     }
 }
 
-/// Spacing by the density of `centres` in an image of `width` × `height` px: s = √(2A/(√3 n)), n and A inside the 7 px border; `None`
-/// if nothing lies there.
+/// Returns the spacing by the density of `centres` in an image of `width` × `height` px.
+///
+/// Cones and area are counted inside the border of 7 px, or of a quarter of the shorter side if
+/// that is less. Without any cone, one is assumed.
 fn density_spacing(
     centres: &[Point],
     width: usize,
@@ -62,15 +82,21 @@ fn density_spacing(
     hexagonal_spacing(inside.max(1), area * imaged)
 }
 
-/// Held within e^±0.35 of the ring's spacing, which also stands in where there is no density.
+/// Returns a spacing held within e^±0.35 of the ring's, which also stands in where there is no
+/// density.
 fn trusted(by_density: Option<f64>, ring_spacing: f64) -> f64 {
     let by_density = by_density.unwrap_or(ring_spacing);
     ring_spacing * (by_density / ring_spacing).ln().clamp(-TRUST, TRUST).exp()
 }
 
-/// Spacing by the local density of `centres`, counted in squares of about 80 cones that stay inside the border, held within
-/// e^±0.35 of that at the start; one spacing where it is even (within 20 %) or the cones are few. If the density of the whole shows
-/// less than the least spacing, it counts more than cones: then all is raised alike.
+/// Returns the spacing by the local density of `centres`.
+///
+/// The density is counted in squares of about 80 cones that stay inside the border, and the spacing
+/// is held within e^±0.35 of that at the start. The map is constant where the spacing is even
+/// (within 20 %) or the cones are fewer than 320.
+///
+/// If the density of the whole image gives less than the least spacing, more than the cones was
+/// counted. All spacings are then raised by the factor that is missing.
 pub(in crate::detect) fn refined_map(
     centres: &[Point],
     width: usize,
@@ -97,6 +123,7 @@ pub(in crate::detect) fn refined_map(
         for &cx in &x {
             let place = Point::new(cx, cy);
             let before = ring.at(place);
+            // a square of this half-side holds 80 cones of a triangular lattice
             let half = 0.5 * before * (COUNTED * 0.75f64.sqrt()).sqrt();
             let square = cells.square(place, half);
             let imaged = empty.map_or(1., |e| square.imaged(e));
@@ -110,7 +137,7 @@ pub(in crate::detect) fn refined_map(
     if high / low < EVEN { constant() } else { map }
 }
 
-/// A square moved inside the image's border.
+/// A square that was moved so far that it lies inside the image's border.
 struct Square {
     left: f64,
     top: f64,
@@ -119,17 +146,20 @@ struct Square {
 }
 
 impl Square {
+    /// Returns the area in px².
     fn area(&self) -> f64 {
         (self.right - self.left) * (self.bottom - self.top)
     }
 
+    /// Returns the fraction of the square that was imaged.
     fn imaged(&self, empty: &EmptyPixels) -> f64 {
         let pixel = |v: f64| (v + 0.5).max(0.) as usize;
         1. - empty.part(pixel(self.left), pixel(self.top), pixel(self.right), pixel(self.bottom))
     }
 }
 
-/// Points of an image, of which those in a square are counted without looking at all of them.
+/// Points of an image in buckets, so that those in a square are counted without a look at all of
+/// them.
 struct Cells {
     points: BucketGrid<Point>,
     width: f64,
@@ -140,12 +170,14 @@ impl Cells {
     fn new(centres: &[Point], width: usize, height: usize, side: f64) -> Self {
         let (width, height) = (width as f64, height as f64);
         let cells = |length: f64| (length / side) as usize + 1;
-        // the image begins at the corner of its first pixel
+        // the image begins at the outer corner of its first pixel
         let mut points = BucketGrid::new([-0.5; 2], side, [cells(width), cells(height)]);
         centres.iter().for_each(|&p| points.insert(p, p));
         Self { points, width, height }
     }
 
+    /// Returns the square with this middle and half-side, moved and shrunk to stay inside the
+    /// border.
     fn square(&self, middle: Point, half: f64) -> Square {
         let ends = |middle: f64, length: f64| {
             let border = BORDER.min(length / 4.) - 0.5;
@@ -157,6 +189,7 @@ impl Cells {
         Square { left, top, right, bottom }
     }
 
+    /// Returns the number of points in a square.
     fn count(&self, s: &Square) -> usize {
         self.points
             .touching(Point::new(s.left, s.top), Point::new(s.right, s.bottom))
@@ -213,7 +246,7 @@ mod tests {
 
     #[test]
     fn a_gradient_of_density_is_followed_to_its_ends() {
-        // columns of cones ever farther apart: density falls 4:1 from left to right
+        // the columns of cones lie farther and farther apart: density falls 4:1 from left to right
         let (mut points, mut x) = (Vec::new(), 0.);
         while x < 600. {
             let step = 6. + 6. * x / 600.;

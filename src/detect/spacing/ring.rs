@@ -1,58 +1,82 @@
+//! Spacing from Yellott's ring: cones that keep their distance put a ring into the power spectrum.
+//!
+//! 1. The spectrum of a flattened image under a Hann window is summed over angle into bins of
+//!    log-frequency, once in all directions and once each along and across x.
+//! 2. A small network (`ring_network`) gives every candidate spacing its odds.
+//! 3. The most probable candidate, refined by a parabola, is the spacing.
+//!
+//! Yellott (1983), <https://doi.org/10.1126/science.6867716>.
+
 use super::SPACING_RANGE;
 use super::bins::{BINS, CANDIDATES, LONGEST_PERIOD, PER_OCTAVE, bin_of, candidate};
 use super::ring_network;
 use crate::image::{Plane, Spectrum, crop, signed_frequency};
 use std::sync::OnceLock;
 
-/// Side of the transform, in px.
+/// Side of the Fourier transform, in px.
 pub(super) const SIZE: usize = 512;
-/// A ring of fewer periods than this across the image cannot be told from uneven illumination.
+/// Smallest number of periods across the image with which a ring can be told from uneven
+/// illumination.
 pub(in crate::detect) const PERIODS: f64 = 5.;
-/// Probability that the true spacing is closer than the least that a count may show: below it, more cones are more likely noise.
-/// Smaller on marked images is better by .0002 (split detector), on noisy simulated ones worse by up to .03.
+/// Probability of a true spacing below the least one that a count may show.
+///
+/// Below that spacing, more cones are more likely noise. A smaller probability is better by .0002
+/// on marked images (split detector) and worse by up to .03 on noisy simulated ones.
 const CLOSER: f64 = 0.15;
-/// A spacing is right if it is within this factor of the true one, either way.
+/// Factor of the true spacing, up or down, within which a spacing counts as right.
 const RIGHT: f64 = 1.15;
-/// Of a spectrum, in cycles per spacing: from where to where the ring's power stands, and where, with what factor to either side,
-/// there is hardly anything but noise.
+/// Band of a spectrum, in cycles per spacing, that holds the power of the ring.
 const RING_BAND: (f64, f64) = (0.8, 1.4);
+/// Frequency, in cycles per spacing, around which there is hardly anything but noise.
 const FINEST: f64 = 2.6;
+/// Factor by which the band around `FINEST` extends up and down.
 const FINEST_BAND: f64 = 1.15;
-/// Clarity from which on an image has no noise to speak of.
+/// Clarity from which on an image has hardly any noise.
 pub(in crate::detect) const CLEAR: f64 = 6.2;
-/// Places around the ring at which spectra are compared.
+/// Number of places around the ring at which spectra are compared.
 pub(in crate::detect) const AROUND: usize = 15;
 
-/// Logarithm of an image's radially averaged power over log-frequency (24 bins per octave, 1/64 to 1/2 cycles per px).
-/// Cones that keep their distance put a ring into the spectrum (Yellott 1983), here a peak at the frequency
-/// 1 / spacing.
+/// Radially averaged power spectrum of an image over log-frequency, and the spacing it shows.
+///
+/// The power is a logarithm in 24 bins per octave from 1/64 to 1/2 cycles per px. Cones that keep
+/// their distance put a ring into the spectrum, here a peak near the frequency 1 / spacing (Yellott
+/// 1983, <https://doi.org/10.1126/science.6867716>).
 pub struct RingProfile {
+    /// Natural logarithm of the mean power in every bin, over all directions.
     all: [f32; BINS],
-    /// Logarithm of the odds of each candidate to be the spacing, up to a constant; minus infinity for those too wide for the part
-    /// that was transformed.
+    /// Logarithm of the odds of each candidate to be the spacing, up to a constant.
+    ///
+    /// It is minus infinity for candidates too wide for the part that was transformed.
     scores: [f32; CANDIDATES],
 }
 
-/// Where the ring stands, and how sure that is.
+/// The spacing by the ring, and how sure it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RingEstimate {
     /// Cone spacing in px.
     pub spacing: f64,
-    /// Probability, 0–1, that it is within 15 % of the true one, by the spectrum alone.
+    /// Probability, 0–1, judged by the spectrum alone, that the spacing is within 15 % of the true
+    /// one.
     pub confidence: f64,
-    /// The spacing, px, that the true one is closer than with a probability of 15 %, or `spacing` if that is closer.
+    /// Spacing, px, below which the true one lies with a probability of 15 %; at most `spacing`.
     pub least: f64,
 }
 
-/// One term of the transform: where it lies, which two bins share it and how, and which part of it runs along x.
+/// One term of the transform, and its shares in the sums.
 struct Term {
+    /// Index in the transform's order of storage.
     index: u32,
+    /// Lower of the two bins that share the term.
     bin: u16,
+    /// Share of the upper bin.
     upper_share: f32,
+    /// Share of the term that runs along x: fx² / f².
     along_x: f32,
+    /// Number of terms that it stands for: the half of the spectrum with fx < 0 mirrors this one.
     weight: f32,
 }
 
+/// Returns the terms of the transform that fall into the bins.
 fn terms() -> &'static [Term] {
     static TERMS: OnceLock<Vec<Term>> = OnceLock::new();
     TERMS.get_or_init(|| {
@@ -66,7 +90,7 @@ fn terms() -> &'static [Term] {
                 if f <= lowest || f >= 0.515 {
                     continue;
                 }
-                // one bin more on either side catches the shares that fall off the ends
+                // one more bin at either end catches the shares that fall off the axis
                 let place = (PER_OCTAVE * (LONGEST_PERIOD * f).log2() + 1.).clamp(0., (BINS + 1) as f64);
                 terms.push(Term {
                     index: (kx * SIZE + ky) as u32,
@@ -81,15 +105,20 @@ fn terms() -> &'static [Term] {
     })
 }
 
+/// Returns a Hann window of this length, without the zeros at its ends.
 fn hann(length: usize) -> Vec<f32> {
     let step = std::f64::consts::TAU / (length + 1) as f64;
     (1..=length).map(|k| (0.5 - 0.5 * (step * k as f64).cos()) as f32).collect()
 }
 
-/// Power in bins, two more at the ends for the shares that fall off: all, along x, across x.
+/// Sums of power in bins: over all directions, along x, across x.
+///
+/// Three further bins at the ends hold the shares that fall off the axis.
 pub(super) type Power = [[f64; BINS + 3]; 3];
 
-/// Power of a flattened plane, tapered, summed into bins.
+/// Returns the power of a flattened plane under a Hann window, summed into bins.
+///
+/// A plane larger than 512 px is cropped to its upper left.
 pub(super) fn power_of(flat: &Plane) -> Power {
     let (h, w) = flat.dim();
     let (taper_y, taper_x) = (hann(h.min(SIZE)), hann(w.min(SIZE)));
@@ -111,6 +140,7 @@ pub(super) fn power_of(flat: &Plane) -> Power {
     sums
 }
 
+/// Returns the weight of all terms in each bin, by which sums become means.
 fn bin_weights() -> &'static [[f64; BINS + 3]; 3] {
     static WEIGHTS: OnceLock<[[f64; BINS + 3]; 3]> = OnceLock::new();
     WEIGHTS.get_or_init(|| {
@@ -127,13 +157,13 @@ fn bin_weights() -> &'static [[f64; BINS + 3]; 3] {
 }
 
 impl RingProfile {
-    /// The profile of a flattened image (see [`crate::detect::flatten`]) of at most 512 × 512 px; of a larger one, of its
-    /// upper left.
+    /// Returns the profile of a flattened image (see [`crate::detect::flatten`]) of at most
+    /// 512 × 512 px, or of the upper left of a larger one.
     pub fn of(flat: &Plane) -> Self {
         Self::from_powers([&power_of(flat)], flat.dim())
     }
 
-    /// From the mean power of tiles of the given height and width, px.
+    /// Returns the profile of the mean power of tiles of the given height and width, px.
     pub(super) fn from_powers<'a>(
         tiles: impl IntoIterator<Item = &'a Power>,
         (height, width): (usize, usize),
@@ -161,18 +191,20 @@ impl RingProfile {
         Self { all, scores }
     }
 
-    /// The spacing: the most probable candidate, refined by a parabola. The probabilities are a small network's (see
-    /// `ring_network`).
+    /// Returns the spacing: the most probable candidate, refined by a parabola.
+    ///
+    /// The probabilities are those of a small network (see `ring_network`).
     pub fn spacing(&self) -> RingEstimate {
         let spacing = self.peak_among(|_| true);
         RingEstimate { spacing, confidence: self.probability_near(spacing), least: self.least().min(spacing) }
     }
 
-    /// The most probable spacing, px, no further from `spacing` than `factor`.
+    /// Returns the most probable spacing, px, that differs from `spacing` by at most `factor`.
     pub(super) fn spacing_near(&self, spacing: f64, factor: f64) -> f64 {
         self.peak_among(|s| (s / spacing).ln().abs() <= factor.ln())
     }
 
+    /// Returns the most probable spacing, px, among the candidates that are `allowed`.
     fn peak_among(&self, allowed: impl Fn(f64) -> bool) -> f64 {
         let peak = (0..CANDIDATES)
             .filter(|k| allowed(candidate(*k as f64)))
@@ -187,7 +219,9 @@ impl RingProfile {
         candidate(peak as f64 + offset)
     }
 
-    /// The spacing, px, that the true one is closer than with the probability [`CLOSER`]: part of a bin counts as it is shared.
+    /// Returns the spacing, px, below which the true one lies with the probability [`CLOSER`].
+    ///
+    /// Within a bin, the probability is spread evenly.
     fn least(&self) -> f64 {
         let shares: Vec<f64> = self.probabilities().collect();
         let mut closer = 0.;
@@ -200,12 +234,13 @@ impl RingProfile {
         SPACING_RANGE.1
     }
 
-    /// The probability, 0–1, that the true spacing is within 15 % of `spacing`, px.
+    /// Returns the probability, 0–1, that the true spacing is within 15 % of `spacing`, px.
     fn probability_near(&self, spacing: f64) -> f64 {
         let near = |s: f64| (s / spacing).ln().abs() <= RIGHT.ln();
         self.probabilities().enumerate().filter(|(k, _)| near(candidate(*k as f64))).map(|(_, p)| p).sum()
     }
 
+    /// Returns the probability of each candidate, 0–1.
     fn probabilities(&self) -> impl Iterator<Item = f64> {
         let highest = self.scores.iter().copied().fold(f32::NEG_INFINITY, f32::max);
         let odds = move |score: f32| f64::from(score - highest).exp();
@@ -213,22 +248,27 @@ impl RingProfile {
         self.scores.iter().map(move |s| odds(*s) / sum)
     }
 
-    /// By how much the power around the ring of the given spacing, px, exceeds that of detail finer than any cone: a natural
-    /// logarithm, above 6 on a clear image, 2 where noise is as strong as the cones.
+    /// Returns the clarity of the image, given its spacing in px.
+    ///
+    /// It is the natural logarithm of the ratio of the power around the ring to that of detail
+    /// finer than any cone: above 6 on a clear image, 2 where noise is as strong as the cones.
     pub fn clarity(&self, spacing: f64) -> f64 {
-        // bands are several bins wide: none is empty
+        // bands are several bins wide, so none is empty
         let mean = |low: f64, high: f64| {
             let bin = |bin: f64| bin.clamp(0., (BINS - 1) as f64) as usize;
             let band = &self.all[bin(bin_of(spacing / low).ceil())..=bin(bin_of(spacing / high).floor())];
             band.iter().map(|p| f64::from(*p)).sum::<f64>() / band.len() as f64
         };
-        // a fine grid ends before the finest detail
+        // where cones are few px apart, the spectrum ends before the finest detail
         let finest = FINEST.min(0.5 * spacing / FINEST_BAND);
         mean(RING_BAND.0, RING_BAND.1) - mean(finest / FINEST_BAND, finest * FINEST_BAND)
     }
 
-    /// Logarithm of the power around the ring of the given spacing, above the mean of all: from 1.5 octaves below to two
-    /// above in steps of a quarter octave, each the mean of five bins.
+    /// Returns the natural logarithm of the power around the ring of the given spacing, px, above
+    /// the mean of all bins.
+    ///
+    /// The places run from 1.5 octaves below the ring's frequency to two above in steps of a
+    /// quarter octave; each is the mean of five bins.
     pub fn around(&self, spacing: f64) -> [f64; AROUND] {
         const STEP: f64 = PER_OCTAVE / 4.;
         let ring = bin_of(spacing);
@@ -245,7 +285,7 @@ impl RingProfile {
 mod tests {
     use super::*;
 
-    /// A triangular lattice of Gaussian spots.
+    /// Returns an image of a triangular lattice of Gaussian spots.
     fn lattice_image(side: usize, spacing: f64) -> Plane {
         let row = spacing * 3f64.sqrt() / 2.;
         Plane::from_shape_fn((side, side), |(y, x)| {

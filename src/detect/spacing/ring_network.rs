@@ -1,31 +1,43 @@
-//! A small network that reads the spacing off a spectrum: three convolutions along log-frequency, so that a ring looks the same at
-//! any spacing. Trained by scripts/train-ring on hand-marked and simulated images of all modalities, clear, noisy and blurred.
+//! A small network that reads the spacing off a spectrum.
+//!
+//! It consists of three convolutions along log-frequency, so that a ring looks the same at any
+//! spacing. It was trained by `scripts/train-ring` on hand-marked and simulated images of all
+//! modalities, clear, noisy and blurred.
 
 use super::bins::{BINS, CANDIDATES, FIRST};
 use std::sync::OnceLock;
 
-/// Bins that a convolution looks at.
+/// Number of bins that a convolution takes in.
 const TAPS: usize = 25;
-/// Channels into and out of the convolutions: power in all directions, along x and across; the score of a spacing.
+/// Numbers of channels into and out of the convolutions.
+///
+/// The input is the power in all directions, along x and across x; the output is the score of a
+/// spacing.
 const WIDTHS: [usize; 4] = [3, 16, 16, 1];
 
-/// Weights (out × in × taps) and biases of one convolution after the other: 32-bit floats, little endian.
+/// File of the weights (out × in × taps) and biases of one convolution after the other, as 32-bit
+/// floats, little endian.
 static FILE: &[u8; 4 * COUNT] = include_bytes!("ring.f32");
+/// Number of weights and biases in the file.
 const COUNT: usize = count(0) + count(1) + count(2);
 
+/// Returns the number of weights and biases of a layer.
 const fn count(layer: usize) -> usize {
     WIDTHS[layer + 1] * (WIDTHS[layer] * TAPS + 1)
 }
 
-/// The file of the weights: results depend on it.
+/// Returns the file of the weights, on which results depend.
 pub(in crate::detect) const fn weights() -> &'static [u8] {
     FILE
 }
 
-/// A spectrum, or what a layer makes of one, channel by channel.
+/// The channels of a spectrum or of a layer's output, one after the other.
 type Channels = Vec<[f32; BINS]>;
 
-/// Logarithm of the odds of each candidate, from the widest to the closest, to be the spacing, up to a constant.
+/// Returns the logarithm of the odds of each candidate to be the spacing, up to a constant.
+///
+/// Candidates run from the widest to the closest. `log_power` holds the power in all directions,
+/// along x and across x.
 pub(super) fn scores(log_power: [&[f32; BINS]; 3]) -> [f32; CANDIDATES] {
     static WEIGHTS: OnceLock<Vec<f32>> = OnceLock::new();
     let mut weights =
@@ -40,6 +52,7 @@ pub(super) fn scores(log_power: [&[f32; BINS]; 3]) -> [f32; CANDIDATES] {
             .zip(biases)
             .map(|(t, b)| convolve(&maps, t, *b))
             .collect();
+        // the last layer gives scores, which may be negative
         if layer + 2 < WIDTHS.len() {
             maps.as_flattened_mut().iter_mut().for_each(|v| *v = v.max(0.));
         }
@@ -47,12 +60,15 @@ pub(super) fn scores(log_power: [&[f32; BINS]; 3]) -> [f32; CANDIDATES] {
     std::array::from_fn(|k| maps[0][FIRST + k])
 }
 
+/// Returns a profile less its mean, so that the gain of the image does not matter.
 fn above_mean(profile: &[f32; BINS]) -> [f32; BINS] {
     let mean = profile.iter().sum::<f32>() / BINS as f32;
     profile.map(|p| p - mean)
 }
 
-/// The sum over the channels; beyond its ends a channel goes on as it ends.
+/// Returns the sum of the channels' convolutions with their taps, plus the bias.
+///
+/// Beyond either end, a channel continues with its outermost value.
 fn convolve(channels: &Channels, taps: &[f32], bias: f32) -> [f32; BINS] {
     const HALF: usize = TAPS / 2;
     let mut sum = [bias; BINS];
@@ -70,7 +86,7 @@ fn convolve(channels: &Channels, taps: &[f32], bias: f32) -> [f32; BINS] {
 mod tests {
     use super::*;
 
-    /// The file is what scripts/train-ring wrote beside the weights.
+    /// `scripts/train-ring` wrote the fixture beside the weights.
     #[test]
     fn scores_are_those_of_the_network_that_was_trained() {
         let rows: Vec<Vec<Option<f32>>> = include_str!("../../../fixtures/ring_network.csv")

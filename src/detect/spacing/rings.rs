@@ -4,27 +4,32 @@ use crate::detect::flatten;
 use crate::image::{EmptyPixels, Plane, crop};
 use rayon::prelude::*;
 
-/// A local ring may differ from that of the whole image by this factor.
+/// Largest factor by which a local spacing may differ from that of the whole image.
 const LOCAL: f64 = 2.;
-/// Of a tile, at least this part must have been imaged.
+/// Smallest fraction of a tile that must have been imaged for it to count.
 const IMAGED: f64 = 0.5;
 
-/// Yellott's ring all over an image: of overlapping tiles of 512 px, their power averaged (Welch) for the whole.
+/// Yellott's ring all over an image, from overlapping tiles of 512 px.
+///
+/// The power of the tiles is averaged for the ring of the whole image (Welch 1967,
+/// <https://doi.org/10.1109/TAU.1967.1161901>).
 pub(in crate::detect) struct Rings {
     whole: RingProfile,
-    /// Columns and rows of tiles by their first pixels.
+    /// First pixels of the columns of tiles.
     columns: Vec<usize>,
+    /// First pixels of the rows of tiles.
     rows: Vec<usize>,
-    /// One a tile, row by row; none where too little was imaged.
+    /// Profile of each tile, row by row; `None` where too little was imaged.
     tiles: Vec<Option<RingProfile>>,
-    /// The flattened tile that stands for the image, the one with the most that was imaged, then nearest to its middle.
+    /// Flattened tile that stands for the image: the one with the largest imaged part and, among
+    /// equals, the one nearest to the middle.
     sample: Plane,
     height: usize,
     width: usize,
 }
 
 impl Rings {
-    /// Of an image, its empty pixels already filled.
+    /// Returns the rings of an image whose empty pixels are already filled in.
     pub(in crate::detect) fn of(image: &Plane, empty: Option<&EmptyPixels>) -> Self {
         let (height, width) = image.dim();
         let (columns, rows) = (tile_starts(width), tile_starts(height));
@@ -65,17 +70,19 @@ impl Rings {
         Self { whole, columns, rows, tiles, sample, height, width }
     }
 
-    /// The ring of the whole image.
+    /// Returns the ring of the whole image.
     pub(in crate::detect) const fn whole(&self) -> &RingProfile {
         &self.whole
     }
 
-    /// A flattened part of the image, at most 512 × 512 px, that stands for all of it.
+    /// Returns a flattened part of the image, at most 512 × 512 px, that stands for all of it.
     pub(in crate::detect) const fn sample(&self) -> &Plane {
         &self.sample
     }
 
-    /// Spacing from place to place: that of every tile near the whole image's, smoothed.
+    /// Returns the spacing from place to place, smoothed.
+    ///
+    /// For every tile it is the most probable one within a factor of two of the whole image's.
     pub(in crate::detect) fn map(&self) -> SpacingMap {
         let whole = self.whole.spacing().spacing;
         if self.tiles.len() == 1 {
@@ -91,7 +98,9 @@ impl Rings {
     }
 }
 
-/// First pixel of every tile along a side: one for a short side, half-overlapping ones for a long side.
+/// Returns the first pixel of every tile along a side.
+///
+/// A short side has one tile, a long side tiles that overlap by half or more.
 fn tile_starts(length: usize) -> Vec<usize> {
     if length <= SIZE {
         return vec![0];

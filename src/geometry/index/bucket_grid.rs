@@ -1,24 +1,27 @@
 use crate::geometry::Point;
 
-/// End of a chain.
+/// Marker of the end of a chain.
 const NONE: u32 = u32::MAX;
 
-/// Things at places of the plane by square cells, which more are put into while it is asked what lies near. What lies
-/// outside the grid belongs to the outermost cell next to it.
+/// Grid of square cells to which items can be added between queries for items nearby.
+///
+/// Each cell holds a chain of its items. A place outside the grid belongs to the nearest outermost
+/// cell.
 pub(crate) struct BucketGrid<T> {
     origin: [f64; 2],
     side: f64,
     columns: usize,
     rows: usize,
-    /// The last thing of every cell.
+    /// Index of the item added last to each cell.
     last: Vec<u32>,
-    /// The thing before each in its cell.
+    /// Index of the item added before each item to the same cell.
     before: Vec<u32>,
     things: Vec<T>,
 }
 
 impl<T> BucketGrid<T> {
-    /// An empty grid of `columns` × `rows` cells (1 and more) with this side, whose first begins at `origin`.
+    /// Creates an empty grid of `columns` × `rows` cells (at least 1 × 1) of this side, the first
+    /// of which begins at `origin`.
     pub(crate) fn new(origin: [f64; 2], side: f64, [columns, rows]: [usize; 2]) -> Self {
         let last = vec![NONE; columns * rows];
         Self { origin, side, columns, rows, last, before: Vec::new(), things: Vec::new() }
@@ -30,7 +33,7 @@ impl<T> BucketGrid<T> {
         (column.min(self.columns - 1), row.min(self.rows - 1))
     }
 
-    /// Puts in a thing: fewer than 2³² − 1 in all.
+    /// Adds an item; the grid holds fewer than 2³² − 1 items.
     pub(crate) fn insert(&mut self, place: Point, thing: T) {
         let (column, row) = self.cell(place);
         let last = &mut self.last[row * self.columns + column];
@@ -39,18 +42,19 @@ impl<T> BucketGrid<T> {
         self.things.push(thing);
     }
 
-    /// Returns everything in the cell of a place and in the eight around it.
+    /// Returns all items in the cell of a place and in the eight cells around it.
     pub(crate) fn near(&self, place: Point) -> impl Iterator<Item = &T> {
         let (column, row) = self.cell(place);
         let first = (column.saturating_sub(1), row.saturating_sub(1));
         self.block(first, ((column + 1).min(self.columns - 1), (row + 1).min(self.rows - 1)))
     }
 
-    /// Returns everything in the cells that the upright rectangle between two corners touches.
+    /// Returns all items in the cells that the upright rectangle between two corners touches.
     pub(crate) fn touching(&self, low: Point, high: Point) -> impl Iterator<Item = &T> {
         self.block(self.cell(low), self.cell(high))
     }
 
+    /// Returns all items in a rectangle of cells, given by its first and last column and row.
     fn block(&self, first: (usize, usize), last: (usize, usize)) -> impl Iterator<Item = &T> {
         let cells = (first.1..=last.1)
             .flat_map(move |row| &self.last[row * self.columns + first.0..=row * self.columns + last.0]);
@@ -60,7 +64,7 @@ impl<T> BucketGrid<T> {
         })
     }
 
-    /// Returns everything in the order in which it was put in.
+    /// Returns all items in the order in which they were added.
     pub(crate) fn into_things(self) -> Vec<T> {
         self.things
     }

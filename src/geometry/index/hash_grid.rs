@@ -1,16 +1,17 @@
 use std::collections::HashMap;
 
+/// Column and row of a cell, which may be negative.
 type Cell = (i64, i64);
 
-/// Points of the plane by square cells, to find those within the side of a cell.
+/// Points of the open plane in square cells, to find those within the side of a cell.
 pub(crate) struct HashGrid {
     side: f64,
-    /// Index and place of each point.
+    /// Index and place of each point, by cell.
     cells: HashMap<Cell, Vec<(usize, [f64; 2])>>,
 }
 
 impl HashGrid {
-    /// An empty grid that finds points within `reach`.
+    /// Creates an empty grid that finds points within `reach`.
     pub(crate) fn new(reach: f64) -> Self {
         Self { side: reach, cells: HashMap::new() }
     }
@@ -23,7 +24,8 @@ impl HashGrid {
         self.cells.entry(self.cell(point)).or_default().push((index, point));
     }
 
-    /// Every point within reach of `point` and some that are farther, in an order that depends on nothing but the cells.
+    /// Returns all points within reach of `point` and some that are farther, in an order that
+    /// depends only on the cells and the order of insertion.
     pub(crate) fn near(&self, point: [f64; 2]) -> impl Iterator<Item = (usize, [f64; 2])> {
         let (column, row) = self.cell(point);
         (-1..=1)
@@ -34,9 +36,9 @@ impl HashGrid {
     }
 }
 
-/// Distance of two places.
+/// Returns the distance between two places.
 pub(crate) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     let (dx, dy) = (a[0] - b[0], a[1] - b[1]);
-    // lengths here are in spacings: no square overflows
+    // lengths here are in spacings, so no square can overflow
     (dx * dx + dy * dy).sqrt()
 }

@@ -1,4 +1,5 @@
-//! Points by place, to find those near another one: one index for each way of asking that a measured loop needs.
+//! Spatial indices that find the points near a place: one for each kind of query that a
+//! time-critical loop needs.
 
 mod bucket_grid;
 mod hash_grid;

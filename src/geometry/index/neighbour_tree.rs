@@ -3,27 +3,27 @@ use kiddo::kd_tree::ConstructionError;
 use kiddo::{Chebyshev, ImmutableKdTree, SquaredEuclidean};
 use std::num::NonZero;
 
-/// Points in a k-d tree, to look for those nearest to a place; on a torus the short way round.
+/// k-d tree of points, to find those nearest to a place; on a torus by the short way round.
 pub(crate) struct NeighbourTree {
     tree: ImmutableKdTree<f64, 2>,
     origin: [f64; 2],
-    /// Sides of the torus.
+    /// Sides of the torus; `None` in the open plane.
     period: Option<[f64; 2]>,
 }
 
 impl NeighbourTree {
-    /// Plants a tree of finite points in the open plane.
+    /// Builds a tree of finite points in the open plane.
     ///
     /// # Errors
-    /// If there are more points than the tree can number.
+    /// Fails if there are more points than the tree can number.
     pub(crate) fn in_plane(points: &[Point]) -> Result<Self, ConstructionError> {
         Self::at([0.; 2], None, points)
     }
 
-    /// Plants a tree of finite points in a window.
+    /// Builds a tree of finite points in a window.
     ///
     /// # Errors
-    /// If there are more points than the tree can number.
+    /// Fails if there are more points than the tree can number.
     pub(crate) fn in_window(points: &[Point], window: &Window) -> Result<Self, ConstructionError> {
         let bounds = window.bounds();
         let period = window.is_torus().then(|| [bounds.width(), bounds.height()]);
@@ -39,7 +39,7 @@ impl NeighbourTree {
         [p.x - self.origin[0], p.y - self.origin[1]]
     }
 
-    /// Returns indices and squared distances of the `n` nearest points, nearest first.
+    /// Returns the indices and squared distances of the `n` nearest points, the nearest first.
     pub(crate) fn nearest(&self, place: Point, n: NonZero<usize>) -> impl Iterator<Item = (usize, f64)> {
         let at = self.place(place);
         let query = self.tree.query(&at);
@@ -52,7 +52,8 @@ impl NeighbourTree {
         found.into_iter().map(|f| (f.item as usize, f.distance))
     }
 
-    /// Returns the indices of the `n` nearest points of the open plane whose squared distance is at most `limit`.
+    /// Returns the indices of the `n` nearest points whose squared distance is at most `limit`.
+    /// Meant for the open plane: it does not go round a torus.
     pub(crate) fn nearest_within(
         &self,
         place: Point,
@@ -64,7 +65,8 @@ impl NeighbourTree {
         found.into_iter().map(|f| f.item as usize)
     }
 
-    /// Returns the indices of the points at most `half` from a place along either axis, in no order.
+    /// Returns the indices of the points at most `half` away from a place along x and along y, in
+    /// no particular order.
     pub(crate) fn in_square(&self, place: Point, half: f64) -> impl Iterator<Item = usize> {
         let at = self.place(place);
         let query = self.tree.query(&at);

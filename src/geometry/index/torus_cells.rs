@@ -1,12 +1,15 @@
-/// Points on the torus [0, width) × [0, height) by cells no smaller than a reach, to ask whether one is near a place.
+/// Points on the torus `[0, width) × [0, height)` in cells no smaller than a reach, to ask whether
+/// any point is near a place.
 pub(crate) struct TorusCells {
     sides: [f64; 2],
     columns: usize,
     rows: usize,
+    /// Points of each cell, row by row.
     cells: Vec<Vec<[f64; 2]>>,
 }
 
 impl TorusCells {
+    /// Creates empty cells for queries up to `reach`, at most `most` along each side.
     pub(crate) fn new(sides: [f64; 2], reach: f64, most: usize) -> Self {
         // more cells than points along a side would only cost memory
         let along = |side: f64| ((side / reach) as usize).clamp(1, most.max(1));
@@ -24,7 +27,8 @@ impl TorusCells {
         self.cells[row * self.columns + column].push(point);
     }
 
-    /// Whether a point is nearer than `distance` (at most the reach), the shortest way round.
+    /// Returns whether any point is nearer than `distance` (at most the reach), by the shortest way
+    /// round.
     pub(crate) fn any_nearer(&self, place: [f64; 2], distance: f64) -> bool {
         let (column, row) = self.cell(place);
         let around = |at: usize, number: usize| {

@@ -1,5 +1,7 @@
-/// Points on the torus [0, width) × [0, height), at most one a cell: a cell's diagonal is at most the Poisson-disk
-/// radius. Empty cells hold infinity, so that they lie farther than any reach without a test of their own.
+/// Points on the torus `[0, width) × [0, height)`, at most one per cell, as a cell's diagonal is at
+/// most the Poisson-disk radius.
+///
+/// Empty cells hold infinity, which lies beyond any reach, so they need no test of their own.
 pub(crate) struct TorusGrid {
     width: f64,
     height: f64,
@@ -10,6 +12,7 @@ pub(crate) struct TorusGrid {
     cells: Vec<[f64; 2]>,
 }
 
+/// Content of a cell without a point.
 const EMPTY: [f64; 2] = [f64::INFINITY; 2];
 
 impl TorusGrid {
@@ -49,7 +52,8 @@ impl TorusGrid {
         self.cells[row * self.columns + column] = [x, y];
     }
 
-    /// Every image, in the plane around (x, y), of a point nearer to it than `reach`.
+    /// Collects in `near` every image, in the plane around (x, y), of a point nearer to it than
+    /// `reach`.
     #[inline]
     pub(crate) fn gather(&self, x: f64, y: f64, reach: f64, near: &mut Nearby) {
         let reach2 = reach * reach;
@@ -83,9 +87,11 @@ impl TorusGrid {
     }
 }
 
+/// Number of points tested at once.
 const LANES: usize = 16;
 
-/// Points gathered around a place, padded with infinity to whole lanes so that tests run on several at once.
+/// Points gathered around a place, padded with infinity to whole lanes, so that several are tested
+/// at once.
 #[derive(Default)]
 pub(crate) struct Nearby {
     xs: Vec<f64>,
@@ -94,7 +100,7 @@ pub(crate) struct Nearby {
 }
 
 impl Nearby {
-    /// Empty, with room for `most` points.
+    /// Empties the list and makes room for `most` points.
     #[inline]
     fn clear(&mut self, most: usize) {
         self.length = 0;
@@ -104,7 +110,8 @@ impl Nearby {
         }
     }
 
-    /// Writes in any case and counts only what is kept: few cells hold a point in reach, unpredictably which.
+    /// Writes the point in any case, but counts it only if it is kept. This avoids a branch that
+    /// would be mispredicted: few cells hold a point in reach, and it is unpredictable which do.
     #[inline]
     fn push_if(&mut self, kept: bool, x: f64, y: f64) {
         self.xs[self.length] = x;
@@ -112,6 +119,7 @@ impl Nearby {
         self.length += usize::from(kept);
     }
 
+    /// Fills the last lanes with infinity.
     #[inline]
     fn pad(&mut self) {
         let padded = self.length..self.length.next_multiple_of(LANES);
@@ -119,7 +127,7 @@ impl Nearby {
         self.ys[padded].fill(f64::INFINITY);
     }
 
-    /// Whether one of them is nearer to (x, y) than the root of `radius2`.
+    /// Returns whether any of the points is nearer to (x, y) than the square root of `radius2`.
     #[inline]
     pub(crate) fn any_nearer(&self, x: f64, y: f64, radius2: f64) -> bool {
         let padded = self.length.next_multiple_of(LANES);
@@ -136,7 +144,8 @@ impl Nearby {
         false
     }
 
-    /// Whether the disk of one of them covers the rectangle around (x, y) with these half sides.
+    /// Returns whether the disk of any point, of squared radius `radius2`, covers the rectangle
+    /// around (x, y) with these half sides.
     #[inline]
     pub(crate) fn any_covers(&self, x: f64, y: f64, half: [f64; 2], radius2: f64) -> bool {
         self.xs[..self.length].iter().zip(&self.ys[..self.length]).any(|(px, py)| {

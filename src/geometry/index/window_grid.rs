@@ -1,14 +1,16 @@
 use crate::geometry::{Point, Rectangle, Window};
 
-/// Points by the cells of a grid, about one a cell: where they lie evenly, the nearest is found sooner than in a tree.
+/// Points in the cells of a grid, about one per cell. For evenly spread points this finds the
+/// nearest one faster than a tree.
 pub(crate) struct WindowGrid<'a> {
     points: &'a [Point],
     bounds: Rectangle,
     torus: bool,
     columns: usize,
     rows: usize,
-    /// Where each cell begins among `indices`; one more than there are cells.
+    /// Start of each cell in `indices`, and the end of the last cell.
     starts: Vec<usize>,
+    /// Indices of the points, cell by cell.
     indices: Vec<usize>,
 }
 
@@ -50,7 +52,8 @@ impl<'a> WindowGrid<'a> {
         grid
     }
 
-    /// Column and row; of a place outside those of the nearest cell.
+    /// Returns column and row of the cell of a place; for a place outside, those of the nearest
+    /// cell.
     fn cell(&self, p: Point) -> (usize, usize) {
         let b = &self.bounds;
         let column = (p.x - b.x0()) / b.width() * self.columns as f64;
@@ -58,8 +61,10 @@ impl<'a> WindowGrid<'a> {
         ((column as usize).min(self.columns - 1), (row as usize).min(self.rows - 1))
     }
 
-    /// Returns the nearest point, if it is sure to be among those of the 5 × 5 cells around a place: no other can be nearer. `None` near the
-    /// edges of a torus, beyond which it goes on.
+    /// Returns the nearest point if it certainly lies in the 5 × 5 cells around a place, so that no
+    /// other point can be nearer.
+    ///
+    /// Returns `None` otherwise, and near the edges of a torus, beyond which the pattern continues.
     pub(crate) fn nearest(&self, place: Point) -> Option<usize> {
         let (column, row) = self.cell(place);
         let b = &self.bounds;
@@ -91,9 +96,9 @@ impl<'a> WindowGrid<'a> {
                 place.y - (b.y0() + rows.start as f64 * height),
                 b.y0() + rows.end as f64 * height - place.y,
             ];
-            // beyond the bounds there is no point
+            // there are no points beyond the bounds
             let open = sides.into_iter().zip(beyond).filter(|(_, beyond)| !beyond);
-            // rounding must not let a nearer one be missed
+            // the margin keeps rounding from hiding a nearer point
             let sure = open.map(|(side, _)| side).fold(f64::INFINITY, f64::min) * (1. - 1e-9);
             if sure > 0. && best.0.is_finite() && best.0 <= sure * sure {
                 return Some(best.1);

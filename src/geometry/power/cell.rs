@@ -1,30 +1,36 @@
 /// Label of an edge that no other site made: the border of the domain.
 pub(super) const NO_SITE: u32 = u32::MAX;
 
-/// Cuts that would take off less than this share of the cell's radius are not made: rounding would make them again and
-/// again, and they change nothing.
+/// Smallest depth of a cut, as a fraction of the cell's radius. Shallower cuts change nothing and
+/// are not made, as rounding would repeat them again and again.
 const ROUNDING: f64 = 1e-14;
 
-/// A corner of a cell, relative to its site, and whose bisector runs from it to the next corner.
+/// Corner of a cell, relative to its site, labelled by the site whose bisector runs from it to the
+/// next corner.
 #[derive(Clone, Copy)]
 pub(super) struct Corner {
     pub(super) x: f64,
     pub(super) y: f64,
     pub(super) site: u32,
-    /// Distance of that site: of the image whose bisector it is.
+    /// Distance of that site, or of that image of it whose bisector this is.
     pub(super) distance: f64,
 }
 
-/// A convex polygon that half-planes are taken off, one at a time.
+/// Convex polygon from which half-planes are cut off one at a time.
 #[derive(Default)]
 pub(super) struct Clip {
+    /// Corners of the polygon in order; empty if nothing is left.
     corners: Vec<Corner>,
+    /// Buffer for the corners after a cut, kept to save allocations.
     spare: Vec<Corner>,
+    /// Buffer for the position of each corner relative to a cut: positive if it is cut off.
     sides: Vec<f64>,
+    /// Squared distance from the site to the farthest corner.
     radius2: f64,
 }
 
 impl Clip {
+    /// Starts a cell from the corners of the domain, whose edges are labelled `site`.
     pub(super) fn begin(&mut self, corners: impl Iterator<Item = [f64; 2]>, site: u32) {
         self.corners.clear();
         self.corners.extend(corners.map(|[x, y]| Corner { x, y, site, distance: 0. }));
@@ -35,7 +41,7 @@ impl Clip {
         &self.corners
     }
 
-    /// Square of the greatest distance of a corner from the site; 0 if nothing is left.
+    /// Returns the squared distance from the site to the farthest corner; 0 if nothing is left.
     #[inline]
     pub(super) fn radius2(&self) -> f64 {
         self.radius2
@@ -54,8 +60,10 @@ impl Clip {
         self.radius2 = self.corners.iter().map(|c| c.x * c.x + c.y * c.y).fold(0., f64::max);
     }
 
-    /// Takes off what is nearer, in power, to a site at (dx, dy) than to this one; `excess` is this site's weight less the
-    /// other's. Corners are judged one by one, so that rounding may leave a corner too many but never lose the cell.
+    /// Cuts off the part that is nearer, in power, to a site at (dx, dy) than to this one.
+    ///
+    /// `excess` is this site's weight less the other's. Each corner is judged by itself, so
+    /// rounding may leave a corner too many but never lose the cell.
     pub(super) fn cut(&mut self, dx: f64, dy: f64, excess: f64, site: u32) {
         let square = dx * dx + dy * dy;
         let distance = square.sqrt();
@@ -75,7 +83,8 @@ impl Clip {
             if (side > outside) != (next > outside) {
                 let t = (side / (side - next)).clamp(0., 1.);
                 let (x, y) = (from.x + t * (to.x - from.x), from.y + t * (to.y - from.y));
-                // leaving, the bisector begins; entering, the old edge goes on
+                // where the outline leaves the cell the bisector begins; where it enters, the old
+                // edge goes on
                 self.spare.push(if next > outside {
                     Corner { x, y, site, distance }
                 } else {
@@ -94,8 +103,8 @@ impl Clip {
         self.measure();
     }
 
-    /// Area, its centroid relative to the site, and its second moment about that over the square of the area; `None`
-    /// without area.
+    /// Returns the area, its centroid relative to the site, and its second moment about the
+    /// centroid over the square of the area; `None` without area.
     pub(super) fn area(&self) -> Option<(f64, [f64; 2], f64)> {
         let mut from = self.corners.last()?;
         let (mut twice, mut x, mut y, mut square) = (0., 0., 0., 0.);

@@ -3,55 +3,58 @@ use super::grid::Grid;
 use super::{Domain, Raster};
 use rayon::prelude::*;
 
-/// Sites whose cells are made by one thread in one go.
+/// Number of sites whose cells one thread makes in one go.
 const CHUNK: usize = 512;
 
-/// The cell of a site.
+/// Measurements of the cell of one site.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerCell {
-    /// Its area in squared units of the coordinates, or the integral of the density over it; 0 if the site is hidden.
+    /// Area of the cell in squared units of the coordinates, or the integral of the density over
+    /// it; 0 if the site is hidden.
     pub mass: f64,
-    /// Its centre of mass, on the site's side of a torus's seam; the site itself if it is hidden.
+    /// Centre of mass, on the site's side of a torus's seam; the site itself if it is hidden.
     pub centroid: [f64; 2],
-    /// Second moment of its area about the centroid over the square of its area, whatever the density: .1604 for a regular
-    /// hexagon, .1667 for a square; 0 if it is hidden.
+    /// Second moment of the cell's area about its own centroid over the square of the area,
+    /// whatever the density: .1604 for a regular hexagon, .1667 for a square, 0 if the site is
+    /// hidden.
     pub spread: f64,
 }
 
-/// An edge that two cells share.
+/// Edge that two cells share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Facet {
-    /// Index of the neighbour.
+    /// Index of the neighbouring site.
     pub site: u32,
     /// Length of the edge, or the integral of the density along it.
     pub length: f64,
-    /// Distance of the two sites: of the image of the neighbour, on a torus.
+    /// Distance of the two sites; on a torus, of the image of the neighbour that makes this edge.
     pub distance: f64,
 }
 
-/// Cells of all sites, in their order. Together they fill the domain.
+/// Cells of all sites, in the order of the sites. Together they fill the domain.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PowerDiagram {
     cells: Vec<PowerCell>,
     facets: Vec<Facet>,
-    /// Where the facets of each cell end.
+    /// End of each cell's facets in `facets`.
     ends: Vec<u32>,
 }
 
 impl PowerDiagram {
-    /// One cell a site.
+    /// Returns the cells, one per site.
     pub fn cells(&self) -> &[PowerCell] {
         &self.cells
     }
 
-    /// Edges of the cell of a site with the cells of others. On a torus of few sites a neighbour may come more than once.
+    /// Returns the edges that the cell of a site shares with other cells. On a torus of few sites a
+    /// neighbour may occur more than once.
     pub fn facets(&self, site: usize) -> &[Facet] {
         let begin = if site == 0 { 0 } else { self.ends[site - 1] as usize };
         &self.facets[begin..self.ends[site] as usize]
     }
 }
 
-/// Sites at fixed places, of which power diagrams are made with one set of weights after another.
+/// Sites at fixed places, for power diagrams with one set of weights after another.
 pub struct PowerSites<'a> {
     domain: &'a Domain,
     density: Option<&'a Raster>,
@@ -60,29 +63,32 @@ pub struct PowerSites<'a> {
 }
 
 impl<'a> PowerSites<'a> {
-    /// Sites in a domain, on a torus anywhere in the plane. Without a density, mass is area.
+    /// Prepares sites in a domain; on a torus they may lie anywhere in the plane. Without a
+    /// density, mass is area.
     pub fn new(domain: &'a Domain, density: Option<&'a Raster>, sites: &[[f64; 2]]) -> Self {
         let sites: Vec<[f64; 2]> = sites.iter().map(|s| domain.wrapped(*s)).collect();
         let grid = Grid::new(domain, &sites);
         Self { domain, density, sites, grid }
     }
 
-    /// The sites; on a torus, in [0, width) × [0, height).
+    /// Returns the sites; on a torus, moved into `[0, width) × [0, height)`.
     pub fn sites(&self) -> &[[f64; 2]] {
         &self.sites
     }
 
-    /// Indices of the sites from row to row of a grid, so that neighbours are near each other in memory. Sites that are
-    /// not finite are missing.
+    /// Returns the indices of the sites row by row of a grid, so that neighbours are near each
+    /// other in memory. Sites that are not finite are missing.
     pub fn order(&self) -> Vec<u32> {
         self.grid.order().collect()
     }
 
-    /// The cells for `weights` (one a site, squared units of the coordinates). `before` may be the diagram of these sites
-    /// with other weights, or in other places nearby: its neighbours are tried first, which changes the time and nothing else
-    /// but rounding.
+    /// Computes the cells for `weights`, one per site, in squared units of the coordinates.
     ///
-    /// Where sites of equal weight coincide, the first has the cell and the others none. The same for any number of threads.
+    /// `before` may be the diagram of these sites with other weights, or in other places nearby.
+    /// Its neighbours are tried first, which saves time and changes the result by rounding only.
+    ///
+    /// Where sites of equal weight coincide, the first has the cell and the others none. The result
+    /// is the same for any number of threads.
     pub fn diagram(&mut self, weights: &[f64], before: Option<&PowerDiagram>) -> PowerDiagram {
         self.grid.weigh(weights);
         let greatest = weights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -131,7 +137,8 @@ impl<'a> PowerSites<'a> {
                 clip.cut(dx, dy, weight - weights[j], hint.site);
             }
         }
-        // A site at distance d > R, R the greatest of a corner, takes nothing if (d − R)² − its weight ≥ R² − ours.
+        // With R the distance of the farthest corner, a site at distance d > R takes nothing from
+        // the cell if (d − R)² − its weight ≥ R² − our weight.
         let needed = |clip: &Clip| {
             let r2 = clip.radius2();
             r2.sqrt() + (r2 - weight + greatest).max(0.).sqrt()
@@ -144,14 +151,14 @@ impl<'a> PowerSites<'a> {
                     let (dx, dy) = (e.x + shift_x - x, e.y + shift_y - y);
                     let square = dx * dx + dy * dy;
                     let excess = weight - e.weight;
-                    // twice the distance of the bisector, times that of the site
+                    // twice the distance of the bisector, times the distance of the site
                     let twice = square + excess;
                     if (twice >= 0. && twice * twice >= 4. * square * clip.radius2()) || e.site as usize == i
                     {
                         if square > 0. || e.site as usize == i {
                             continue;
                         }
-                        // coincident: all or nothing
+                        // coincident sites: one of them takes all
                         if excess < 0. || (excess == 0. && (e.site as usize) < i) {
                             clip.clear();
                         }
@@ -171,6 +178,7 @@ impl<'a> PowerSites<'a> {
         }
     }
 
+    /// Appends the measurements of a finished cell.
     fn measure(&self, i: usize, clip: &Clip, into: &mut PowerDiagram) {
         let site = self.sites[i];
         let corners = clip.corners();

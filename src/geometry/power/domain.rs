@@ -1,28 +1,28 @@
 use super::cell::{Clip, NO_SITE};
 use crate::geometry::{Point, Polygon};
 
-/// What a power diagram fills.
+/// Area that a power diagram fills.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Domain {
-    /// [0, width) × [0, height) with opposite edges glued.
+    /// Torus `[0, width) × [0, height)`, whose opposite edges are glued together.
     Torus {
-        /// Horizontal side.
+        /// Horizontal side of the torus.
         width: f64,
-        /// Vertical side.
+        /// Vertical side of the torus.
         height: f64,
     },
-    /// A convex polygon.
+    /// Convex polygon, given by its corners in order.
     Convex(Vec<[f64; 2]>),
 }
 
 impl Domain {
-    /// [0, width] × [0, height], bounded.
+    /// Returns the bounded rectangle `[0, width] × [0, height]`.
     pub fn rectangle(width: f64, height: f64) -> Self {
         Self::Convex(vec![[0., 0.], [width, 0.], [width, height], [0., height]])
     }
 
-    /// A polygon of one ring without a corner turned inwards, moved so that its bounds begin at the origin; `None` for
-    /// other polygons.
+    /// Converts a convex polygon of one ring, moved so that its bounds begin at the origin; `None`
+    /// for other polygons.
     pub fn convex(polygon: &Polygon) -> Option<Self> {
         let [ring] = polygon.rings() else { return None };
         let bounds = polygon.bounds();
@@ -37,7 +37,7 @@ impl Domain {
         convex.then(|| Self::Convex(ring.iter().map(|p| [p.x - bounds.x0(), p.y - bounds.y0()]).collect()))
     }
 
-    /// Area, in squared units of the coordinates.
+    /// Returns the area, in squared units of the coordinates.
     pub fn area(&self) -> f64 {
         match self {
             Self::Torus { width, height } => width * height,
@@ -51,7 +51,7 @@ impl Domain {
         }
     }
 
-    /// Least and greatest coordinates.
+    /// Returns the least and the greatest coordinates.
     pub(super) fn bounds(&self) -> [[f64; 2]; 2] {
         match self {
             Self::Torus { width, height } => [[0., 0.], [*width, *height]],
@@ -63,12 +63,13 @@ impl Domain {
         }
     }
 
-    /// Whether opposite edges are glued.
+    /// Returns whether opposite edges are glued together.
     pub const fn is_torus(&self) -> bool {
         matches!(self, Self::Torus { .. })
     }
 
-    /// The place on [0, width) × [0, height) of a torus; elsewhere the place itself.
+    /// Moves a place on a torus into `[0, width) × [0, height)`; in other domains returns it
+    /// unchanged.
     pub fn wrapped(&self, p: [f64; 2]) -> [f64; 2] {
         let wrap = |v: f64, side: f64| {
             let inside = v.rem_euclid(side);
@@ -80,7 +81,7 @@ impl Domain {
         }
     }
 
-    /// The vector from one place to another, by the shortest way round a torus.
+    /// Returns the vector from one place to another, by the shortest way round a torus.
     #[inline]
     pub fn towards(&self, from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
@@ -92,7 +93,8 @@ impl Domain {
         }
     }
 
-    /// The whole domain as seen from a site. On a torus that is the rectangle which the site's own images leave to it.
+    /// Starts a cell as the whole domain, relative to its site. On a torus it starts as the
+    /// rectangle of places nearer to the site than to the site's own images.
     pub(super) fn begin(&self, site: [f64; 2], clip: &mut Clip) {
         match self {
             Self::Torus { width, height } => {
@@ -106,7 +108,7 @@ impl Domain {
     }
 }
 
-/// Angle by which the way a → b → c turns, in radians, −π to π.
+/// Returns the angle by which the path a → b → c turns, in radians, from −π to π.
 fn turn(a: Point, b: Point, c: Point) -> f64 {
     let (ux, uy, vx, vy) = (b.x - a.x, b.y - a.y, c.x - b.x, c.y - b.y);
     (ux * vy - uy * vx).atan2(ux * vx + uy * vy)

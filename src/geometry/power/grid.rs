@@ -1,6 +1,6 @@
 use super::Domain;
 
-/// A site where the grid keeps it.
+/// Copy of a site, kept by the grid for fast access.
 #[derive(Clone, Copy)]
 pub(super) struct Entry {
     pub(super) x: f64,
@@ -9,19 +9,24 @@ pub(super) struct Entry {
     pub(super) site: u32,
 }
 
-/// Sites by the cell of a grid that they lie in, about one a cell.
+/// Sites sorted by the cells of a grid, about one per cell.
 pub(super) struct Grid {
     columns: usize,
     rows: usize,
+    /// Least coordinates of the domain.
     low: [f64; 2],
+    /// Sides of a cell of the grid.
     size: [f64; 2],
     torus: bool,
+    /// Start of each cell in `entries`, and the end of the last cell.
     starts: Vec<u32>,
+    /// Sites, cell by cell.
     entries: Vec<Entry>,
 }
 
 impl Grid {
-    /// Sites that are not finite are left out; those outside the domain count to the nearest cell.
+    /// Sorts the sites into cells. Sites that are not finite are left out; those outside the domain
+    /// belong to the nearest cell.
     pub(super) fn new(domain: &Domain, sites: &[[f64; 2]]) -> Self {
         let [low, high] = domain.bounds();
         let (width, height) = (high[0] - low[0], high[1] - low[1]);
@@ -59,33 +64,37 @@ impl Grid {
         grid
     }
 
-    /// Sites in the order of the grid.
+    /// Returns the sites in the order of the grid.
     pub(super) fn order(&self) -> impl Iterator<Item = u32> + '_ {
         self.entries.iter().map(|e| e.site)
     }
 
+    /// Sets the weights of the sites.
     pub(super) fn weigh(&mut self, weights: &[f64]) {
         for entry in &mut self.entries {
             entry.weight = weights[entry.site as usize];
         }
     }
 
-    /// The longer side of a cell of the grid.
+    /// Returns the longer side of a cell of the grid.
     pub(super) fn step(&self) -> f64 {
         self.size[0].max(self.size[1])
     }
 
     fn place(&self, p: [f64; 2]) -> usize {
         let inside = |axis: usize, most: usize| {
-            // casts saturate: below is 0
+            // casts saturate, so what lies below the domain goes to cell 0
             (((p[axis] - self.low[axis]) / self.size[axis]) as usize).min(most - 1)
         };
         inside(1, self.rows) * self.columns + inside(0, self.columns)
     }
 
-    /// Every site, and on a torus every image of one, within `reach` of (x, y) along both axes, and some beyond: the
-    /// entries of a stretch of the grid and how far they are shifted. On a torus (x, y) lies in it, and what a site's
-    /// cell can need are the images in the eight neighbours of the domain, no others.
+    /// Visits every site within `reach` of (x, y) along both axes, and some beyond; on a torus,
+    /// every image of a site.
+    ///
+    /// `take` is given the entries of a stretch of the grid and their shift along x and y. On a
+    /// torus, (x, y) must lie in it; only images in the domain and its eight neighbours are
+    /// visited, as a cell can need no others.
     #[inline]
     pub(super) fn visit(&self, x: f64, y: f64, reach: f64, mut take: impl FnMut(&[Entry], f64, f64)) {
         let cells = |v: f64, axis: usize, count: usize| {

@@ -1,9 +1,25 @@
-//! Power diagrams (Aurenhammer 1987): the cell of a site holds the places whose squared distance to the site, less the
-//! site's weight, is least. With equal weights that is the Voronoi diagram.
+//! Power diagrams (Aurenhammer 1987, <https://doi.org/10.1137/0216006>): the cell of a site holds
+//! the places whose squared distance to the site, less the site's weight, is least. With equal
+//! weights this is the Voronoi diagram.
 //!
-//! Every cell is cut on its own out of the domain, by the bisectors of sites near enough to matter: sites are found by a
-//! grid, and a bound on their reach says when none is missing. So cells need no triangulation, are made in parallel, and
-//! coincident, collinear or hidden sites are no special cases. The work per site is constant where sites are spread evenly.
+//! 1. Each cell starts as the whole domain.
+//! 2. It is cut by the bisectors of the sites near enough to matter, which a grid finds.
+//! 3. A bound on the reach of sites shows when none is missing.
+//!
+//! Cells thus need no triangulation and are made in parallel, and coincident, collinear or hidden
+//! sites are no special cases. The work per site is constant where sites are spread evenly.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::geometry::power::{Domain, PowerSites};
+//!
+//! let square = Domain::rectangle(4., 4.);
+//! let mut sites = PowerSites::new(&square, None, &[[1., 2.], [3., 2.]]);
+//! let even = sites.diagram(&[0., 0.], None);
+//! assert_eq!(even.cells()[0].mass, 8.); // half of the square: without weights a Voronoi diagram
+//! let heavier = sites.diagram(&[1., 0.], Some(&even));
+//! assert!(heavier.cells()[0].mass > 8.); // a site of more weight has a larger cell
+//! ```
 
 mod cell;
 mod diagram;

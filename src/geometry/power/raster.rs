@@ -1,38 +1,39 @@
 use super::Domain;
 use thiserror::Error;
 
-/// A density that is none.
+/// Values that make no density.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum RasterError {
-    /// Not columns × rows values.
+    /// Number of values that is not columns × rows.
     #[error("a density of {columns} × {rows} cells needs as many values, and has {values}")]
     Shape {
-        /// Cells along x.
+        /// Number of cells along x.
         columns: usize,
-        /// Cells along y.
+        /// Number of cells along y.
         rows: usize,
-        /// Values given.
+        /// Number of values given.
         values: usize,
     },
-    /// A value that no density has.
+    /// Value that no density can have.
     #[error("the density at column {column}, row {row} is {value}: it must be finite and not negative")]
     Value {
-        /// Its column, from 0.
+        /// Column of the value, from 0.
         column: usize,
-        /// Its row, from 0.
+        /// Row of the value, from 0.
         row: usize,
-        /// What it is.
+        /// Value that was given.
         value: f64,
     },
-    /// Nothing anywhere.
+    /// Density that is 0 everywhere.
     #[error("the density is 0 everywhere: there is no place for a point")]
     Empty,
 }
 
-/// A density over the bounds of a domain, constant within each cell of a raster.
+/// Density over the bounds of a domain, constant within each cell of a raster.
 ///
-/// Integrals over polygons are exact: by Green's theorem they are integrals along the outline of F(x, y) = ∫₀ˣ ρ and its
-/// like, which are tabulated at the columns and polynomials between them.
+/// Integrals over polygons are exact. By Green's theorem they are integrals of F(x, y) = ∫₀ˣ ρ and
+/// similar functions along the outline; these are tabulated at the columns and polynomials in
+/// between.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Raster {
     columns: usize,
@@ -41,15 +42,18 @@ pub struct Raster {
     low: [f64; 2],
     torus: bool,
     density: Vec<f64>,
-    /// ∫ρ dx and ∫ρ x dx from the left edge to that of each column, (columns + 1) a row.
+    /// Integrals ∫ρ dx and ∫ρ x dx from the left edge of the domain to that of each column;
+    /// (columns + 1) per row.
     ahead: Vec<[f64; 2]>,
 }
 
 impl Raster {
-    /// Densities (any unit; their ratios count) row by row, over the bounds of `domain`.
+    /// Creates a density from values in row order over the bounds of `domain`. Their unit is
+    /// arbitrary, as only their ratios count.
     ///
     /// # Errors
-    /// If their number is not columns × rows, one is negative or not finite, or all are 0.
+    /// Fails if the number of values is not columns × rows, one is negative or not finite, or all
+    /// are 0.
     pub fn new(domain: &Domain, columns: usize, rows: usize, density: Vec<f64>) -> Result<Self, RasterError> {
         if density.len() != columns.saturating_mul(rows) || density.is_empty() {
             return Err(RasterError::Shape { columns, rows, values: density.len() });
@@ -77,23 +81,24 @@ impl Raster {
         Ok(Self { columns, rows, size, low, torus: domain.is_torus(), density, ahead })
     }
 
-    /// Columns and rows.
+    /// Returns the numbers of columns and rows.
     pub const fn shape(&self) -> (usize, usize) {
         (self.columns, self.rows)
     }
 
-    /// Densities row by row, over the greatest of them.
+    /// Returns the densities in row order, divided by the greatest of them.
     pub fn values(&self) -> &[f64] {
         &self.density
     }
 
-    /// Integrals over a polygon whose edges are given, around a site.
+    /// Starts the integrals over a polygon around a site, to which edges are then added.
     pub(super) fn sums(&self, site: [f64; 2]) -> Sums<'_> {
         let origin = [site[0] - self.low[0], site[1] - self.low[1]];
         Sums { raster: self, origin, mass: 0., x: 0., y: 0. }
     }
 
-    /// ρ, ∫ρ dx and ∫ρ x dx at x in one cell of the raster, from the left edge of the domain.
+    /// Returns ρ, ∫ρ dx and ∫ρ x dx at x in one cell of the raster; the integrals begin at the left
+    /// edge of the domain.
     #[inline]
     fn primitives(&self, column: isize, row: isize, x: f64) -> (f64, f64, f64) {
         let (columns, rows) = (self.columns as isize, self.rows as isize);
@@ -114,7 +119,8 @@ impl Raster {
         if turns == 0 {
             return (density, mass, moment);
         }
-        // whole turns before: Σ over t < turns of (whole moment + t · width · whole mass)
+        // all earlier turns round the torus: Σ over t < turns of (moment of a turn + t · width ·
+        // mass of a turn)
         let whole = self.ahead[row * (self.columns + 1) + self.columns];
         let t = turns as f64;
         let before = [t * whole[0], t * whole[1] + width * whole[0] * t * (t - 1.) / 2.];
@@ -122,9 +128,10 @@ impl Raster {
     }
 }
 
-/// Sums along an outline, over edges from the site.
+/// Integrals over a polygon, summed along its outline; edges are given relative to the site.
 pub(super) struct Sums<'a> {
     raster: &'a Raster,
+    /// Site, relative to the lower corner of the domain.
     origin: [f64; 2],
     mass: f64,
     x: f64,
@@ -132,14 +139,15 @@ pub(super) struct Sums<'a> {
 }
 
 impl Sums<'_> {
-    /// Adds an edge, given relative to the site; its integral of the density.
+    /// Adds an edge, given relative to the site, and returns the integral of the density along it.
     pub(super) fn edge(&mut self, from: [f64; 2], to: [f64; 2]) -> f64 {
         let (a, b) = (self.absolute(from), self.absolute(to));
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
         let length = dx.hypot(dy);
         let mut along = 0.;
         let mut t = 0.;
-        // every pass goes to the next line of the raster; more passes than lines in the way are due to rounding
+        // every pass ends at the next line of the raster; the bound on passes stops a loop that
+        // rounding keeps from advancing
         let lines = |axis: usize, d: f64| (d.abs() / self.raster.size[axis]).ceil() as usize + 2;
         for _ in 0..lines(0, dx) + lines(1, dy) {
             let place = [a[0] + t * dx, a[1] + t * dy];
@@ -158,20 +166,20 @@ impl Sums<'_> {
         [self.origin[0] + p[0], self.origin[1] + p[1]]
     }
 
-    /// Where, as a share of the edge, it meets the next line across this axis.
+    /// Returns the fraction of the edge at which it meets the next line across this axis.
     fn next_line(&self, axis: usize, at: f64, start: f64, d: f64) -> f64 {
         if d == 0. {
             return f64::INFINITY;
         }
         let size = self.raster.size[axis];
         let line = at / size;
-        // the line that rounding has put just behind is not the next
+        // the margin skips a line that rounding has put just behind
         let slack = 1e-9;
         let next = if d > 0. { (line + slack).floor() + 1. } else { (line - slack).ceil() - 1. };
         (next * size - start) / d
     }
 
-    /// Adds a piece within one cell of the raster; the density there.
+    /// Adds a piece within one cell of the raster and returns the density there.
     fn piece(&mut self, from: [f64; 2], to: [f64; 2]) -> f64 {
         let raster = self.raster;
         let middle = [(from[0] + to[0]) / 2., (from[1] + to[1]) / 2.];
@@ -191,7 +199,7 @@ impl Sums<'_> {
         density
     }
 
-    /// Mass, and its centre relative to the site; `None` without mass.
+    /// Returns the mass and its centre relative to the site; `None` without mass.
     pub(super) fn mass_and_centroid(&self) -> Option<(f64, [f64; 2])> {
         (self.mass > 0.).then(|| (self.mass, [self.x / self.mass, self.y / self.mass]))
     }

@@ -13,7 +13,7 @@ fn total(diagram: &PowerDiagram) -> f64 {
     diagram.cells().iter().map(|c| c.mass).sum()
 }
 
-/// The site whose power distance to a place is least, by all of them.
+/// Returns the site with the least power distance to a place, by comparing all sites.
 fn owner(domain: &Domain, sites: &[[f64; 2]], weights: &[f64], p: [f64; 2]) -> usize {
     let power = |i: usize| {
         let [dx, dy] = domain.towards(sites[i], p);
@@ -137,7 +137,7 @@ proptest! {
     fn any_sites_and_weights_fill_the_domain(
         raw in prop::collection::vec((0..6u8, 0..6u8, 0..4u8), 1..40), torus: bool, stretch in -6..=6i32, spread in 0..3i32,
     ) {
-        // lattices with coincident sites, slivers, weights that hide sites
+        // lattices with coincident sites and slivers, and weights that hide sites
         let stretch = 10f64.powi(stretch);
         let sites: Vec<[f64; 2]> =
             raw.iter().map(|r| [f64::from(r.0) * stretch, f64::from(r.1)]).collect();

@@ -1,32 +1,38 @@
+//! Conversion of decoded samples, in any layout, to one grey plane.
+
 use crate::image::Plane;
 use ndarray::Array2;
 
-/// What the samples of a pixel mean.
+/// Use of the alpha sample of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Alpha {
-    /// There is none, or it is not to be applied.
+    /// Alpha is absent or already multiplied in.
     None,
-    /// Grey is to be multiplied by it.
+    /// Alpha that grey must be multiplied by.
     Straight,
 }
 
-/// Where the samples of a picture stand and what they mean.
+/// Layout and meaning of the samples of a picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Layout {
+    /// Width of the picture in px.
     pub(super) width: usize,
+    /// Height of the picture in px.
     pub(super) height: usize,
-    /// Samples a pixel, at least one; those after the colour and the alpha count for nothing.
+    /// Number of samples per pixel, at least one; those after the colour and the alpha are ignored.
     pub(super) channels: usize,
-    /// Three colour samples come first, not one.
+    /// `true` if three colour samples come first, `false` if one grey sample does.
     pub(super) colour: bool,
-    /// What comes after the colour.
+    /// Use of the sample after the colour.
     pub(super) alpha: Alpha,
-    /// One plane after the other, not one pixel after the other.
+    /// `true` if the samples are stored plane by plane, `false` if pixel by pixel.
     pub(super) planar: bool,
 }
 
 impl Layout {
-    /// The grey plane of samples that `value` turns into numbers; `None` if there are not as many as there should be.
+    /// Returns the grey plane of samples that `value` turns into numbers.
+    ///
+    /// `None` if there are fewer samples than there should be.
     pub(super) fn grey<T: Copy>(&self, samples: &[T], value: impl Fn(T) -> f32) -> Option<Plane> {
         let pixels = self.width.checked_mul(self.height)?;
         let colours = if self.colour { 3 } else { 1 };
@@ -47,8 +53,8 @@ impl Layout {
     }
 }
 
-/// Luma by ITU-R Rec. 601.
+/// Returns the luma of a colour by ITU-R Rec. 601.
 pub(super) fn luma(r: f32, g: f32, b: f32) -> f32 {
-    // The weights add up to 1 only within rounding: grey must stay grey.
+    // the weights add up to 1 only within rounding, and grey must stay exactly the same grey
     if r == g && g == b { r } else { 0.299 * r + 0.587 * g + 0.114 * b }
 }

@@ -6,7 +6,9 @@ use image::codecs::png::PngDecoder;
 use image::{ImageDecoder, Limits};
 use std::io::Cursor;
 
-/// The picture in the bytes of a PNG file. Palettes and fewer than 8 bits are expanded by the decoder.
+/// Decodes the picture in the bytes of a PNG file.
+///
+/// The decoder itself expands palettes and samples of fewer than 8 bits.
 pub(in crate::image) fn decode(bytes: &[u8], name: &str) -> Result<Plane, ImageError> {
     let failed = |error: image::ImageError| {
         let (name, format, reason) = (name.to_owned(), "PNG", one_line(&error));
@@ -19,6 +21,7 @@ pub(in crate::image) fn decode(bytes: &[u8], name: &str) -> Result<Plane, ImageE
         check_size(width, height, name)?;
     }
     let mut limits = Limits::default();
+    // the largest kind of pixel in a PNG file, RGBA of 16 bits, takes 8 bytes
     limits.max_alloc = Some(8 * MAX_PIXELS as u64);
     let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(failed)?;
     let (width, height) = decoder.dimensions();
@@ -49,7 +52,9 @@ pub(in crate::image) fn decode(bytes: &[u8], name: &str) -> Result<Plane, ImageE
     grey.ok_or_else(|| ImageError::Damaged { name: name.to_owned(), format: "PNG", reason })
 }
 
-/// Width and height, which stand first in the first chunk: a decoder that finds them to be 0 does not say so plainly.
+/// Returns the width and the height, which stand first in the first chunk.
+///
+/// They are read here because the decoder gives no plain message if one of them is 0.
 fn size_in_header(bytes: &[u8]) -> Option<(u32, u32)> {
     let number = |from: usize| bytes.get(from..from + 4)?.try_into().ok().map(u32::from_be_bytes);
     (bytes.get(12..16)? == b"IHDR").then_some(())?;

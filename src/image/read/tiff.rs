@@ -7,22 +7,27 @@ use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 use tiff::{TiffError, TiffFormatError};
 
-/// Values of the tag PhotometricInterpretation (TIFF 6.0, p. 37).
+/// Value of the tag PhotometricInterpretation for grey with white as 0 (TIFF 6.0, p. 37).
 const WHITE_IS_ZERO: u16 = 0;
+/// Value of the tag PhotometricInterpretation for grey with black as 0.
 const BLACK_IS_ZERO: u16 = 1;
+/// Value of the tag PhotometricInterpretation for colour.
 const RGB: u16 = 2;
+/// Value of the tag PhotometricInterpretation for indexes of a palette.
 const PALETTE: u16 = 3;
-/// Bits of the tag NewSubfileType (TIFF 6.0, p. 36): a smaller version of another image, a transparency mask.
+/// Bits of the tag NewSubfileType (TIFF 6.0, p. 36) for a smaller version of another image and for
+/// a transparency mask.
 const NOT_AN_IMAGE: u32 = 0b101;
-/// Value of the tag ExtraSamples for alpha that is not multiplied in yet (TIFF 6.0, p. 31).
+/// Value of the tag ExtraSamples for alpha that is not yet multiplied in (TIFF 6.0, p. 31).
 const UNASSOCIATED_ALPHA: u16 = 2;
+/// Value of the tag ExtraSamples for alpha that is already multiplied in.
 const ASSOCIATED_ALPHA: u16 = 1;
-/// Value of the tag PlanarConfiguration for one plane after the other.
+/// Value of the tag PlanarConfiguration for samples stored plane by plane.
 const PLANAR: u16 = 2;
 
 type Source<'a> = Decoder<Cursor<&'a [u8]>>;
 
-/// The one picture in the bytes of a TIFF file.
+/// Decodes the only picture in the bytes of a TIFF file.
 pub(in crate::image) fn decode(bytes: &[u8], name: &str) -> Result<Plane, ImageError> {
     let place = Place { name };
     let mut decoder = open(bytes).map_err(|e| place.failed(e))?;
@@ -41,15 +46,19 @@ pub(in crate::image) fn decode(bytes: &[u8], name: &str) -> Result<Plane, ImageE
     }
 }
 
+/// Opens the bytes of a file, with limits on the memory that decoding may take.
 fn open(bytes: &[u8]) -> Result<Source<'_>, TiffError> {
     let mut limits = Limits::default();
+    // the largest kind of pixel that is read, RGBA of 32 bits, takes 16 bytes
     limits.decoding_buffer_size = 16 * MAX_PIXELS;
     limits.intermediate_buffer_size = 1 << 29;
     limits.ifd_value_size = 16 << 20;
     Ok(Decoder::new(Cursor::new(bytes))?.with_limits(limits))
 }
 
-/// Pages that are pictures of their own. One that cannot be parsed counts: it is there.
+/// Returns the number of pages that are pictures of their own.
+///
+/// A page that cannot be parsed counts, since it is there.
 fn count_pages(decoder: &mut Source) -> usize {
     let mut pages = 1;
     while decoder.more_images() {
@@ -62,15 +71,17 @@ fn count_pages(decoder: &mut Source) -> usize {
     pages
 }
 
+/// Returns the value of a tag; `None` if it is missing or of another type.
 fn tag<T: TryFrom<u64>>(decoder: &mut Source, tag: Tag) -> Option<T> {
     decoder.find_tag_unsigned(tag).ok().flatten()
 }
 
-/// First value of a tag that may have several.
+/// Returns the first value of a tag that may have several.
 fn first(decoder: &mut Source, tag: Tag) -> Option<u16> {
     decoder.find_tag_unsigned_vec::<u16>(tag).ok().flatten()?.first().copied()
 }
 
+/// Decodes a picture of grey or colour samples.
 fn samples_to_grey(decoder: &mut Source, colour: bool, place: &Place) -> Result<Plane, ImageError> {
     let (width, height) = decoder.dimensions().map_err(|e| place.failed(e))?;
     let bits = first(decoder, Tag::BitsPerSample).unwrap_or(1);
@@ -116,21 +127,23 @@ fn samples_to_grey(decoder: &mut Source, colour: bool, place: &Place) -> Result<
     grey.ok_or_else(|| place.too_few())
 }
 
-/// Every sample of the picture, all planes.
+/// Reads every sample of the picture, in all planes.
 fn read_samples(decoder: &mut Source, place: &Place) -> Result<DecodingResult, ImageError> {
     let mut samples = DecodingResult::U8(Vec::new());
     decoder.read_image_to_buffer(&mut samples).map_err(|e| place.failed(e))?;
     Ok(samples)
 }
 
-/// Samples of fewer than 8 bits, most significant first; every row begins with a new byte.
+/// Unpacks samples of fewer than 8 bits, the most significant first; every row begins with a new
+/// byte.
 fn unpack(packed: &[u8], bits: u16, width: usize, height: usize) -> Vec<u8> {
     let bits = usize::from(bits);
     let row_bytes = (width * bits).div_ceil(8);
     let mask = (1u16 << bits) - 1;
     let sample = |row: &[u8], x: usize| {
         let (byte, shift) = (x * bits / 8, 16 - bits - x * bits % 8);
-        // Two bytes, for samples of 3, 5, 6 and 7 bits that straddle them.
+        // two bytes are needed for samples of 3, 5, 6 and 7 bits, which may lie across their
+        // boundary
         let pair = u16::from_be_bytes([row[byte], row.get(byte + 1).copied().unwrap_or(0)]);
         ((pair >> shift) & mask) as u8
     };
@@ -138,8 +151,10 @@ fn unpack(packed: &[u8], bits: u16, width: usize, height: usize) -> Vec<u8> {
     rows.flat_map(|row| (0..width).map(move |x| sample(row, x))).collect()
 }
 
-/// The decoder refuses palettes. The indexes in such a file are stored as grey samples are, so it is given a copy that
-/// calls them grey.
+/// Decodes a picture of palette indexes.
+///
+/// The decoder refuses palettes. The indexes in such a file are stored in the same way as grey
+/// samples, so the decoder gets a copy of the file that declares them as grey.
 fn palette_to_grey(bytes: &[u8], decoder: &mut Source, place: &Place) -> Result<Plane, ImageError> {
     let (width, height) = decoder.dimensions().map_err(|e| place.failed(e))?;
     let bits = first(decoder, Tag::BitsPerSample).unwrap_or(1);
@@ -179,7 +194,9 @@ fn palette_to_grey(bytes: &[u8], decoder: &mut Source, place: &Place) -> Result<
     grey.ok_or_else(|| place.too_few())
 }
 
-/// A copy of the file whose directory at `offset` says BlackIsZero.
+/// Returns a copy of the file whose directory at `offset` says BlackIsZero.
+///
+/// `None` if that directory has no photometric interpretation.
 fn called_grey(bytes: &[u8], offset: u64) -> Option<Vec<u8>> {
     let little = bytes.starts_with(b"II");
     let big_tiff = bytes.get(if little { 2 } else { 3 }) == Some(&b'+');
@@ -209,24 +226,28 @@ fn called_grey(bytes: &[u8], offset: u64) -> Option<Vec<u8>> {
     Some(copy)
 }
 
-/// The file that errors speak of.
+/// Place of an error: the file that it is about.
 struct Place<'a> {
     name: &'a str,
 }
 
 impl Place<'_> {
+    /// Returns the error of a damaged file.
     fn damaged(&self, reason: String) -> ImageError {
         ImageError::Damaged { name: self.name.to_owned(), format: "TIFF", reason }
     }
 
+    /// Returns the error of a file of a kind that is not read.
     fn unsupported(&self, reason: String) -> ImageError {
         ImageError::Unsupported { name: self.name.to_owned(), format: "TIFF", reason }
     }
 
+    /// Returns the error of a file with too few pixels.
     fn too_few(&self) -> ImageError {
         self.damaged("fewer pixels than its header says".to_owned())
     }
 
+    /// Returns the error that stands for one of the decoder.
     fn failed(&self, error: TiffError) -> ImageError {
         match error {
             TiffError::FormatError(TiffFormatError::InvalidDimensions(width, height)) => {

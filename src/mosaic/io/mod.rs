@@ -3,6 +3,17 @@
 //!
 //! Whatever a file calls the first pixel, [`read_coordinates`] returns pixels that count from 0 at
 //! the centre of the top-left pixel.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::mosaic::io::{Origin, ReadOptions, read_from};
+//!
+//! // marks made in MATLAB count pixels from 1
+//! let options = ReadOptions { origin: Some(Origin::One), ..ReadOptions::default() };
+//! let file = read_from("marks.csv", b"x,y\n1,1\n11.5,21\n", &options)?;
+//! assert_eq!((file.points[1].x, file.points[1].y), (10.5, 20.));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #[cfg_attr(not(feature = "archives"), path = "no_archives.rs")]
 mod archives;

@@ -17,7 +17,7 @@ pub enum EdgeRule {
     /// Only points at least as far from the border as from their nearest neighbour.
     Interior,
     /// Only points whose Voronoi cell is finite and has every vertex strictly inside the window
-    /// (Cooper et al. 2016, <https://doi.org/10.1167/iovs.16-19435>).
+    /// (Cooper et al. 2016, <https://doi.org/10.1167/iovs.16-19072>).
     Bound,
     /// One of the column's own, which the definition names.
     Own,

@@ -2,6 +2,18 @@
 //! edge rule, definition, source and value. Header, rows and the data dictionary come from one list.
 //!
 //! A new column is one [`column()`] in the list of its table.
+//!
+//! # Examples
+//! ```
+//! use conemosaic::report::Failure;
+//! use conemosaic::report::tables::FAILURES;
+//!
+//! let failure = Failure { file: "a.png".into(), reason: "it is empty".into() };
+//! assert_eq!(FAILURES.csv([&failure])?, b"file,reason
+//! a.png,it is empty
+//! ");
+//! # Ok::<(), conemosaic::report::ReportError>(())
+//! ```
 
 mod agreement;
 mod column;

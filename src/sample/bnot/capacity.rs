@@ -1,28 +1,42 @@
+//! Weights for which all power cells have the same mass, by a damped Newton method.
+//!
+//! 1. Solve the Laplacian of the cells for the change of the weights that removes the missing
+//!    masses.
+//! 2. Halve the step until no cell becomes too small and the deviation falls as it should.
+//! 3. Repeat until all masses are within the tolerance.
+//!
+//! Sources: de Goes et al. (2012), <https://doi.org/10.1145/2366145.2366190>; Kitagawa, Mérigot and
+//! Thibert (2019), <https://doi.org/10.4171/JEMS/889>.
+
 use super::laplacian::Laplacian;
 use super::multigrid::{Multigrid, centre};
 use crate::geometry::power::{PowerDiagram, PowerSites};
 
-/// Newton steps, and halvings of one, before a solve is given up.
+/// Newton steps before a solve is given up.
 const MOST_STEPS: usize = 60;
+/// Halvings of one Newton step before the solve is given up.
 const MOST_HALVINGS: usize = 30;
-/// Rounds of conjugate gradients in a step.
+/// Rounds of conjugate gradients in one Newton step.
 const MOST_ROUNDS: usize = 400;
-/// How exactly a step is solved for, at least: relative remainder.
+/// Largest relative remainder with which the linear system of a step is solved.
 const STEP_TOLERANCE: f64 = 0.1;
 
-/// Weights whose cells have masses near one value, and those cells.
+/// Power diagram whose cells have nearly equal masses.
 pub(super) struct Solved {
     pub(super) diagram: PowerDiagram,
-    /// Greatest relative deviation of a mass.
+    /// Greatest relative deviation of a mass from the target.
     pub(super) error: f64,
 }
 
-/// Finds weights for which every cell has the mass `target` within `tolerance` (relative), by damped Newton steps (de Goes
-/// et al. 2012; damping of Kitagawa, Mérigot & Thibert 2019: a step is halved until no cell is smaller
-/// than half the smallest one at the start and the deviation falls as it should, which makes convergence certain).
+/// Finds weights for which every cell has the mass `target` within `tolerance` (relative).
 ///
-/// Starts from `weights`, or where they hide a site from a half, a quarter … and none of them. Ends early where rounding
-/// lets no step succeed: [`Solved::error`] says how near it came.
+/// The damping is that of Kitagawa, Mérigot and Thibert (2019): a step is halved until no cell is
+/// smaller than half the smallest one at the start and the deviation falls as it should, which
+/// makes convergence certain.
+///
+/// The search starts from `weights`. Where these hide a site, it starts from a half, a quarter, …
+/// of them, and at last from zero. It ends early where rounding lets no step succeed;
+/// [`Solved::error`] says how near it came.
 pub(super) fn solve(
     sites: &mut PowerSites<'_>,
     weights: &mut Vec<f64>,
@@ -47,6 +61,8 @@ pub(super) fn solve(
         }
         let mut missing: Vec<f64> = state.diagram.cells().iter().map(|c| target - c.mass).collect();
         centre(&mut missing);
+        // With a remainder of 0.3 of the tolerance, a full step can end within it; more would be
+        // wasted.
         let exactness = STEP_TOLERANCE.min((0.3 * tolerance / state.error).max(1e-3));
         Multigrid::new(Laplacian::of(&state.diagram)).solve(&missing, &mut step, exactness, MOST_ROUNDS);
         let mut length = 1.;
@@ -71,9 +87,11 @@ pub(super) fn solve(
     Solved { diagram: state.diagram, error: state.error }
 }
 
-/// Cells smaller than this, relative to what they should be, make Newton steps too short: weights begin anew.
+/// Smallest cell, relative to the target, from which Newton steps are long enough; below it the
+/// weights begin anew.
 const SMALLEST: f64 = 0.02;
 
+/// Power diagram at one trial of the weights, with its deviations from the target.
 struct State {
     diagram: PowerDiagram,
     least: f64,

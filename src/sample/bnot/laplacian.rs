@@ -1,25 +1,35 @@
+//! Graph Laplacians: products, Gauss–Seidel sweeps, and coarser graphs of grouped nodes.
+
 use crate::geometry::power::PowerDiagram;
 use rayon::prelude::*;
 
-/// Rows that one thread takes at least: fewer are done sooner than handed over.
+/// Fewest rows for one thread: a smaller number is done sooner than handed over.
 const ROWS: usize = 8192;
 
-/// The weighted Laplacian of a graph: row i is Σ_j c_ij (x_i − x_j), with c_ij = c_ji > 0 for neighbours. Symmetric, and
-/// positive but for constants, of which it knows nothing.
+/// Weighted Laplacian L of a graph: row i is Σ_j c_ij (x_i − x_j), with c_ij = c_ji > 0 for
+/// neighbours.
+///
+/// It is symmetric and positive, except that constants are mapped to 0.
 #[derive(Default)]
 pub(super) struct Laplacian {
-    /// Where the row of each node ends.
+    /// End of each node's row in `neighbours`.
     ends: Vec<u32>,
     neighbours: Vec<(u32, f64)>,
-    /// Σ_j c_ij.
+    /// Sum Σ_j c_ij of each row i.
     diagonal: Vec<f64>,
 }
 
 impl Laplacian {
-    /// By how much masses of cells fall with weights: c_ij is the length of the shared edge over twice the distance of
-    /// the sites (de Goes et al. 2012; Kitagawa et al. 2019).
+    /// Returns the Laplacian that tells how the masses of cells change with the weights.
+    ///
+    /// c_ij is the length of the edge that two cells share, divided by twice the distance of their
+    /// sites.
+    ///
+    /// Sources: de Goes et al. (2012), <https://doi.org/10.1145/2366145.2366190>; Kitagawa et al.
+    /// (2019), <https://doi.org/10.4171/JEMS/889>.
     pub(super) fn of(diagram: &PowerDiagram) -> Self {
         let n = diagram.cells().len();
+        // 7 is a little more than the six neighbours that a cell has on average
         let mut new = Self::with_room(n, 7 * n);
         for site in 0..n {
             for facet in diagram.facets(site).iter().filter(|f| f.distance > 0.) {
@@ -53,13 +63,13 @@ impl Laplacian {
         &self.neighbours[begin..self.ends[i] as usize]
     }
 
-    /// Σ_j c_ij x_j.
+    /// Computes Σ_j c_ij x_j for row i.
     #[inline]
     fn gathered(&self, i: usize, x: &[f64]) -> f64 {
         self.row(i).iter().map(|&(j, c)| c * x[j as usize]).sum()
     }
 
-    /// out = L x, the same for any number of threads.
+    /// Writes L x to `out`; the result is the same for any number of threads.
     pub(super) fn apply(&self, x: &[f64], out: &mut [f64]) {
         let row = |(i, out): (usize, &mut f64)| *out = self.diagonal[i] * x[i] - self.gathered(i, x);
         if out.len() < 2 * ROWS {
@@ -69,7 +79,7 @@ impl Laplacian {
         }
     }
 
-    /// Solves row i for x_i, the others as they are.
+    /// Solves row i for x_i and leaves all other x as they are.
     #[inline]
     fn relax(&self, i: usize, b: &[f64], x: &mut [f64]) {
         let diagonal = self.diagonal[i];
@@ -78,18 +88,22 @@ impl Laplacian {
         }
     }
 
-    /// One sweep of Gauss and Seidel from the first row to the last.
+    /// Sweeps once by Gauss and Seidel's method from the first row to the last.
     pub(super) fn sweep_down(&self, b: &[f64], x: &mut [f64]) {
         (0..self.len()).for_each(|i| self.relax(i, b, x));
     }
 
-    /// One sweep from the last row to the first.
+    /// Sweeps once by Gauss and Seidel's method from the last row to the first.
     pub(super) fn sweep_up(&self, b: &[f64], x: &mut [f64]) {
         (0..self.len()).rev().for_each(|i| self.relax(i, b, x));
     }
 
-    /// A group for each node, and how many there are: a node with all its neighbours where none of them has one yet
-    /// (Vaněk et al. 1996); the others join a neighbour's.
+    /// Returns the group of each node, and the number of groups.
+    ///
+    /// A node and all its neighbours form a group if none of them has one yet; every other node
+    /// joins the group of its most strongly connected neighbour.
+    ///
+    /// Source: Vaněk, Mandel and Brezina (1996), <https://doi.org/10.1007/BF02238511>.
     pub(super) fn groups(&self) -> (Vec<u32>, usize) {
         const NONE: u32 = u32::MAX;
         let mut groups = vec![NONE; self.len()];
@@ -112,11 +126,14 @@ impl Laplacian {
         (groups, count as usize)
     }
 
-    /// The Laplacian of the graph of groups: c between two groups is the sum over their nodes.
+    /// Returns the Laplacian of the graph of groups, in which c between two groups is the sum over
+    /// their nodes.
     pub(super) fn grouped(&self, groups: &[u32], count: usize) -> Self {
         let mut members: Vec<u32> = (0..self.len() as u32).collect();
         members.sort_by_key(|&i| groups[i as usize]);
         let mut new = Self::with_room(count, 7 * count);
+        // place of each group in the row being made; places before `begin` are left from earlier
+        // rows
         let mut at = vec![usize::MAX; count];
         let mut member = members.iter().peekable();
         for group in 0..count as u32 {

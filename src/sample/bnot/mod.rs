@@ -1,4 +1,8 @@
-//! Blue noise through optimal transport.
+//! Blue noise through optimal transport (BNOT): power cells of equal mass with the points at their
+//! centroids.
+//!
+//! The solver for the weights is in `capacity.rs`, with the linear systems in `multigrid.rs`; the
+//! alternation of weights and moves is in `relaxation.rs`.
 
 mod capacity;
 mod laplacian;
@@ -11,38 +15,47 @@ use super::{Configure, Density, Frame, SampleError, Sampler, Settable, Setting, 
 use crate::geometry::{Point, Window};
 use rand::Rng;
 
-/// Points whose power cells have equal masses and lie around them as centroids (de Goes, Breeden, Ostromoukhov & Desbrun
-/// 2012, “Blue noise through optimal transport”).
+/// Points whose power cells have equal masses and the points as their centroids.
 ///
-/// 1. Place n points at random, move each once to the centroid of its Voronoi cell.
-/// 2. Find weights for which all power cells have the same mass, within 1 % or, if that is less, within the last move over the
-///    spacing (damped Newton steps).
-/// 3. Move every point to the centroid of its cell. Back to 2, for a number of steps or until points rest.
+/// 1. Place n points at random and move each once to the centroid of its Voronoi cell.
+/// 2. Find weights for which all power cells have the same mass, by damped Newton steps. Masses may
+///    differ by 1 % or, if that is less, by the last move divided by the spacing.
+/// 3. Move every point to the centroid of its cell. Repeat from 2 for a number of steps, or until
+///    the points rest.
 /// 4. Find weights once more, for masses equal within 10⁻⁶.
 ///
-/// How long one goes on decides how regular the pattern is. In the unit square RI (all points, population deviation; means of
-/// 5 to 60 seeds) is 12.6 at n = 1050 after 3 steps, 17.8 after 9 and 22.1 after the 20 that reproduce the paper's tables; at
-/// n = 1024 it is 25.4 at rest, by the tolerance of .00285 spacings (some 61 steps), and 26.3 by .001 (some 200). `run` and
-/// `compare` use 20.
+/// The number of steps decides how regular the pattern is. In the unit square the regularity index
+/// (all points, population deviation; means of 5 to 60 seeds) is 12.6 at n = 1050 after 3 steps,
+/// 17.8 after 9, and 22.1 after the 20 that reproduce the paper's tables. At n = 1024 it is 25.4 at
+/// rest by the tolerance of .00285 spacings (some 61 steps), and 26.3 by .001 (some 200 steps).
+/// `run` and `compare` use 20 steps.
+///
+/// Source: de Goes, Breeden, Ostromoukhov and Desbrun (2012),
+/// <https://doi.org/10.1145/2366145.2366190>.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bnot {
-    /// Steps 2–3 to take; `None` until points rest.
+    /// Number of times steps 2 and 3 are repeated; `None` repeats them until the points rest.
     pub steps: Option<usize>,
-    /// Points rest when the root mean square of their distances to the centroids is at most this, in hexagonal spacings. The
-    /// default is chosen: mean pair correlation functions then agree with those of the independent program
-    /// that tests compare with, at its convergence.
+    /// Root mean square distance of the points to their centroids at which they rest, in hexagonal
+    /// spacings.
+    ///
+    /// The default is chosen so that mean pair correlation functions agree with those of the
+    /// independent program that tests compare with, at its convergence.
     pub tolerance: f64,
-    /// How often crystals are broken up and the points relaxed anew, as de Goes et al. (2012) do. Sites whose
-    /// neighbours' cells are too much like theirs are shaken together with those neighbours, and 20 steps follow.
+    /// Number of times crystals are broken up and the points relaxed anew, as by de Goes et al.
+    /// (2012).
+    ///
+    /// Points whose cells are too much like those of their neighbours are shaken together with
+    /// these neighbours, and 20 steps follow.
     pub breaks: usize,
-    /// How dense points are to be; evenly without.
+    /// Relative density of the points; `None` for an even one.
     pub density: Option<Density>,
 }
 
 impl Bnot {
-    /// Until points rest.
+    /// Default setting: steps until the points rest.
     pub const CONVERGED: Self = Self { steps: None, tolerance: 2.85e-3, breaks: 0, density: None };
-    /// The 20 steps that reproduce the paper's tables of cone mosaics and samplers.
+    /// Setting of 20 steps, which reproduces the paper's tables of cone mosaics and samplers.
     pub const PAPER: Self = Self { steps: Some(20), ..Self::CONVERGED };
 }
 
@@ -52,7 +65,7 @@ impl Default for Bnot {
     }
 }
 
-/// Steps after which points are taken to rest.
+/// Number of steps after which points are taken to rest in any case.
 const MOST_STEPS: usize = 1000;
 
 impl Sampler for Bnot {

@@ -1,24 +1,39 @@
+//! Solver of graph Laplacians: conjugate gradients, preconditioned by aggregation multigrid.
+//!
+//! 1. Group the nodes of the graph, and the groups again, down to a small graph.
+//! 2. In each round, sweep once, remove the smooth part of the error by a correction from the
+//!    grouped graph, and sweep back. The result improves the direction of conjugate gradients.
+//!
+//! Sources: Vaněk, Mandel and Brezina (1996), <https://doi.org/10.1007/BF02238511>; Notay (2010).
+
 use super::laplacian::Laplacian;
 
-/// Nodes of a system that is solved by sweeps alone, and how many.
+/// Number of nodes up to which a system is solved by sweeps alone.
 const SMALL: usize = 24;
+/// Pairs of sweeps that solve such a small system.
 const SWEEPS: usize = 12;
-/// What a correction that is constant on groups lacks: its energy is too large, so it comes out too small.
+/// Factor by which corrections from a coarser level are enlarged.
+///
+/// A correction that is constant on each group has too much energy, so it comes out too small.
 const OVERCORRECTION: f64 = 1.6;
 
-/// A Laplacian and those of ever larger groups of its nodes: errors that are smooth on one are rough on the next, where
-/// sweeps remove them (aggregation multigrid; Vaněk et al. 1996, Notay 2010). As preconditioner of conjugate gradients.
+/// Hierarchy of Laplacians, each of larger groups of nodes than the one before.
+///
+/// An error that is smooth on one level is rough on the next, where sweeps remove it.
 pub(super) struct Multigrid {
     levels: Vec<Level>,
 }
 
+/// One Laplacian of the hierarchy, with the working memory for its cycle.
 struct Level {
     matrix: Laplacian,
-    /// Group of each node: its node on the next level.
+    /// Group of each node, which is its node on the next level.
     groups: Vec<u32>,
+    /// Product of the matrix and the present solution.
     rest: Vec<f64>,
-    /// Right-hand side and solution of the next level, and a second solution.
+    /// Right-hand side of the next level.
     below: Vec<f64>,
+    /// Solution of the next level.
     correction: Vec<f64>,
 }
 
@@ -44,8 +59,10 @@ impl Multigrid {
         }
     }
 
-    /// Solves L x = b, b without mean, by preconditioned conjugate gradients until the remainder is `tolerance` times b
-    /// in the mean square, or `most` rounds. How many rounds it took.
+    /// Solves L x = b and returns the number of rounds used.
+    ///
+    /// `b` must have mean 0. The rounds of conjugate gradients end when the remainder is at most
+    /// `tolerance` times `b` in the root mean square, or after `most` rounds.
     pub(super) fn solve(&mut self, b: &[f64], x: &mut Vec<f64>, tolerance: f64, most: usize) -> usize {
         let n = b.len();
         x.clear();
@@ -87,7 +104,9 @@ impl Multigrid {
     }
 }
 
-/// x nearer to the solution of the first level's system, from 0; symmetric in b.
+/// Moves x from 0 towards the solution of the first level's system.
+///
+/// The map from b to x is symmetric, as conjugate gradients need.
 fn cycle(levels: &mut [Level], b: &[f64], x: &mut [f64]) {
     let Some((level, coarser)) = levels.split_first_mut() else { return };
     if coarser.is_empty() {
@@ -115,7 +134,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Takes the mean off.
+/// Subtracts the mean from all values.
 pub(super) fn centre(x: &mut [f64]) {
     let mean = x.iter().sum::<f64>() / x.len().max(1) as f64;
     x.iter_mut().for_each(|x| *x -= mean);

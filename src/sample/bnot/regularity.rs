@@ -1,19 +1,24 @@
+//! Detection and break-up of the crystals that form when points are relaxed for long.
+
 use crate::geometry::power::PowerDiagram;
 use crate::sample::relaxed_region::Region;
 use rand::Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-/// A six-sided cell is regular if its spread (second moment over squared area) differs by less than this, on average, from
-/// that of its neighbours. Measured at n = 2000 on the torus: so do less than 1 % of six-sided cells after 20 steps and
-/// a quarter of them at rest.
+/// Mean difference of spreads below which a six-sided cell is regular.
+///
+/// A cell's spread is its second moment over its squared area, and is compared with those of its
+/// neighbours. Measured at n = 2000 on the torus: less than 1 % of six-sided cells are regular
+/// after 20 steps, and a quarter of them at rest.
 const REGULAR: f64 = 5e-4;
 /// Standard deviation of the shaking along each axis, in hexagonal spacings.
 const SHAKE: f64 = 0.5;
 
-/// Shakes points in regular places and their neighbours, but for those that would leave the region; whether there were any.
+/// Shakes the points of regular cells and their neighbours, and returns whether there were any.
 ///
-/// What counts as regular is the measure of de Goes et al. (2012), the mean absolute difference of a cell's second moment
-/// to those of its neighbours; threshold and shaking are chosen here.
+/// Points that would leave the region stay. The measure of regularity is that of de Goes et al.
+/// (2012, <https://doi.org/10.1145/2366145.2366190>), the mean absolute difference of a cell's
+/// second moment to those of its neighbours; threshold and shaking are chosen here.
 pub(super) fn shake(
     points: &mut [[f64; 2]],
     diagram: &PowerDiagram,
@@ -38,7 +43,7 @@ pub(super) fn shake(
     shaken.contains(&true)
 }
 
-/// Sites whose cells are regular.
+/// Returns the sites whose cells are regular.
 pub(super) fn regular(diagram: &PowerDiagram) -> Vec<usize> {
     let cells = diagram.cells();
     let is_regular = |i: &usize| {

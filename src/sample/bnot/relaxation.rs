@@ -1,3 +1,6 @@
+//! Relaxation of points by turns of equal masses and moves to the centroids; see [`Bnot`] for the
+//! steps.
+
 use super::capacity::{Solved, solve};
 use super::{Bnot, MOST_STEPS, Region, Watch, regularity};
 use crate::geometry::power::{Domain, PowerDiagram, PowerSites};
@@ -5,18 +8,25 @@ use crate::sample::{SampleError, Sampler};
 use rand::Rng;
 use std::f64::consts::TAU;
 
-/// Relative deviation of masses that is allowed between moves, and at the end.
+/// Relative deviation of masses that is allowed between moves.
 const LOOSE: f64 = 1e-2;
+/// Relative deviation of masses that is allowed at the end.
 const EXACT: f64 = 1e-6;
-/// Steps after crystals were broken: enough for even distances, too few for new crystals.
+/// Steps after crystals were broken: enough to even out distances, too few for new crystals.
 const AFTER_BREAK: usize = 20;
-/// Points without a cell, which coincide with others, are moved by this share of a spacing; how often that is tried.
+/// Length by which points without a cell, which coincide with others, are moved, in spacings.
 const NUDGE: f64 = 1e-3;
+/// Most attempts to give every point a cell.
 const NUDGES: usize = 8;
 
 impl Bnot {
-    /// Relaxes points of the region. In their order: where they are in the end, on a torus perhaps beyond its seam; and their
-    /// cells, in an order of their own.
+    /// Relaxes points of the region, and returns them with their cells.
+    ///
+    /// The points come back in their own order; on a torus they may lie beyond its seam. The cells
+    /// are in an order of their own.
+    ///
+    /// # Errors
+    /// If the masses cannot be made equal within [`EXACT`].
     pub(super) fn relax(
         &self,
         start: &[[f64; 2]],
@@ -26,7 +36,7 @@ impl Bnot {
     ) -> Result<(Vec<[f64; 2]>, Solved), SampleError> {
         let n = start.len();
         let spacing = region.spacing(n);
-        // neighbours near each other in memory
+        // In this order, points that are close to each other are close in memory.
         let order = PowerSites::new(&region.domain, None, start).order();
         let points = order.iter().map(|&i| start[i as usize]).collect();
         let mut state =
@@ -70,11 +80,12 @@ impl Bnot {
     }
 }
 
+/// Points being relaxed, with their present weights and cells.
 struct State<'a> {
     region: &'a Region,
     points: Vec<[f64; 2]>,
     weights: Vec<f64>,
-    /// The mass that each cell is to have.
+    /// Mass that each cell is to have.
     target: f64,
     diagram: PowerDiagram,
 }
@@ -84,7 +95,7 @@ impl State<'_> {
         PowerSites::new(&self.region.domain, self.region.density.as_ref(), &self.points)
     }
 
-    /// Voronoi cells; points that have none are moved a little.
+    /// Computes Voronoi cells and the target mass, and moves points that have no cell a little.
     fn begin(&mut self, spacing: f64) {
         for attempt in 0..NUDGES {
             self.diagram = self.sites().diagram(&self.weights, None);
@@ -96,7 +107,8 @@ impl State<'_> {
             }
             let centre = self.region.centre();
             for i in hidden {
-                // inwards, and every one another way
+                // They move inwards, each in a direction of its own, so that coincident points
+                // part.
                 let [dx, dy] = self.region.domain.towards(self.points[i], centre);
                 let away = dx.hypot(dy).max(f64::MIN_POSITIVE);
                 let angle = TAU * 0.618_034 * (i * NUDGES + attempt) as f64;
@@ -106,7 +118,7 @@ impl State<'_> {
         }
     }
 
-    /// Makes masses equal; how far from it they stay.
+    /// Makes masses equal, and returns their greatest relative deviation.
     fn solve(&mut self, tolerance: f64) -> f64 {
         let mut weights = std::mem::take(&mut self.weights);
         let solved = solve(&mut self.sites(), &mut weights, &self.diagram, self.target, tolerance);
@@ -115,7 +127,8 @@ impl State<'_> {
         solved.error
     }
 
-    /// Moves every point to the centroid of its cell; the root mean square of the ways.
+    /// Moves every point to the centroid of its cell, and returns the root mean square distance
+    /// moved.
     fn move_to_centroids(&mut self) -> f64 {
         let domain: &Domain = &self.region.domain;
         let mut square = 0.;

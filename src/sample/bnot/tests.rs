@@ -18,7 +18,7 @@ fn regularity_index(n: usize, bnot: &Bnot, seeds: u64) -> f64 {
     (0..seeds).map(index).sum::<f64>() / seeds as f64
 }
 
-/// The published single sets have 21.45, 22.92 and 23.31.
+/// Bounds around the regularity indices of the published single sets: 21.45, 22.92 and 23.31.
 #[test]
 fn twenty_steps_are_as_regular_as_published() {
     for (n, low, high) in [(1050, 20.7, 22.8), (2050, 21.6, 23.7), (4050, 22.2, 24.1)] {
@@ -70,7 +70,7 @@ fn moving_the_start_round_the_torus_moves_the_pattern_and_permutes_nothing() {
         |start: &[[f64; 2]]| Bnot::PAPER.relax(start, &region, &mut seeded(1), &mut |_, _| ()).unwrap().0;
     for (a, b) in relax(&start).iter().zip(relax(&moved)) {
         let [x, y] = region.domain.towards([a[0] + dx, a[1] + dy], b);
-        // inner solves end at 1 %, so that rounding may grow to a share of that
+        // inner solves end at a deviation of 1 %, so rounding errors may grow to a fraction of that
         assert!(x.hypot(y) < 1e-3 * region.spacing(500), "{x} {y}");
     }
 }
@@ -96,7 +96,7 @@ fn points_follow_the_density() {
 
 #[test]
 fn cells_of_the_pattern_have_the_published_scatter_of_areas() {
-    // METHODS: coefficient of variation of Voronoi areas .041 after 20 steps
+    // METHODS: the coefficient of variation of Voronoi areas is .041 after 20 steps
     let points = Bnot::PAPER.sample(1024, &Window::unit_torus(), &mut seeded(6)).unwrap();
     let cv = voronoi(&points, &Window::unit_torus()).summary().area_cv.unwrap();
     assert!((cv - 0.041).abs() < 0.008, "{cv}");

@@ -1,25 +1,31 @@
+//! Bridson's Poisson-disk sampling: new points are sought around those placed before.
+
 use crate::geometry::Point;
 use crate::geometry::index::{Nearby, TorusGrid};
 use crate::sample::{Frame, SampleError, Sampler};
 use rand::{Rng, RngExt};
 
-/// Disk radius in hexagonal spacings: the one at which the method places about n points.
+/// Disk radius in hexagonal spacings, chosen so that the method places about n points.
 const RADIUS: f64 = 0.7306;
-/// Candidates around a point before it retires.
+/// Candidates tried around a point before it retires.
 const CANDIDATES: usize = 30;
-/// Distances are kept this much (relative) above the radius, so that rounding cannot violate it.
+/// Relative excess of the distances kept over the radius, so that rounding cannot violate it.
 const MARGIN: f64 = 1e-9;
 
-/// Poisson-disk points by Bridson's method (2007), O(n).
+/// Poisson-disk points by Bridson's method, in O(n).
 ///
 /// 1. Place one point at random; it is active.
-/// 2. Pick an active point at random; draw up to k = 30 candidates around it, uniform *by area* in the annulus
-///    r..2r, r = .7306 spacings.
-/// 3. The first candidate no nearer than r (on the torus) to any point becomes a point and active; if there is none, the
-///    picked point retires. Repeat from 2 until none is active.
+/// 2. Pick an active point at random. Draw up to k = 30 candidates around it, uniform *by area* in
+///    the annulus from r to 2r, with r = .7306 hexagonal spacings.
+/// 3. The first candidate that is nowhere nearer than r (on the torus) to a point becomes an active
+///    point itself. If there is none, the picked point retires. Repeat from 2 until no point is
+///    active.
 ///
-/// n varies by about 1 % at 1024 and is smaller than asked for in windows a few radii wide; in windows narrower than r it is
-/// the number of disks that fill a line, which may be far from n.
+/// The number of points varies by about 1 % at n = 1024, and is smaller than asked for in windows a
+/// few radii wide. In windows narrower than r it is the number of disks that fill a line, which may
+/// be far from n.
+///
+/// Source: Bridson (2007), <https://doi.org/10.1145/1278780.1278807>.
 #[derive(Clone, Copy, Debug)]
 pub struct Bridson;
 
@@ -53,7 +59,8 @@ impl Sampler for Bridson {
         while !active.is_empty() {
             let picked = rng.random_range(0..active.len());
             let [x, y] = points[active[picked]];
-            // No candidate is farther than 2r, so no point farther than 3r can reject one.
+            // A candidate is at most 2r away and only points nearer than r reject it, so points
+            // beyond 3r do not matter.
             grid.gather(x, y, 3. * radius, &mut near);
             let found = (0..CANDIDATES).find_map(|_| {
                 let [dx, dy] = offsets.next(rng);
@@ -73,8 +80,10 @@ impl Sampler for Bridson {
     }
 }
 
-/// Places uniform by area in the annulus 1..2 around the origin: darts into its square, of which those that hit are
-/// kept. They are independent of the points around which they are used, so many are drawn at once.
+/// Supply of places uniform by area in the annulus between the radii 1 and 2 around the origin.
+///
+/// They are darts thrown into the square around the annulus, of which the hits are kept. They do
+/// not depend on the points around which they are used, so many are drawn at once.
 #[derive(Default)]
 struct Offsets {
     ready: Vec<[f64; 2]>,
@@ -82,6 +91,7 @@ struct Offsets {
 }
 
 impl Offsets {
+    /// Darts thrown per refill.
     const DARTS: usize = 512;
 
     #[inline]
@@ -100,13 +110,14 @@ impl Offsets {
         self.ready.resize(Self::DARTS, [0.; 2]);
         let mut hits = 0;
         for dart in self.bits.chunks_exact(8) {
-            // 32 bits a coordinate: 2⁻³⁰ of the radius.
+            // 32 bits per coordinate resolve 2⁻³⁰ of the radius.
             let coordinate = |at: usize| {
                 let half = u32::from_le_bytes([dart[at], dart[at + 1], dart[at + 2], dart[at + 3]]);
                 (f64::from(half) + 0.5) * 2f64.powi(-30) - 2.
             };
             let (x, y) = (coordinate(0), coordinate(4));
-            // Written in any case and counted if it hits: the branch could not be predicted.
+            // Each dart is written and then kept only if it hits: a branch here could not be
+            // predicted.
             self.ready[hits] = [x, y];
             let square = x * x + y * y;
             hits += usize::from((1. ..4.).contains(&square));
@@ -153,7 +164,7 @@ mod tests {
             let [x, y] = offsets.next(&mut rng);
             x * x + y * y < 2.5
         });
-        // Half the area of the annulus 1..2 lies within √2.5; the tolerance is five standard deviations.
+        // Half the area of the annulus lies within √2.5; the tolerance is five standard deviations.
         assert!((inner.count() as f64 / f64::from(draws) - 0.5).abs() < 0.0125);
     }
 }

@@ -1,21 +1,26 @@
+//! Dart throwing: the classical Poisson-disk pattern with exactly n points.
+
 use super::darts::throw;
 use crate::geometry::Point;
 use crate::geometry::index::TorusGrid;
 use crate::sample::{Frame, SampleError, Sampler};
 use rand::Rng;
 
-/// Disk radius in hexagonal spacings.
+/// Disk radius in hexagonal spacings of n points.
 const RADIUS: f64 = 0.75;
-/// Distances are kept this much (relative) above the radius, so that rounding cannot violate it.
+/// Relative excess of the distances kept over the radius, so that rounding cannot violate it.
 const MARGIN: f64 = 1e-9;
-/// How often to begin when the window ran full before the last point.
+/// Most fresh starts when the window is full before the last point.
 const ATTEMPTS: usize = 200;
 
-/// Dart throwing with radius r = .75 hexagonal spacings of n points, torus distance, no relaxation: uniform darts, kept
-/// when no earlier one is nearer than r, until there are n (Cook 1986).
+/// Uniform darts, each kept if no earlier one is nearer than r, until there are exactly n.
 ///
-/// Places that a disk covers are left out, which changes nothing but the time it takes (White, Cline & Egbert 2007). When
-/// no other place is left, the window is full: start anew, up to 200 times.
+/// r is .75 hexagonal spacings of n points, distances are those of the torus, and points are not
+/// relaxed afterwards. Places that a disk covers are left out, which changes only the running time.
+/// If no other place is left, the window is full and a new pattern is begun, up to 200 times.
+///
+/// Sources: Cook (1986), <https://doi.org/10.1145/7529.8927>; White, Cline and Egbert (2007),
+/// <https://doi.org/10.1109/RT.2007.4342600>.
 #[derive(Clone, Copy, Debug)]
 pub struct DartThrowing;
 
@@ -76,7 +81,7 @@ mod tests {
         }
     }
 
-    /// Darts over the whole torus, as the definition says.
+    /// Throws darts over the whole torus, as the definition says.
     fn plain_darts(n: usize, rng: &mut ChaCha8Rng) -> Vec<Point> {
         let radius = RADIUS * hexagonal_spacing(n, 1.).unwrap();
         let torus = Window::unit_torus();

@@ -1,14 +1,24 @@
+//! Dart throwing over a quadtree of the squares that may still have room.
+//!
+//! 1. Choose a square with a probability proportional to its area, and throw a uniform dart into
+//!    it.
+//! 2. A dart with no other dart nearer than the radius becomes a point, and the square is finished.
+//! 3. Otherwise the square is cut in four, and the quarters that one disk covers are dropped.
+//!
+//! Dropped squares could never have taken a dart, and the dart within the rest is uniform, so the
+//! points have exactly the law of plain darts.
+//!
+//! Source: White, Cline and Egbert (2007), <https://doi.org/10.1109/RT.2007.4342600>.
+
 use crate::geometry::index::{Nearby, TorusGrid};
 use rand::{Rng, RngExt};
 
-/// Squares halved this often count as covered: their share of the area is below 2⁻⁵⁰.
+/// Number of halvings after which a square counts as covered: its share of the area is below 2⁻⁵⁰.
 const DEEPEST: usize = 25;
 
-/// Darts no two of which are nearer than `radius` on the torus, until there are `n` or the torus is full.
+/// Throws darts until there are `n`, or until the torus is full.
 ///
-/// Darts are thrown only over squares of a quadtree that may still have room (White, Cline & Egbert 2007): a square in
-/// which a dart missed is cut in four, and quarters that one disk covers are dropped. Dropped squares could never
-/// have taken a dart and the dart within the rest is uniform, so the points have exactly the law of plain darts.
+/// No two of them are nearer than `radius` on the torus. `grid` is emptied first.
 pub(super) fn throw(n: usize, radius: f64, grid: &mut TorusGrid, rng: &mut dyn Rng) -> Vec<[f64; 2]> {
     grid.clear();
     let radius2 = radius * radius;
@@ -24,7 +34,8 @@ pub(super) fn throw(n: usize, radius: f64, grid: &mut TorusGrid, rng: &mut dyn R
         let (u, v): (f64, f64) = (rng.random(), rng.random());
         let dart = [left + u * width, top + v * height];
         if !near.any_nearer(dart[0], dart[1], radius2) {
-            // The square is gone with its dart: a disk covers any square of its grid cell.
+            // The square needs no more darts: a disk covers the whole grid cell that its centre
+            // lies in.
             grid.insert(dart[0], dart[1]);
             points.push(dart);
             continue;
@@ -44,7 +55,9 @@ pub(super) fn throw(n: usize, radius: f64, grid: &mut TorusGrid, rng: &mut dyn R
     points
 }
 
-/// Squares (rectangles of the grid's proportions) that may have room, by how often they were halved.
+/// Squares that may have room, sorted by how often they were halved.
+///
+/// Strictly, they are rectangles with the proportions of the grid's cells.
 struct Squares {
     corners: Vec<Vec<[f64; 2]>>,
     /// Deepest level that ever held a square.
@@ -111,7 +124,8 @@ mod tests {
         let mut rng = ChaCha8Rng::seed_from_u64(1);
         let mut grid = TorusGrid::new(1., 1., 0.2);
         let placed = throw(1000, 0.2, &mut grid, &mut rng).len();
-        // A saturated torus holds between the loosest maximal packing and the densest.
+        // A full torus holds at least as many as the loosest maximal packing and at most as many as
+        // the densest.
         assert!((8..29).contains(&placed), "{placed}");
     }
 }

@@ -1,4 +1,5 @@
-//! Samplers that keep points a least distance apart: dart throwing and its faster kin.
+//! Samplers that keep points at least a given distance apart: dart throwing and its faster
+//! variants.
 
 mod bridson;
 mod dart_throwing;

@@ -1,24 +1,34 @@
+//! Maximal Poisson-disk sampling: darts are thrown until no further one finds room.
+
 use super::darts::throw;
 use crate::geometry::Point;
 use crate::geometry::index::TorusGrid;
 use crate::sample::{Frame, SampleError, Sampler};
 use rand::Rng;
 
-/// Share of the plane that disks of half the radius cover when darts find no more room (Feder 1980: .547).
+/// Share of the plane that disks of half the radius cover when no further dart finds room.
+///
+/// Source: Feder (1980), <https://doi.org/10.1016/0022-5193(80)90358-6>: .547.
 const JAMMED: f64 = 0.547;
-/// Distances are kept this much (relative) above the radius, so that rounding cannot violate it.
+/// Relative excess of the distances kept over the radius, so that rounding cannot violate it.
 const MARGIN: f64 = 1e-9;
 
-/// Maximal Poisson disks: darts no two of which are nearer than r on the torus, thrown until no place is left for another
-/// (Ebeida et al. 2011 for the term; by the quadtree of White, Cline & Egbert 2007).
+/// Maximal Poisson disks: darts are thrown until no place is left for another one.
 ///
-/// r = √(4 · .547/(π n/A)) = .7766 hexagonal spacings is the radius at which darts jam with about n points: n varies by
-/// about 1 % at 1024; in windows narrower than r it is the number of disks that fill a line, which may be far from n. What remains uncovered is smaller than 2⁻⁵⁰ of the area of a disk.
+/// No two are nearer than r on the torus. r = √(4 · .547/(π n/A)) = .7766 hexagonal spacings is the
+/// radius at which darts leave no more room with about n points. The number varies by about 1 % at
+/// n = 1024. In windows narrower than r it is the number of disks that fill a line, which may be
+/// far from n. The area that remains uncovered is smaller than 2⁻⁵⁰ of that of a disk.
+///
+/// Sources: Ebeida et al. (2011) for the term, <https://doi.org/10.1145/2010324.1964944>; White,
+/// Cline and Egbert (2007) for the quadtree, <https://doi.org/10.1109/RT.2007.4342600>.
 #[derive(Clone, Copy, Debug)]
 pub struct PoissonDisk;
 
 impl PoissonDisk {
-    /// Radius in the frame's unit: no two of `n` points are nearer, and no place is farther from all.
+    /// Returns the disk radius for about `n` points, in the frame's unit.
+    ///
+    /// No two points are nearer, and no place is farther from every point.
     fn radius(n: usize, frame: &Frame) -> f64 {
         (4. * JAMMED * frame.width * frame.height / (std::f64::consts::PI * n as f64)).sqrt()
     }

@@ -1,4 +1,4 @@
-//! Lattices, with jitter or without.
+//! Lattices as point patterns, with or without jitter.
 
 mod rows;
 mod square;

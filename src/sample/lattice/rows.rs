@@ -1,3 +1,5 @@
+//! Lattices made of rows of points, in bounded windows and on a torus.
+
 use crate::geometry::Point;
 use crate::sample::{Frame, Setting};
 use rand::{Rng, RngExt};
@@ -6,10 +8,11 @@ use rand_distr::StandardNormal;
 /// Offsets tried in a bounded window for the one whose number of points is nearest to n.
 const OFFSETS: usize = 32;
 
-/// Standard deviations of jitter within which points outside a bounded window may be carried into it.
+/// Width of the strip around a bounded window from which jitter may carry points into it, in
+/// standard deviations of the jitter.
 const CARRIED: f64 = 5.;
 
-/// What the lattices let a user set.
+/// Returns the parameter `jitter`, which all lattices share.
 pub(super) const fn jitter<S>(get: fn(&S) -> Option<f64>, set: fn(&mut S, f64)) -> Setting<S> {
     Setting {
         name: "jitter",
@@ -23,8 +26,11 @@ pub(super) const fn jitter<S>(get: fn(&S) -> Option<f64>, set: fn(&mut S, f64)) 
     }
 }
 
-/// Rows of points `step` apart; rows `row_step` apart; every other row moved by `shift` × `step`; then each point
-/// displaced by a normal deviate of standard deviation `jitter` in x and y.
+/// Lattice of parallel rows.
+///
+/// Points in a row are `step` apart, rows are `row_step` apart, and every other row is moved along
+/// itself by `shift` × `step`. Each point is then displaced by a normal deviate of standard
+/// deviation `jitter` in x and y. All lengths are in the frame's unit.
 #[derive(Clone, Copy)]
 pub(in crate::sample) struct Lattice {
     pub(in crate::sample) step: f64,
@@ -34,8 +40,11 @@ pub(in crate::sample) struct Lattice {
 }
 
 impl Lattice {
-    /// The undeformed lattice where the window has a border (its spacing is that of density n/A and the border cuts
-    /// it, so the number is near n); on a torus the nearest lattice that closes on itself.
+    /// Returns the points of the lattice in a frame, at a random offset.
+    ///
+    /// Where the window has a border, the lattice is undeformed: its density is n/A and the border
+    /// cuts it, so the number of points is near n. On a torus it is the nearest lattice that closes
+    /// on itself.
     pub(in crate::sample) fn fill(self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Vec<Point> {
         if n == 0 {
             return Vec::new();
@@ -45,7 +54,7 @@ impl Lattice {
             let closed = Self {
                 step: frame.width / columns as f64,
                 row_step: frame.height / rows as f64,
-                // A single row closes on itself only unshifted.
+                // A single row closes on itself only if it is not shifted.
                 shift: if rows == 1 { 0. } else { self.shift },
                 jitter: self.jitter,
             };
@@ -62,7 +71,7 @@ impl Lattice {
         }
         let mut best = (f64::INFINITY, 0., 0.);
         for _ in 0..OFFSETS {
-            // Two rows are a period, so that either kind of row may come first.
+            // The period is two rows, so that either kind of row may come first.
             let (x, y) = (rng.random::<f64>() * self.step, rng.random::<f64>() * 2. * self.row_step);
             let count: usize =
                 self.rows(x, y, [frame.width, frame.height]).map(|(_, _, columns)| columns).sum();
@@ -92,7 +101,9 @@ impl Lattice {
         [x + self.jitter * dx, y + self.jitter * dy]
     }
 
-    /// First x, y, and number of points, of every row inside a window of these sides when the point (x, y) is in the lattice.
+    /// Returns the first x, the y and the number of points of each row in a window of these sides.
+    ///
+    /// (x, y) is a point of the lattice.
     fn rows(self, x: f64, y: f64, [width, height]: [f64; 2]) -> impl Iterator<Item = (f64, f64, usize)> {
         let first = -(y / self.row_step).floor();
         (0..)
@@ -106,7 +117,8 @@ impl Lattice {
             .take_while(move |&(_, y, _)| y < height)
     }
 
-    /// Columns and rows of the least deformed lattice of about n points that closes on the torus.
+    /// Returns the columns and rows of the least deformed lattice of about n points that closes on
+    /// the torus.
     fn closing(self, n: usize, frame: &Frame) -> (usize, usize) {
         let (columns, rows) = (frame.width / self.step, frame.height / self.row_step);
         let around = |ideal: f64| {
@@ -115,6 +127,7 @@ impl Lattice {
         };
         let mut best = (f64::INFINITY, 1, 1);
         for r in around(rows) {
+            // Shifted rows alternate, so only an even number of them closes.
             if r > 1 && r % 2 == 1 && self.shift != 0. {
                 continue;
             }

@@ -3,15 +3,15 @@ use crate::geometry::Point;
 use crate::sample::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use rand::Rng;
 
-/// The square lattice of density n/A at a random offset, jittered if asked for.
+/// Square lattice of density n/A at a random offset, with jitter if asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Square {
-    /// Displacement of each point in x and y: standard deviation in hexagonal spacings.
+    /// Standard deviation of each point's displacement in x and y, in hexagonal spacings.
     pub jitter: f64,
 }
 
 impl Square {
-    /// The bare lattice.
+    /// Default setting: the lattice without jitter.
     pub const DEFAULT: Self = Self { jitter: 0. };
 }
 

@@ -3,17 +3,19 @@ use crate::geometry::Point;
 use crate::sample::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use rand::Rng;
 
-/// The triangular (hexagonally packed) lattice of density n/A at a random offset, rows along x, jittered if asked for.
+/// Triangular lattice (hexagonal packing) of density n/A at a random offset, with jitter if asked
+/// for.
 ///
-/// On a torus rows and columns must close, which stretches it by a few per cent.
+/// Rows lie along x. On a torus rows and columns must close, which stretches the lattice by a few
+/// per cent.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangular {
-    /// Displacement of each point in x and y: standard deviation in hexagonal spacings.
+    /// Standard deviation of each point's displacement in x and y, in hexagonal spacings.
     pub jitter: f64,
 }
 
 impl Triangular {
-    /// The bare lattice.
+    /// Default setting: the lattice without jitter.
     pub const DEFAULT: Self = Self { jitter: 0. };
 }
 

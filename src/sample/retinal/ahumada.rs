@@ -1,3 +1,12 @@
+//! Cone mosaic as discs packed outward from a centre, after Ahumada and Poirson (1987).
+//!
+//! 1. Put a disc of random radius in the centre, and another one that touches it.
+//! 2. Keep a queue of pockets, where a further disc would touch two discs; the nearest to the
+//!    centre comes first.
+//! 3. Put the next disc into the first pocket if it fits there; otherwise drop the pocket. Repeat
+//!    until the window is full.
+//! 4. Displace the centres at random.
+
 use super::outward::exactly;
 use super::retina::{Retina, eccentricity};
 use crate::geometry::Point;
@@ -9,43 +18,54 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::f64::consts::TAU;
 
-/// Radii are drawn again beyond this many standard deviations, so that they stay positive and bounded.
+/// Number of standard deviations beyond which radii are drawn again, so that they stay positive and
+/// bounded.
 const DEVIATIONS: f64 = 3.;
-/// Discs per squared mean radius, about: random discs cover 84 % of the plane.
+/// Approximate number of discs per squared mean radius: random discs cover 84 % of the plane.
 const DENSITY: f64 = 0.84 / std::f64::consts::PI;
-/// Discs are packed this far beyond the window, in mean radii, so that its edge does not show.
+/// Distance beyond the window up to which discs are packed, in mean radii, so that the edge does
+/// not show.
 const BEYOND: f64 = 6.;
 
-/// The cone model of Ahumada & Poirson (1987): discs of random radius packed tightly outward from the centre, one a cone,
-/// whose centres are then displaced.
+/// Model of Ahumada and Poirson (1987): discs of random radius, one per cone, packed tightly
+/// outward from the centre.
 ///
-/// **Published** (the paper's abstract): each cone has a circular disc of influence; the discs are packed tightly outward from the
-/// centre; the parameters are the mean radius, its standard deviation, and the standard deviation of the jitter after packing; all
-/// three may vary with eccentricity, and were fitted to a macaque's fovea out to 1.6°.
+/// The centres of the discs are then displaced.
 ///
-/// **Not at hand, hence chosen here**: the fitted values and their change with eccentricity; that radii are normal; that the next
-/// disc goes where it touches two earlier ones and lies nearest to the centre, and that a place where it does not fit stays
-/// empty. The defaults, .1 mean radii and .07 mean diameters, give a regularity index of 10, amid those of real mosaics (8
-/// to 12). The mean radius follows from n.
+/// **Published** (the paper's abstract): each cone has a circular disc of influence; the discs are
+/// packed tightly outward from the centre; the parameters are the mean radius, its standard
+/// deviation, and the standard deviation of the jitter after packing; all three may vary with
+/// eccentricity, and were fitted to a macaque's fovea out to 1.6°.
 ///
-/// **Eccentricity**: given one in mm, the middle of the window lies there, with the fovea to its left, and the mean radius follows the
-/// density of human cones (Curcio et al. 1990, mean of four meridians) from place to place; n then says how large the window is.
-/// The other two parameters stay the same shares of the mean radius, and packing goes outward from the middle of the window,
-/// which is the fovea at 0 mm: our choice.
+/// **Not available, so chosen here**: the fitted values and their change with eccentricity; that
+/// radii are normal; that the next disc goes where it touches two earlier ones and lies nearest to
+/// the centre, and that a place where it does not fit stays empty. The defaults, .1 mean radii and
+/// .07 mean diameters, give a regularity index of 10, within the range of real mosaics (8 to 12).
+/// The mean radius follows from n.
 ///
-/// Exactly n points. Opposite edges of a torus do not fit: the model has a centre.
+/// **Eccentricity**: if one is given, in mm, the middle of the window lies there, with the fovea to
+/// its left. The mean radius then follows the density of human cones from place to place (Curcio et
+/// al. 1990, mean of four meridians), and n determines the size of the window. Two things are
+/// chosen here: the other two parameters stay the same shares of the mean radius, and packing goes
+/// outward from the middle of the window, which is the fovea at 0 mm.
+///
+/// Exactly n points are made. Opposite edges of a torus do not fit, as the model has a centre.
+///
+/// Sources: Ahumada and Poirson (1987), <https://doi.org/10.1364/JOSAA.4.001493>; Curcio et al.
+/// (1990), <https://doi.org/10.1002/cne.902920402>.
 #[derive(Clone, Copy, Debug)]
 pub struct Ahumada {
     /// Standard deviation of the discs' radii, in mean radii.
     pub radius_sd: f64,
-    /// Displacement of each cone in x and y after packing: standard deviation in mean diameters.
+    /// Standard deviation of each cone's displacement in x and y after packing, in mean diameters.
     pub jitter: f64,
-    /// Where the middle of the window lies, in mm from the fovea; `None`: discs have one mean radius all over.
+    /// Distance of the window's middle from the fovea, in mm; `None` for one mean radius
+    /// everywhere.
     pub eccentricity: Option<f64>,
 }
 
 impl Ahumada {
-    /// Our choice; see the type.
+    /// Default setting, chosen here; see [`Ahumada`] for the reason.
     pub const DEFAULT: Self = Self { radius_sd: 0.1, jitter: 0.07, eccentricity: None };
 }
 
@@ -113,16 +133,21 @@ struct Disc {
     radius: f64,
 }
 
-/// Two discs that another could touch, and on which side of them. The nearest to the centre comes first: distances are
-/// positive, so their bits sort as they do.
+/// Pocket between two discs, on one side of them, that another disc could fill.
+///
+/// The pocket nearest to the centre comes first: the first entry holds the bits of the distance,
+/// and bits of positive numbers sort as the numbers do.
 type Pocket = Reverse<(u64, usize, usize, bool)>;
 
 impl Ahumada {
+    /// Draws the radius of a disc, in mean radii.
     fn radius(&self, rng: &mut dyn Rng) -> f64 {
         truncated(1., self.radius_sd, DEVIATIONS, rng)
     }
 
-    /// Discs of mean radius 1 in the middle that cover the window of these half sides from there outward.
+    /// Packs discs from the middle outward over the window with these half sides.
+    ///
+    /// The mean radius is 1 in the middle.
     fn pack(&self, half: [f64; 2], retina: &Retina, rng: &mut dyn Rng) -> Vec<Disc> {
         let widest = (1. + DEVIATIONS * self.radius_sd) * retina.largest(half);
         let first = self.radius(rng);
@@ -131,6 +156,7 @@ impl Ahumada {
         let touching = first + radius;
         let mut packing = Packing {
             discs: Vec::new(),
+            // Two discs that a third can touch are at most four radii apart.
             grid: HashGrid::new(4. * widest),
             pockets: BinaryHeap::new(),
             retina,
@@ -140,7 +166,7 @@ impl Ahumada {
         radius = self.radius(rng);
         while let Some(Reverse((_, a, b, side))) = packing.pockets.pop() {
             let (a, b) = (packing.discs[a], packing.discs[b]);
-            // its mean is that of the discs that it touches
+            // The mean radius here is the mean of those at the two discs that it touches.
             let scaled = radius * (retina.size(a.centre) + retina.size(b.centre)) / 2.;
             let Some(centre) = touching_both(a, b, scaled, side) else {
                 continue;
@@ -155,6 +181,7 @@ impl Ahumada {
     }
 }
 
+/// Discs packed so far, and the pockets between them.
 struct Packing<'a> {
     discs: Vec<Disc>,
     grid: HashGrid,
@@ -165,12 +192,13 @@ struct Packing<'a> {
 impl Packing<'_> {
     fn has_room(&self, disc: Disc) -> bool {
         self.grid.near(disc.centre).all(|(k, centre)| {
-            // it touches two discs, and rounding must not make them overlap
+            // The disc touches two others exactly, and rounding must not count that as overlap.
             distance(centre, disc.centre) >= (disc.radius + self.discs[k].radius) * (1. - 1e-9)
         })
     }
 
-    /// A new disc, and the pockets between it and those near enough for a disc of mean radius to touch both.
+    /// Adds a disc, and the pockets between it and those near enough for a disc of mean radius to
+    /// touch both.
     fn put(&mut self, disc: Disc) {
         let new = self.discs.len();
         let mean = self.retina.size(disc.centre);
@@ -187,8 +215,10 @@ impl Packing<'_> {
     }
 }
 
-/// Centre of the disc of that radius that touches both, on one side or the other of the line from `a` to `b`; `None` if
-/// they are too far apart.
+/// Returns the centre of the disc of this radius that touches both, on one side of the line from
+/// `a` to `b`.
+///
+/// `None` is returned if they are too far apart.
 fn touching_both(a: Disc, b: Disc, radius: f64, left: bool) -> Option<[f64; 2]> {
     let (to_a, to_b, apart) = (a.radius + radius, b.radius + radius, distance(a.centre, b.centre));
     if apart <= 0. || apart >= to_a + to_b {

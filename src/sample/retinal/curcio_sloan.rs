@@ -1,37 +1,50 @@
+//! Cone mosaic as a compressed square array with jitter, after Curcio and Sloan (1992).
+
 use crate::geometry::Point;
 use crate::sample::lattice::Lattice;
 use crate::sample::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use rand::Rng;
 use std::f64::consts::SQRT_2;
 
-/// The compressed-jittered model of Curcio & Sloan (1992): a square array, compressed along one diagonal and stretched along
-/// the other so that its density stays, whose points are then displaced.
+/// Compressed-jittered model of Curcio and Sloan (1992): a square array, compressed along one
+/// diagonal.
 ///
-/// **Published** (the abstract): that a compressed-jittered model was fitted at seven places along six meridians of a human retina;
-/// that the mosaic is least compressed and jittered at the edge of the foveal rod-free zone; that spacing is 10–15 % less in one
-/// direction, and greater along meridians than across them.
+/// The array is stretched along the other diagonal so that its density stays, and the points are
+/// then displaced.
 ///
-/// **As we understand it**: the array is square, and what varies is the ratio of compression and the standard deviation of the jitter.
-/// With a ratio of 3^(−1/4) = .760 the compressed array is the triangular lattice.
+/// **Published** (the abstract): a compressed-jittered model was fitted at seven places along six
+/// meridians of a human retina; the mosaic is least compressed and jittered at the edge of the
+/// foveal rod-free zone; spacing is 10–15 % less in one direction, and greater along meridians than
+/// across them.
 ///
-/// **Not at hand, hence chosen here**: the fitted values. The defaults are .8 and .1, and the jitter is in sides of the uncompressed
-/// cell.
+/// **As understood here**: the array is square, and the parameters are the ratio of compression and
+/// the standard deviation of the jitter. With a ratio of 3^(−1/4) = .760 the compressed array is
+/// the triangular lattice.
 ///
-/// **Eccentricity**: the fitted values by place are not at hand; of their dependence only the sentence above is known, which gives no
-/// number. So there is no such parameter: set `compression` and `jitter` for the place. They hold over the whole window.
+/// **Not available, so chosen here**: the fitted values. The defaults are .8 and .1, with the
+/// jitter in sides of the uncompressed cell.
 ///
-/// Rows lie along the compressed diagonal, along x, at a random offset. The number of points is near n; on a torus rows and columns
-/// must close, which stretches the array by a few per cent.
+/// **Eccentricity**: there is no such parameter, as the abstract gives no numbers for the
+/// dependence on the place. Set `compression` and `jitter` for the place; they hold over the whole
+/// window.
+///
+/// Rows lie along the compressed diagonal, which is along x, at a random offset. The number of
+/// points is near n. On a torus rows and columns must close, which stretches the array by a few per
+/// cent.
+///
+/// Source: Curcio and Sloan (1992), <https://doi.org/10.1017/S0952523800009639>.
 #[derive(Clone, Copy, Debug)]
 pub struct CurcioSloan {
-    /// Length of the one diagonal over its length before compression; the other grows by as much.
+    /// Length of one diagonal divided by its length before compression; the other diagonal grows by
+    /// as much.
     pub compression: f64,
-    /// Displacement of each point in x and y: standard deviation in sides √(A/n) of the uncompressed cell.
+    /// Standard deviation of each point's displacement in x and y, in sides √(A/n) of the
+    /// uncompressed cell.
     pub jitter: f64,
 }
 
 impl CurcioSloan {
-    /// Our choice; see the type.
+    /// Default setting, chosen here; see [`CurcioSloan`] for the reason.
     pub const DEFAULT: Self = Self { compression: 0.8, jitter: 0.1 };
 }
 
@@ -54,7 +67,8 @@ impl Sampler for CurcioSloan {
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         let side = (frame.width * frame.height / n.max(1) as f64).sqrt();
-        // seen along its diagonals, a square array is rows of points a diagonal apart, every other row moved by half of that
+        // Along its diagonals, a square array has rows of points a diagonal apart, every other row
+        // moved by half a diagonal.
         let (step, row_step) = (SQRT_2 * side * self.compression, side / (SQRT_2 * self.compression));
         Ok(Lattice { step, row_step, shift: 0.5, jitter: self.jitter * side }.fill(n, frame, rng))
     }
@@ -99,7 +113,7 @@ mod tests {
         let window = Window::Rectangle(Rectangle::new(0., 0., 30., 30.).unwrap());
         let points = model.sample(900, &window, &mut ChaCha8Rng::seed_from_u64(1)).unwrap();
         assert!(points.len().abs_diff(900) <= 30);
-        // sides of 1: the compressed diagonal has .7 √2, the side √(.7² + .7⁻²)/√2
+        // for cells of side 1 the compressed diagonal is .7 √2 long, and the side √(.7² + .7⁻²)/√2
         let nearest = nearest_neighbours(&points, &window);
         let (diagonal, side) = (0.7 * SQRT_2, ((0.49 + 1. / 0.49) / 2f64).sqrt());
         assert!(diagonal < side && nearest.distances.iter().all(|d| (d - diagonal).abs() < 1e-9));

@@ -1,3 +1,9 @@
+//! Cone mosaic of cells that attract and repel each other, after Deering (2005).
+//!
+//! 1. Add a ring of cells of random size around those that exist.
+//! 2. Move the cells of the last rings by the forces between neighbours, for some rounds.
+//! 3. Repeat until the window is covered.
+
 use super::outward::{exactly, ring};
 use super::retina::{Retina, eccentricity};
 use crate::geometry::Point;
@@ -9,54 +15,69 @@ use std::collections::VecDeque;
 
 /// Distance of successive rings, in mean diameters: that of the rows of a triangular lattice.
 const RING: f64 = 0.866_025_403_784_438_6;
-/// Cells per squared mean diameter.
+/// Number of cells per squared mean diameter.
 const DENSITY: f64 = 1. / RING;
-/// Rings that still move: cells farther in have found their place.
+/// Number of outer rings that still move; cells farther in have found their place.
 const MOBILE: usize = 5;
-/// Radii are drawn again beyond this many standard deviations.
+/// Number of standard deviations beyond which radii are drawn again.
 const DEVIATIONS: f64 = 3.;
-/// Cells attract each other up to this many times the distance at which they touch.
+/// Distance at which attraction ends, in units of the distance at which two cells touch.
 const ATTRACTION_ENDS: f64 = 1.5;
-/// The strongest attraction, as a share of the repulsion of cells that coincide.
+/// Strongest attraction, as a share of the repulsion of cells that coincide.
 const ATTRACTION: f64 = 0.1;
-/// Share of a force, in diameters, by which a cell moves in one round.
+/// Displacement of a cell in one round, as a share of the force times the distance at which two
+/// cells touch.
 const RATE: f64 = 0.3;
-/// How far cells may come towards each other in the rounds of one ring, in mean diameters: beyond it they are not looked at.
+/// Approach of two cells during the rounds of one ring that is allowed for, in mean diameters.
+///
+/// Cells that are farther beyond the reach of the forces are not looked at.
 const SLACK: f64 = 0.5;
-/// Cells are grown this far beyond the window, in mean diameters.
+/// Distance beyond the window up to which cells are grown, in mean diameters.
 const BEYOND: f64 = 4.;
 
-/// The cone model of Deering (2005): cells added in rings around the fovea, each with a target size of its own, which push and pull
-/// one another into place.
+/// Model of Deering (2005): cells of random target size, added in rings around the fovea.
 ///
-/// **Published** (the author's slides): cones are added in concentric rings outward, with target sizes that vary; an equation of
-/// forces between them; borders of the cells that are formed anew, and a final touch-up; densities by eccentricity and
-/// meridian, mostly those of Curcio et al. (1990). **As we understand it**: target radii are perturbed at random; cells repel each
-/// other when nearer than their radii ask for and attract each other when somewhat farther; only those near the growing edge move.
+/// The cells push and pull one another into place.
 ///
-/// **Not at hand, hence chosen here**: the equation. Two cells at u times the distance at which they touch repel each other by 1 − u for
-/// u < 1 and attract each other by 1.6 (u − 1)(1.5 − u) for u from 1 to 1.5; a cell moves by .3 of the sum, in as many rounds
-/// a ring as `rounds` says; the last five rings move. The paper re-forms the cells' borders as polygons and repairs gaps; here
-/// centres interact by their distance alone. The deviation of radii gives a regularity index of 10, amid those of real mosaics
-/// (8 to 12).
+/// **Published** (the author's slides): cones are added in concentric rings outward, with target
+/// sizes that vary; an equation gives the forces between them; the borders of the cells are formed
+/// anew, and there is a final touch-up; densities by eccentricity and meridian are mostly those of
+/// Curcio et al. (1990).
 ///
-/// **Eccentricity**: without, the mean radius is the same all over the window. Given one in mm, the middle of the window lies there, with
-/// the fovea to its left, and the mean radius follows the density of human cones (Curcio et al. 1990; the mean of the four
-/// meridians, where the original tells them apart); n then says how large the window is. Rings are around the fovea.
+/// **As understood here**: target radii are perturbed at random; cells repel each other when nearer
+/// than their radii ask for and attract each other when somewhat farther; only those near the
+/// growing edge move.
 ///
-/// Exactly n points. Opposite edges of a torus do not fit: the model has a centre.
+/// **Not available, so chosen here**: the equation. Two cells at u times the distance at which they
+/// touch repel each other by 1 − u for u < 1, and attract each other by 1.6 (u − 1)(1.5 − u) for u
+/// from 1 to 1.5. A cell moves by .3 of the sum, in `rounds` rounds per ring; the last five rings
+/// move. The paper re-forms the cells' borders as polygons and repairs gaps; here centres interact
+/// by their distance alone. The deviation of radii gives a regularity index of 10, within the range
+/// of real mosaics (8 to 12).
+///
+/// **Eccentricity**: without it, the mean radius is the same all over the window. If it is given,
+/// in mm, the middle of the window lies there, with the fovea to its left. The mean radius then
+/// follows the density of human cones (Curcio et al. 1990; the mean of the four meridians, where
+/// the original distinguishes them), and n determines the size of the window. The rings are around
+/// the fovea.
+///
+/// Exactly n points are made. Opposite edges of a torus do not fit, as the model has a centre.
+///
+/// Sources: Deering (2005), <https://doi.org/10.1145/1073204.1073243>; for the densities, Curcio et
+/// al. (1990), <https://doi.org/10.1002/cne.902920402>.
 #[derive(Clone, Copy, Debug)]
 pub struct Deering {
     /// Standard deviation of the cells' radii, in mean radii.
     pub radius_sd: f64,
     /// Rounds of pushing and pulling after each ring.
     pub rounds: usize,
-    /// Where the middle of the window lies, in mm from the fovea; `None`: cells have one mean radius all over.
+    /// Distance of the window's middle from the fovea, in mm; `None` for one mean radius
+    /// everywhere.
     pub eccentricity: Option<f64>,
 }
 
 impl Deering {
-    /// Our choice; see the type.
+    /// Default setting, chosen here; see [`Deering`] for the reason.
     pub const DEFAULT: Self = Self { radius_sd: 0.15, rounds: 8, eccentricity: None };
 }
 
@@ -123,16 +144,21 @@ struct Cell {
 }
 
 impl Deering {
-    /// Cells of mean diameter 1 in the middle as far as these half sides.
+    /// Grows cells from the fovea outward over the window with these half sides, and returns their
+    /// centres.
+    ///
+    /// The mean diameter is 1 in the middle of the window.
     fn grow(&self, half: [f64; 2], retina: &Retina, rng: &mut dyn Rng) -> Vec<[f64; 2]> {
-        // rings are around the fovea, which may lie in the window or beside it; all places are seen from the middle
+        // The rings are around the fovea, in the window or beside it; all places are relative to
+        // the window's middle.
         let fovea = retina.fovea();
         let seen = |[x, y]: [f64; 2]| [x - fovea, y];
         let wide = [half[0] + fovea, half[1]];
         let last = wide[0].hypot(wide[1]);
         let mut radius = (fovea - half[0]).max(0.);
         let mut done = Vec::new();
-        // the last of them still move; the one before those is what they lean on
+        // The last `MOBILE` rings still move; those before them in the queue are fixed and support
+        // them.
         let mut edge: VecDeque<Vec<Cell>> = VecDeque::new();
         while radius <= last {
             let step = retina.size(seen([radius, 0.]));
@@ -158,12 +184,14 @@ impl Deering {
         done
     }
 
-    /// Rounds of forces between cells of mean diameters up to `largest`, of which the first `fixed` do not move.
+    /// Moves cells by the forces between them, except the first `fixed`.
+    ///
+    /// `largest` is the greatest mean diameter of the cells.
     fn settle(&self, cells: &mut [Cell], fixed: usize, largest: f64) {
         let reach = largest * (ATTRACTION_ENDS * (1. + DEVIATIONS * self.radius_sd) + SLACK);
         let mut grid = HashGrid::new(reach);
         cells.iter().enumerate().for_each(|(k, cell)| grid.insert(k, cell.centre));
-        // who may come within reach in this ring's rounds
+        // cells that may come within reach during the rounds of this ring
         let neighbours: Vec<Vec<usize>> = cells[fixed..]
             .iter()
             .zip(fixed..)
@@ -191,7 +219,9 @@ impl Deering {
     }
 }
 
-/// Repulsion (positive) or attraction of two cells at `u` times the distance at which they touch.
+/// Returns the force between two cells at `u` times the distance at which they touch.
+///
+/// Repulsion is positive, attraction negative.
 fn force(u: f64) -> f64 {
     if u < 1. {
         1. - u

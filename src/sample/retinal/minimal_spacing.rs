@@ -1,3 +1,5 @@
+//! Cone mosaic by the minimal-spacing rule: random places, refused near earlier cells.
+
 use super::retina::{FARTHEST, cones_per_mm2};
 use crate::geometry::Point;
 use crate::geometry::index::TorusCells;
@@ -6,44 +8,55 @@ use crate::sample::normal_deviate::truncated;
 use crate::sample::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use rand::{Rng, RngExt};
 
-/// Minimal distances are drawn again beyond this many standard deviations.
+/// Number of standard deviations beyond which minimal distances are drawn again.
 const DEVIATIONS: f64 = 4.;
-/// Least distance of human cones in the periphery, in mm: the middle of the 6–8 µm of Curcio & Sloan (1992).
+/// Least distance of human cones in the periphery, in mm: the middle of the 6–8 µm of Curcio and
+/// Sloan (1992).
 const PERIPHERAL: f64 = 0.007;
-/// Places tried for a cell before the window counts as full.
+/// Places tried for one cell before the window counts as full.
 const TRIALS: usize = 100_000;
 
-/// The minimal-spacing rule (d_min, exclusion zone): cells are placed one after the other at random; a place is refused if an earlier
-/// cell is nearer than d_min, which is a normal deviate (Wässle & Riemann 1978; Galli-Resta et al. 1999).
+/// Minimal-spacing rule (d_min, exclusion zone): cells are placed at random, one after the other.
+///
+/// A place is refused if an earlier cell is nearer than d_min, which is a normal deviate.
 ///
 /// **Published**: the rule, and that d_min ~ N(μ, σ).
 ///
-/// **Chosen here**: d_min is in hexagonal spacings of n cells, so that one value serves any density; it is drawn anew for each place
-/// tried, not once a cell; negative ones, and those beyond four standard deviations, are drawn again; distances are those of
-/// the torus. Values fitted to mosaics were not at hand: μ = .7 is near the most that random placement can fill (the limit is .777), and σ is
-/// a tenth of it.
+/// **Chosen here**: d_min is in hexagonal spacings of n cells, so that one value serves any
+/// density. It is drawn anew for each place tried, not once per cell; negative values and those
+/// beyond four standard deviations are drawn again. Distances are those of the torus. Values fitted
+/// to mosaics were not at hand: μ = .7 is near the most that random placement can fill (the limit
+/// is .777), and σ is a tenth of it.
 ///
-/// **Eccentricity**: none was published with the rule. Curcio & Sloan (1992) found the least distance of human cones constant, 6–8 µm,
-/// across the peripheral retina, while their spacing grows. Given an eccentricity in mm, μ is 7 µm in hexagonal spacings of
-/// human cones there (Curcio et al. 1990, mean of four meridians), or .7 if that is less, as it is within some 2 mm.
+/// **Eccentricity**: no dependence was published with the rule. Curcio and Sloan (1992) found the
+/// least distance of human cones constant, 6–8 µm, across the peripheral retina, while their
+/// spacing grows. If an eccentricity is given, in mm, μ is 7 µm in hexagonal spacings of human
+/// cones there (Curcio et al. 1990, mean of four meridians), or .7 if that is less, as it is within
+/// some 2 mm.
 ///
-/// Exactly n points. No neighbour is nearer than μ − 4σ.
+/// Exactly n points are made. No two are nearer than μ − 4σ.
+///
+/// Sources: Wässle and Riemann (1978), <https://doi.org/10.1098/rspb.1978.0026>; Galli-Resta et al.
+/// (1999), <https://doi.org/10.1046/j.1460-9568.1999.00555.x>; Curcio and Sloan (1992),
+/// <https://doi.org/10.1017/S0952523800009639>; Curcio et al. (1990),
+/// <https://doi.org/10.1002/cne.902920402>.
 #[derive(Clone, Copy, Debug)]
 pub struct MinimalSpacing {
-    /// Mean of d_min, in hexagonal spacings.
+    /// Mean of the minimal distance d_min, in hexagonal spacings.
     pub mean: f64,
-    /// Standard deviation of d_min, in hexagonal spacings.
+    /// Standard deviation of the minimal distance d_min, in hexagonal spacings.
     pub sd: f64,
 }
 
 impl MinimalSpacing {
-    /// Our choice; see the type.
+    /// Default setting, chosen here; see [`MinimalSpacing`] for the reason.
     pub const DEFAULT: Self = Self { mean: 0.7, sd: 0.07 };
 
-    /// The mean of d_min for human cones at this many mm from the fovea, in hexagonal spacings.
+    /// Returns the mean of d_min for human cones at this many mm from the fovea, in hexagonal
+    /// spacings.
     pub fn mean_at(eccentricity: f64) -> f64 {
         let most = Self::DEFAULT.mean;
-        // of the cones of a square metre, a number that rounding does not hurt
+        // The cones of a square metre are a number large enough to be rounded without harm.
         let spacing = hexagonal_spacing((1e6 * cones_per_mm2(eccentricity)) as usize, 1e6);
         spacing.map_or(most, |mm| (PERIPHERAL / mm).min(most))
     }
@@ -68,6 +81,7 @@ impl Sampler for MinimalSpacing {
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         let spacing = frame.spacing(n);
+        // If d_min is 0 nothing is sought, but the grid needs cells of some size.
         let reach = spacing * (self.mean + DEVIATIONS * self.sd).max(0.1);
         let mut cells = TorusCells::new([frame.width, frame.height], reach, n);
         let mut points = Vec::with_capacity(n);
@@ -127,7 +141,7 @@ impl Settable for MinimalSpacing {
 }
 
 impl MinimalSpacing {
-    /// A minimal distance, in spacings.
+    /// Draws a minimal distance, in spacings.
     fn distance(&self, rng: &mut dyn Rng) -> f64 {
         loop {
             let distance = truncated(self.mean, self.sd, DEVIATIONS, rng);
@@ -172,7 +186,7 @@ mod tests {
         assert!(nearest.distances.iter().all(|&d| d >= least * (1. - 1e-9)));
         let full =
             MinimalSpacing { mean: 0.9, sd: 0. }.sample(800, &torus(1.), &mut ChaCha8Rng::seed_from_u64(1));
-        // darts jam at (.777/.9)² of the number
+        // darts find no more room at (.777/.9)² of the number
         assert!(matches!(full, Err(SampleError::NoRoom { placed: 520..=600, .. })), "{full:?}");
     }
 
@@ -192,7 +206,7 @@ mod tests {
     #[test]
     fn peripheral_cones_keep_seven_micrometres_apart() {
         assert!([0., 0.5, 1.5].iter().all(|&mm| MinimalSpacing::mean_at(mm) == 0.7));
-        // at 10 mm 4450 cones per mm² have a spacing of 16.1 µm
+        // at 10 mm the spacing of 4450 cones per mm² is 16.1 µm
         assert!((MinimalSpacing::mean_at(10.) - 7. / 16.109).abs() < 1e-4);
         let at = MinimalSpacing::DEFAULT.configure(&[("eccentricity", "10")]).unwrap();
         let set = MinimalSpacing { mean: MinimalSpacing::mean_at(10.), ..MinimalSpacing::DEFAULT };

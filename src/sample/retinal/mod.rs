@@ -1,4 +1,7 @@
-//! Models of the retina from the literature.
+//! Models of the cone mosaic from the literature.
+//!
+//! Each model's doc tells what is published, what is understood from the source, and what is chosen
+//! here.
 
 mod ahumada;
 mod curcio_sloan;

@@ -1,4 +1,4 @@
-//! What the models that grow outward from the fovea have in common: they know a centre, but neither a window nor a
+//! Common part of the models that grow outward from a centre, which know neither a window nor a
 //! number of points.
 
 use crate::geometry::Point;
@@ -6,16 +6,18 @@ use crate::sample::{Frame, SampleError};
 use rand::{Rng, RngExt};
 use std::f64::consts::{PI, TAU};
 
-/// By how much a pattern reaches beyond the window that should hold it, at first and each further time.
+/// Factors by which the pattern reaches beyond the window that should hold it: at first, and for
+/// each further attempt.
 const BEYOND: [f64; 2] = [1.1, 1.3];
-/// How often it may prove too small.
+/// Most attempts before the pattern counts as too small.
 const ATTEMPTS: usize = 12;
 
-/// Exactly `n` points of a pattern around the middle of the frame.
+/// Returns exactly `n` points of a pattern around the middle of the frame.
 ///
-/// `grow` makes the pattern in its own unit of length, complete where |x| and |y| are at most the half sides it is given, with
-/// about `density` points per squared unit. The window is the rectangle of the frame's proportions around the centre
-/// that n points lie in, and is scaled to the frame.
+/// `grow` makes the pattern in its own unit of length, with about `density` points per squared
+/// unit. It is given half sides, and the pattern must be complete where |x| and |y| are at most
+/// these. The window is the rectangle around the centre, with the frame's proportions, that holds n
+/// points; it is scaled to the frame.
 ///
 /// # Errors
 /// If the pattern stays too small.
@@ -30,13 +32,13 @@ pub(super) fn exactly(
         return Ok(Vec::new());
     }
     let unit = (n as f64 / density / (frame.width * frame.height)).sqrt() / 2.;
-    // a hair of points more than n, which counts where n is small
+    // A few points more than n are needed, which is a larger share where n is small.
     let mut beyond = BEYOND[0] * (1. + 2. / (n as f64).sqrt());
     let mut placed = 0;
     for _ in 0..ATTEMPTS {
         let half = [frame.width, frame.height].map(|side| beyond * unit * side);
         let points = grow(half);
-        // how far out, as a share of the half sides: the window that just holds a point
+        // size of the rectangle that just holds a point, as a share of the half sides
         let out = |&[x, y]: &[f64; 2]| (x.abs() / half[0]).max(y.abs() / half[1]);
         let mut order: Vec<(f64, usize)> = points.iter().map(out).zip(0..).filter(|o| o.0 <= 1.).collect();
         placed = placed.max(order.len());
@@ -44,6 +46,7 @@ pub(super) fn exactly(
             let (inner, next, _) =
                 order.select_nth_unstable_by(n, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             let last = inner.iter().map(|o| o.0).fold(0., f64::max);
+            // The edge of the window lies halfway between the last point kept and the next one.
             let edge = (last + next.0) / 2.;
             let mut kept: Vec<usize> = inner.iter().map(|o| o.1).collect();
             kept.sort_unstable();
@@ -59,18 +62,19 @@ pub(super) fn exactly(
     Err(SampleError::NoRoom { sampler, n, placed, attempts: ATTEMPTS })
 }
 
-/// Places at equal distances of about `step` on the circle around the centre, from a random angle on, as far as |x| and |y|
-/// are within the half sides.
+/// Returns places at equal distances of about `step` on a circle around the centre.
+///
+/// They begin at a random angle; those with |x| or |y| beyond the half sides are left out.
 pub(super) fn ring(radius: f64, step: f64, half: [f64; 2], rng: &mut dyn Rng) -> Vec<[f64; 2]> {
     let number = (TAU * radius / step).round().max(1.);
     let turn = TAU / number;
     let first = rng.random::<f64>() * turn;
-    // in each quadrant the arc from the one side to the other
+    // in each quadrant, the angles between which the circle lies within the half sides
     let low = (half[0] / radius).min(1.).acos();
     let high = (half[1] / radius).min(1.).asin();
     let mut places = Vec::new();
     for (from, to) in [(low, high), (PI - high, PI - low), (PI + low, PI + high), (TAU - high, TAU - low)] {
-        // half-open, so that a place on an axis counts once
+        // half-open intervals, so that a place on an axis counts once
         let (mut k, end) = (((from - first) / turn).ceil(), (to - first) / turn);
         while k < end {
             let angle = first + k * turn;

@@ -1,10 +1,12 @@
+//! Sizes of cones from place to place on the human retina, for the models that follow them.
+
 use crate::mosaic::RetinalPlace;
 use crate::sample::Setting;
 
-/// The greatest eccentricity at which the density is known, in mm.
+/// Greatest eccentricity at which the density is known, in mm.
 pub(super) const FARTHEST: f64 = 18.;
 
-/// Of models whose cells follow the density of the retina from place to place.
+/// Returns the parameter `eccentricity` of the models whose cells follow the density of the retina.
 pub(super) const fn eccentricity<S>(get: fn(&S) -> Option<f64>, set: fn(&mut S, f64)) -> Setting<S> {
     Setting {
         name: "eccentricity",
@@ -18,40 +20,49 @@ pub(super) const fn eccentricity<S>(get: fn(&S) -> Option<f64>, set: fn(&mut S, 
     }
 }
 
-/// Cones per mm² at that many mm from the fovea, the mean of the four meridians; beyond the last value known the last.
+/// Returns the cones per mm² at this many mm from the fovea, as the mean of the four meridians.
+///
+/// Beyond the last known value, that value is returned.
 pub(super) fn cones_per_mm2(eccentricity: f64) -> f64 {
     let at = |eccentricity_mm| RetinalPlace { eccentricity_mm, meridian: None }.expected_cones_per_mm2();
     at(eccentricity.min(FARTHEST)).unwrap_or(f64::NAN)
 }
 
-/// How large cells are from place to place, around a point of the retina that the middle of the window lies on. Lengths are in the
-/// unit of a model, in which cells in the middle have size 1; the fovea lies to the left.
+/// Sizes of cells around the point of the retina that the middle of the window lies on.
+///
+/// Lengths are in the unit of a model, in which cells in the middle have size 1. The fovea lies to
+/// the left.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Retina {
-    /// Eccentricity of the middle and the model's unit of length, in mm; `None`: cells are as large everywhere.
+    /// Eccentricity of the middle, in mm, and the model's unit of length, in mm.
+    ///
+    /// `None` means that cells have the same size everywhere.
     place: Option<(f64, f64)>,
 }
 
 impl Retina {
-    /// The retina around a place this many mm from the fovea, for a model that makes `density` cells of size 1 a squared unit.
+    /// Creates the sizes around a place this many mm from the fovea.
+    ///
+    /// `density` is the number of cells of size 1 that the model makes per squared unit.
     pub(super) fn around(eccentricity: Option<f64>, density: f64) -> Self {
         Self { place: eccentricity.map(|mm| (mm, (density / cones_per_mm2(mm)).sqrt())) }
     }
 
-    /// How far to the left of the middle the fovea is.
+    /// Returns the distance of the fovea, which lies to the left, from the middle.
     pub(super) fn fovea(&self) -> f64 {
         self.place.map_or(0., |(mm, unit)| mm / unit)
     }
 
-    /// Size of a cell at a place that is seen from the middle.
+    /// Returns the size of a cell at a place relative to the middle.
     pub(super) fn size(&self, [x, y]: [f64; 2]) -> f64 {
         let Some((mm, unit)) = self.place else { return 1. };
         (cones_per_mm2(mm) / cones_per_mm2((mm + x * unit).hypot(y * unit))).sqrt()
     }
 
-    /// Size of the largest cell as far as these half sides.
+    /// Returns an upper bound for the size of the cells within these half sides.
     pub(super) fn largest(&self, half: [f64; 2]) -> f64 {
-        // densities rise again by a few per cent in the far periphery
+        // Densities rise again by a few per cent in the far periphery, so the corner need not have
+        // the largest cell.
         const RISE: f64 = 1.02;
         if self.place.is_some() { RISE * self.size(half) } else { 1. }
     }
@@ -86,7 +97,10 @@ mod tests {
         assert_eq!((even.size([9., 9.]), even.largest([9., 9.]), even.fovea()), (1., 1., 0.));
     }
 
-    /// Cones in the square of these half sides whose middle is this far from the fovea, all in mm.
+    /// Returns the number of cones in the square with this half side whose middle is this far from
+    /// the fovea.
+    ///
+    /// All lengths are in mm.
     fn cones(eccentricity: f64, half: f64) -> f64 {
         let step = half / 100.;
         let along = |k: i32| (f64::from(k) + 0.5) * step;
@@ -103,7 +117,7 @@ mod tests {
                 let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
                 let points = model.sample(n, &Window::unit_square(), &mut rng).unwrap();
                 assert_eq!(points.len(), n);
-                // the square that n cones lie in
+                // half side of the square that holds n cones
                 let (mut low, mut high) = (0., 9.);
                 while high - low > 1e-6 {
                     let half = (low + high) / 2.;

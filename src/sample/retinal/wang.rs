@@ -1,3 +1,5 @@
+//! Cone mosaic as a polar array with jitter and a minimal spacing, after Wang et al. (2001).
+
 use super::outward::{exactly, ring};
 use crate::geometry::Point;
 use crate::geometry::index::{HashGrid, distance};
@@ -7,37 +9,44 @@ use rand::Rng;
 
 /// Distance of successive rings, in spacings: that of the rows of a triangular lattice.
 const RING: f64 = 0.866_025_403_784_438_6;
-/// Cones per squared spacing.
+/// Number of cones per squared spacing.
 const DENSITY: f64 = 1. / RING;
-/// Displacements drawn for a cone before it is left out.
+/// Displacements drawn for one cone before it is left out.
 const DRAWS: usize = 100;
-/// Rings go on this far beyond the window, in spacings.
+/// Distance beyond the window up to which rings are made, in spacings.
 const BEYOND: f64 = 3.;
 
-/// The cone model of Wang et al. (2001): a polar array around the fovea, Gaussian jitter, and a minimal spacing.
+/// Model of Wang et al. (2001): a polar array around the fovea, Gaussian jitter, and a minimal
+/// spacing.
 ///
-/// **Published** (the abstract): the constraints are the sampling properties of several human foveal mosaics, above all local clusters
-/// rotated against each other and spectra like desert islands. That it is an array of those three parts is as we understand it.
+/// **Published** (the abstract, <https://www.osapublishing.org/abstract.cfm?uri=VSIA-2001-FB1>):
+/// the constraints are the sampling properties of several human foveal mosaics, above all local
+/// clusters rotated against each other and spectra like desert islands.
 ///
-/// **Not at hand, hence chosen here**: rings are √3/2 spacings apart and hold a cone a spacing, from a random angle on; a
-/// cone whose displacement brings it nearer than the minimal spacing to one placed before is displaced anew, and left out
-/// after 100 draws. The defaults, a jitter of .1 and a minimal
-/// spacing of .65 spacings of the array, give a regularity index of 10, amid those of real mosaics (8 to 12).
+/// **As understood here**: the model is an array of those three parts.
 ///
-/// **Eccentricity**: the model is one of the fovea; as far as we know no dependence was published, and there is none here.
+/// **Not available, so chosen here**: rings are √3/2 spacings apart and hold one cone per spacing,
+/// from a random angle on. A cone whose displacement brings it nearer than the minimal spacing to
+/// one placed before is displaced anew, and left out after 100 draws. The defaults, a jitter of .1
+/// and a minimal spacing of .65 spacings of the array, give a regularity index of 10, within the
+/// range of real mosaics (8 to 12).
 ///
-/// Exactly n points. No two are nearer than the minimal spacing, measured in the array, which is denser than n/A by the cones left
-/// out. Opposite edges of a torus do not fit: the model has a centre.
+/// **Eccentricity**: there is no such parameter. The model is one of the fovea, and no dependence
+/// is known to have been published.
+///
+/// Exactly n points are made. No two are nearer than the minimal spacing, measured in spacings of
+/// the array; the array is denser than n/A by the cones left out. Opposite edges of a torus do not
+/// fit, as the model has a centre.
 #[derive(Clone, Copy, Debug)]
 pub struct Wang {
-    /// Displacement of each cone in x and y: standard deviation in spacings of the array.
+    /// Standard deviation of each cone's displacement in x and y, in spacings of the array.
     pub jitter: f64,
-    /// No two cones are nearer, in spacings of the array.
+    /// Smallest distance of two cones, in spacings of the array.
     pub minimum: f64,
 }
 
 impl Wang {
-    /// Our choice; see the type.
+    /// Default setting, chosen here; see [`Wang`] for the reason.
     pub const DEFAULT: Self = Self { jitter: 0.1, minimum: 0.65 };
 }
 
@@ -93,10 +102,10 @@ impl Settable for Wang {
 }
 
 impl Wang {
-    /// Cones of an array of spacing 1 as far as these half sides.
+    /// Returns the cones of an array of spacing 1 within these half sides.
     fn array(&self, half: [f64; 2], rng: &mut dyn Rng) -> Vec<[f64; 2]> {
         let rings = (half[0].hypot(half[1]) / RING) as usize;
-        // a minimum of 0 asks for nothing, but the grid needs cells
+        // A minimum of 0 needs no search, but the grid needs cells of some size.
         let mut grid = HashGrid::new(self.minimum.max(0.1));
         let mut cones: Vec<[f64; 2]> = Vec::new();
         for k in 0..=rings {

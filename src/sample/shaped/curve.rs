@@ -1,36 +1,58 @@
+//! Target curves: pair correlation functions to reach, from a measured function or from a spectrum.
+//!
+//! - A measured function was smoothed by a kernel; the smoothing is undone by van Cittert's
+//!   iteration.
+//! - A spectrum becomes a pair correlation function by the Hankel transform.
+//!
+//! Sources: van Cittert (1931), <https://doi.org/10.1007/BF01391351>; Heck, Schlömer and Deussen
+//! (2013), <https://doi.org/10.1145/2487228.2487233>.
+
 use super::super::SampleError;
 use std::f64::consts::{PI, TAU};
 
-/// Spacing of the samples of g, in hexagonal spacings.
+/// Distance of the samples of g, in hexagonal spacings.
 const STEP: f64 = 0.02;
-/// Pairs farther apart than this, in hexagonal spacings, are left to chance.
+/// Longest distance of pairs that is controlled, in hexagonal spacings; beyond it they are left to
+/// chance.
 pub(super) const REACH: f64 = 6.;
-/// Where a measured pair correlation function gives way to the one that follows from the spectrum, in spacings.
+/// Distances, in spacings, over which a measured pair correlation function gives way to the one
+/// that follows from the spectrum.
 const BLEND: [f64; 2] = [2., 2.4];
-/// Standard deviation of the kernel that measured functions are smoothed with, in spacings ([`crate::stats::PcfOptions`]).
+/// Standard deviation of the kernel that smooths measured functions, in spacings
+/// ([`crate::stats::PcfOptions`]).
 const SIGMA: f64 = 0.1;
-/// Rounds of deconvolution: with them the smoothed result is within .03 of a measured hard core; more would raise noise.
+/// Rounds of deconvolution.
+///
+/// With five the smoothed result is within .03 of a measured hard core; more would amplify noise.
 const ROUNDS: usize = 5;
-/// A curve that ends before this, in spacings, says nothing of a pattern.
+/// Distance, in spacings, that a curve must reach: a shorter one says nothing about a pattern.
 const SHORTEST: f64 = 1.;
 
-/// The pair correlation function a pattern is to have; r in hexagonal spacings s = √(2/(√3 λ)).
+/// Pair correlation function g(r) that a pattern is to have, with r in hexagonal spacings s =
+/// √(2/(√3 λ)).
+///
+/// λ is the density of the points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TargetCurve {
-    /// Unsmoothed g at multiples of [`STEP`].
+    /// Samples of g, without smoothing, at multiples of [`STEP`].
     g: Vec<f64>,
-    /// Power by frequency in √λ, where it is known: constant below the first row, 1 above the last.
+    /// Rows of frequency, in √λ, and power, where the spectrum is known.
+    ///
+    /// Power is constant below the first row and 1 above the last.
     spectrum: Option<Vec<[f64; 2]>>,
 }
 
 impl TargetCurve {
-    /// From rows of r (in spacings, rising) and g as [`crate::stats::pcf`] estimates it with its default kernel. Below the
-    /// first r, g is constant; above the last, or 6 spacings, it is left to chance.
+    /// Creates a target from rows of r (in spacings, rising) and g, as [`crate::stats::pcf`]
+    /// estimates it with its default kernel.
     ///
-    /// The smoothing by the kernel, Ĝ(r) = ∫ d g(d) k(r − d) dd / r, is undone by van Cittert's iteration (1931).
+    /// Below the first r, g is constant; above the last, or above 6 spacings, it is left to chance.
+    /// The smoothing by the kernel, Ĝ(r) = ∫ d g(d) k(r − d) dd / r, is undone by the iteration of
+    /// van Cittert (1931), <https://doi.org/10.1007/BF01391351>.
     ///
     /// # Errors
-    /// If there are fewer than two rows, r does not rise from 0 or more to 1 or more, or g is negative or not finite.
+    /// If there are fewer than two rows, r does not rise from 0 or more to 1 or more, or g is
+    /// negative or not finite.
     pub fn from_pcf(rows: &[[f64; 2]]) -> Result<Self, SampleError> {
         check(rows, "a target pair correlation function", "r", "g", SHORTEST)?;
         let last = rows[rows.len() - 1][0].min(REACH);
@@ -38,20 +60,28 @@ impl TargetCurve {
         Ok(Self { g: sharpened(&measured, rows[0][0], last, last), spectrum: None })
     }
 
-    /// From rows of frequency f (in units of √λ, that is √n in a unit square; rising) and power S(f) of the periodogram
-    /// |Σ exp(−2πi k·x)|²/n. Below the first f, S is constant; above the last it is 1, that of independent points.
+    /// Creates a target from rows of frequency f and power S(f).
     ///
-    /// g(r) = 1 + 2π ∫ (S(f) − 1) J₀(2πfr) f df with λ = 1 (Hankel transform; Heck et al. 2013, eq. 3). Where no point
-    /// process has that spectrum g comes out negative and is cut to 0.
+    /// f is in units of √λ, that is √n in a unit square, and rises from row to row. S is the power
+    /// of the periodogram |Σ exp(−2πi k·x)|²/n. Below the first f, S is constant; above the last it
+    /// is 1, as for independent points.
+    ///
+    /// g(r) = 1 + 2π ∫ (S(f) − 1) J₀(2πfr) f df with λ = 1, a Hankel transform (Heck et al. 2013,
+    /// eq. 3, <https://doi.org/10.1145/2487228.2487233>). Where no point process has that spectrum,
+    /// g comes out negative and is cut to 0.
     ///
     /// # Errors
-    /// If there are fewer than two rows, f does not rise from 0 or more to more, or S is negative or not finite.
+    /// If there are fewer than two rows, f does not rise from 0 or more, or S is negative or not
+    /// finite.
     pub fn from_spectrum(rows: &[[f64; 2]]) -> Result<Self, SampleError> {
         check(rows, "a target spectrum", "frequency", "power", f64::MIN_POSITIVE)?;
         Ok(Self { g: transformed(rows), spectrum: Some(rows.to_vec()) })
     }
 
-    /// Power 0 below `frequency` (in √λ) and 1 above: g(r) = 1 − f J₁(2πfr)/r (Heck et al. 2013, eq. 8).
+    /// Creates the target with power 0 below `frequency` (in √λ) and 1 above.
+    ///
+    /// g(r) = 1 − f J₁(2πfr)/r (Heck et al. 2013, eq. 8,
+    /// <https://doi.org/10.1145/2487228.2487233>).
     pub(in super::super) fn below(frequency: f64) -> Self {
         let g = |i: usize| {
             let r = i as f64 * STEP * unit();
@@ -69,8 +99,11 @@ impl TargetCurve {
         }
     }
 
-    /// From a measured pair correlation function at .15, .244, … spacings, smoothed as [`TargetCurve::from_pcf`] expects it, and
-    /// beyond it from the spectrum of the same patterns at .05, .1, … √λ.
+    /// Creates a target from tables of a measured pair correlation function and of the spectrum of
+    /// the same patterns.
+    ///
+    /// `pcf` holds g at .15, .244, … spacings, smoothed as [`TargetCurve::from_pcf`] expects it;
+    /// beyond it, g follows from `spectrum`, the power at .05, .1, … √λ.
     pub(in super::super) fn from_tables(pcf: &[f64], spectrum: &[f64]) -> Self {
         let rows = |values: &[f64], first: f64, step: f64| -> Vec<[f64; 2]> {
             values.iter().enumerate().map(|(i, &v)| [first + i as f64 * step, v]).collect()
@@ -87,24 +120,25 @@ impl TargetCurve {
         Self { g, spectrum: Some(spectrum) }
     }
 
-    /// g at a distance of `r` spacings; 1 beyond [`TargetCurve::reach`].
+    /// Returns g at a distance of `r` spacings; 1 beyond [`TargetCurve::reach`].
     pub fn at(&self, r: f64) -> f64 {
         sampled(&self.g, r)
     }
 
-    /// Power at a frequency in √λ, if the spectrum is known.
+    /// Returns the power at a frequency in √λ, or `None` if the spectrum is not known.
     pub fn power(&self, frequency: f64) -> Option<f64> {
         let rows = self.spectrum.as_ref()?;
         let beyond = rows.last().is_none_or(|row| frequency > row[0]);
         Some(if beyond { 1. } else { interpolate(rows, frequency) })
     }
 
-    /// How far g goes, in spacings.
+    /// Returns the longest distance at which g is given, in spacings.
     pub fn reach(&self) -> f64 {
         (self.g.len() - 1) as f64 * STEP
     }
 }
 
+/// Refuses rows that do not describe a curve: see the errors of the constructors.
 fn check(
     rows: &[[f64; 2]],
     what: &'static str,
@@ -132,7 +166,7 @@ fn check(
     Ok(())
 }
 
-/// Linear between rows, constant beyond them.
+/// Interpolates linearly between rows; the value is constant beyond them.
 fn interpolate(rows: &[[f64; 2]], x: f64) -> f64 {
     let after = rows.partition_point(|row| row[0] <= x);
     match (after.checked_sub(1).map(|i| rows[i]), rows.get(after)) {
@@ -142,6 +176,7 @@ fn interpolate(rows: &[[f64; 2]], x: f64) -> f64 {
     }
 }
 
+/// Interpolates linearly between samples of g; the value is 1 beyond them.
 fn sampled(g: &[f64], r: f64) -> f64 {
     let at = r / STEP;
     let i = at as usize;
@@ -152,7 +187,10 @@ fn sampled(g: &[f64], r: f64) -> f64 {
     }
 }
 
-/// Samples of the function that, smoothed, is `measured` between `first` and `last`; up to `end`.
+/// Returns samples, up to `end`, of the function that is `measured` after smoothing.
+///
+/// The smoothing is undone between `first` and `last`; below `first` the correction at `first` is
+/// used.
 fn sharpened(measured: &dyn Fn(f64) -> f64, first: f64, last: f64, end: f64) -> Vec<f64> {
     let samples = (end / STEP) as usize + 1;
     let r = |i: usize| i as f64 * STEP;
@@ -165,7 +203,7 @@ fn sharpened(measured: &dyn Fn(f64) -> f64, first: f64, last: f64, end: f64) -> 
             let near = i.saturating_sub(width)..=i + width;
             near.map(|k| kernel[k.abs_diff(i)] * r(k) * g[k.min(samples - 1)]).sum::<f64>() * norm / r(i)
         };
-        // the kernel must not reach far into negative distances
+        // Nearer than this the kernel would reach far into negative distances.
         let from = (first.max(1.5 * SIGMA) / STEP).ceil() as usize;
         let to = samples.min((last / STEP) as usize + 1);
         let mut change = vec![0.; samples];
@@ -177,14 +215,14 @@ fn sharpened(measured: &dyn Fn(f64) -> f64, first: f64, last: f64, end: f64) -> 
     g
 }
 
-/// A hexagonal spacing in 1/√λ.
+/// Returns the hexagonal spacing in units of 1/√λ.
 fn unit() -> f64 {
     (2. / 3f64.sqrt()).sqrt()
 }
 
-/// Samples of g from a radial power spectrum.
+/// Computes samples of g from the rows of a radial power spectrum.
 fn transformed(rows: &[[f64; 2]]) -> Vec<f64> {
-    /// Frequencies a row interval is cut into at least, and a wave at the reach.
+    /// Frequencies summed per period of the Bessel function at the longest distance.
     const PER_WAVE: f64 = 24.;
     let last = rows[rows.len() - 1][0];
     let steps = (PER_WAVE * last * REACH * unit()).ceil().clamp(400., 20_000.) as usize;
@@ -221,7 +259,7 @@ mod tests {
 
     #[test]
     fn smoothing_the_sharpened_curve_gives_what_was_measured() {
-        // a narrow peak of width .2
+        // a narrow peak, of standard deviation .2
         let truth = |r: f64| 1. + 1.5 * (-0.5 * ((r - 1.) / 0.2f64).powi(2)).exp();
         let smoothed = |r: f64| {
             let sum: f64 = (1..2000)

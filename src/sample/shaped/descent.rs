@@ -1,23 +1,39 @@
+//! Descent of the misses of a pattern's features, by the method of Levenberg and Marquardt.
+//!
+//! 1. Compute the misses e, and J Jᵀ of their Jacobian J from some of the points.
+//! 2. Displace the points by −Jᵀ (J Jᵀ + μ)⁻¹ e, the shortest displacement that removes e to first
+//!    order, shortened where it is too long.
+//! 3. If the misses fall, keep the points, and lower the damping μ unless the step was shortened;
+//!    otherwise raise μ tenfold and try again.
+
 use super::features::Features;
 use super::neighbours::NeighbourList;
 use crate::numeric::solve;
 
-/// Most steps, and most tries to shorten one that raises the misses.
+/// Largest number of steps.
 const STEPS: usize = 30;
+/// Largest number of tries to shorten a step that raises the misses.
 const TRIES: usize = 5;
-/// Good enough: root mean square miss of g.
+/// Root mean square miss, in units of g, that is good enough.
 const ENOUGH: f64 = 0.005;
-/// Root mean square way of a step at most, and of a point three times that, in spacings: beyond it J has changed.
+/// Largest root mean square displacement of the points in a step, in spacings.
+///
+/// A single point moves at most three times as far. J has changed too much beyond that.
 const LONGEST: f64 = 0.2;
-/// Points that J Jᵀ is taken from.
+/// Number of points from which J Jᵀ is estimated.
 const METRIC_POINTS: usize = 512;
-/// How far points may move before their neighbours are looked for again, in spacings.
+/// Margin of the list of neighbours, in spacings.
+///
+/// The list reaches that much farther than needed, and is made anew once a point has moved by half
+/// of it.
 const MARGIN: f64 = 0.4;
-/// Damping μ over the mean of the diagonal of J Jᵀ: at first, and at least.
+/// Damping μ, at first and at least, relative to the mean of the diagonal of J Jᵀ.
 const DAMPING: [f64; 2] = [1e-3, 1e-6];
 
-/// Moves points of the torus with these sides, of hexagonal spacing 1, until their features, of pairs nearer than `reach`, are as
-/// wanted, or no step comes nearer to that.
+/// Moves points of a torus until their features are as wanted, or no step comes nearer to that.
+///
+/// `sides` are those of the torus, in units of the hexagonal spacing. Pairs nearer than `reach`
+/// count.
 pub(super) fn descend(points: &mut Vec<[f64; 2]>, sides: [f64; 2], features: &Features, reach: f64) {
     let mut list = NeighbourList::new(points, sides, reach, MARGIN.min(reach));
     let mut misses = features.misses(points, &list);
@@ -56,7 +72,7 @@ pub(super) fn descend(points: &mut Vec<[f64; 2]>, sides: [f64; 2], features: &Fe
     }
 }
 
-/// The points moved against `pull`, and whether by all of it.
+/// Returns the points moved against `pull`, and whether the step as a whole was not shortened.
 fn step(points: &[[f64; 2]], pull: &[[f64; 2]], sides: [f64; 2]) -> (Vec<[f64; 2]>, bool) {
     let squares: f64 = pull.iter().map(|[x, y]| x * x + y * y).sum();
     let way = (squares / pull.len().max(1) as f64).sqrt();

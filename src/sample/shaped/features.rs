@@ -1,3 +1,9 @@
+//! Features of a pattern that are brought to given values, and their derivatives by the points'
+//! places.
+//!
+//! The features are numbers of pairs by distance, smoothed by a spline; two moments of the
+//! nearest-neighbour distances; and the power of long waves.
+
 use super::curve::TargetCurve;
 use super::neighbours::NeighbourList;
 use super::spline;
@@ -6,23 +12,25 @@ use std::f64::consts::TAU;
 
 /// Distance of the spline's nodes along r, in spacings.
 const NODE: f64 = 0.1;
-/// Below this distance, in spacings, an excess of pairs counts as at this distance: there are few of them.
+/// Distance, in spacings, below which an excess of pairs is weighted as at this distance, as there
+/// are few of them.
 const NEAR: f64 = 0.15;
 
 /// Mean and standard deviation of nearest-neighbour distances, in hexagonal spacings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearestTarget {
-    /// Mean.
+    /// Mean nearest-neighbour distance, in hexagonal spacings.
     pub mean: f64,
-    /// Population standard deviation.
+    /// Population standard deviation of these distances, in hexagonal spacings.
     pub sd: f64,
 }
 
-/// What is to be reached: numbers of pairs by distance, smoothed by a spline, two moments of the nearest-neighbour distances, and
-/// the power of long waves; each in about the unit of g, so that .01 is the same miss for all.
+/// Goals for the features of a pattern, with weights that bring all to about the unit of g, so that
+/// .01 is the same miss for each.
 ///
-/// Slot 0 belongs to the node at −[`NODE`], slot k + 1 to the node k; slots of nodes that are not controlled weigh nothing. Then
-/// come mean and mean square, then the annuli of waves.
+/// Slot 0 belongs to the node at −[`NODE`] and slot k + 1 to node k; slots of nodes that are not
+/// controlled have weight 0. Then come the mean and mean square of the nearest-neighbour distances,
+/// and then the annuli of waves.
 pub(super) struct Features {
     goal: Vec<f64>,
     weight: Vec<f64>,
@@ -31,7 +39,7 @@ pub(super) struct Features {
     waves: LongWaves,
 }
 
-/// One pair of nearest neighbours.
+/// Nearest neighbour of a point, with the way to it.
 #[derive(Clone, Copy)]
 struct Nearest {
     partner: usize,
@@ -40,7 +48,7 @@ struct Nearest {
 }
 
 impl Features {
-    /// For `n` points whose hexagonal spacing is 1, and pairs nearer than `reach`.
+    /// Creates the goals for `n` points of hexagonal spacing 1 and pairs nearer than `reach`.
     pub(super) fn new(
         target: &TargetCurve,
         nearest: Option<NearestTarget>,
@@ -73,7 +81,7 @@ impl Features {
         Self { goal, weight, nodes, nearest: nearest.is_some(), waves }
     }
 
-    /// How far each is from its goal.
+    /// Returns the weighted distance of each feature from its goal.
     pub(super) fn misses(&self, points: &[[f64; 2]], list: &NeighbourList) -> Vec<f64> {
         let mut value = vec![0.; self.goal.len()];
         let pairs = &mut value[..self.nodes];
@@ -94,11 +102,13 @@ impl Features {
         value.iter().zip(&self.goal).zip(&self.weight).map(|((v, g), w)| (v - g) * w).collect()
     }
 
-    /// J Jᵀ of the misses' Jacobian J by the coordinates, row by row, from the first `some` of the points and scaled up.
+    /// Computes J Jᵀ, row by row, where J is the Jacobian of the misses by the coordinates.
+    ///
+    /// It is computed from the first `some` points and scaled up to all.
     pub(super) fn gram(&self, points: &[[f64; 2]], list: &NeighbourList, some: usize) -> Vec<f64> {
         let size = self.goal.len();
         let some = some.min(points.len());
-        // one row a coordinate: x and y of point 0, of point 1, …
+        // one row per coordinate: x and y of point 0, x and y of point 1, …
         let mut rows = vec![0.; 2 * some * size];
         self.derive(points, list, |i, first, slopes, way| {
             if i < some {
@@ -128,7 +138,7 @@ impl Features {
         gram
     }
 
-    /// Jᵀ y.
+    /// Computes Jᵀ y, a vector for each point.
     pub(super) fn pull(&self, points: &[[f64; 2]], list: &NeighbourList, y: &[f64]) -> Vec<[f64; 2]> {
         let y: Vec<f64> = y.iter().zip(&self.weight).map(|(y, w)| y * w).collect();
         let mut pull = vec![[0.; 2]; points.len()];
@@ -140,8 +150,10 @@ impl Features {
         pull
     }
 
-    /// Calls `add(i, slot, derivatives, direction)`: moving point i by a small vector changes the features from
-    /// `slot` on by its product with `direction` times `derivatives`.
+    /// Calls `add(i, slot, derivatives, direction)` for each dependence of features on a point.
+    ///
+    /// If point i moves by a small vector, the features from `slot` on change by `derivatives`
+    /// times the scalar product of that vector and `direction`.
     #[inline]
     fn derive(
         &self,
@@ -152,7 +164,7 @@ impl Features {
         list.visit(points, |i, j, dx, dy, square| {
             let d = square.sqrt();
             let (first, u) = place(d);
-            // coincident points have no direction
+            // Coincident points have no direction.
             if d > 0. && first + 4 <= self.nodes {
                 let slopes = spline::slopes(u).map(|s| s / NODE);
                 let (x, y) = (dx / d, dy / d);
@@ -176,13 +188,18 @@ impl Features {
     }
 }
 
-/// A miss of the nearest-neighbour moments counts as much as one of g at this many nodes.
+/// Weight of a miss of the nearest-neighbour moments: as much as a miss of g at this many nodes.
 const NEAREST_WEIGHT: f64 = 2.;
 
-/// A miss of the power of an annulus, which scatters by 1/√(number of waves), counts as this much of one of g.
+/// Weight of a miss of the power of an annulus, relative to a miss of g.
+///
+/// The power of an annulus scatters by 1/√(number of waves).
 const WAVE_WEIGHT: f64 = 0.1;
 
-/// First slot of the four that a pair at distance `d` counts in, and how far it is beyond the second one's node.
+/// Returns the first of the four slots in which a pair at distance `d` counts, and its place
+/// between the nodes.
+///
+/// The place is the distance beyond the second slot's node, as a share of [`NODE`].
 #[inline]
 fn place(d: f64) -> (usize, f64) {
     let at = d / NODE;
@@ -190,7 +207,9 @@ fn place(d: f64) -> (usize, f64) {
     (node, at - node as f64)
 }
 
-/// ∫ 2πd g(d) B((d − r)/h) dd / h: pairs per length that the spline at r sees of density 1.
+/// Computes ∫ 2πd g(d) B((d − r)/h) dd / h, with B the spline and h = [`NODE`].
+///
+/// This is the number of pairs per length that the spline at r counts at density 1.
 fn pairs_per_length(target: &TargetCurve, r: f64) -> f64 {
     const PARTS: usize = 64;
     (0..PARTS)
@@ -201,7 +220,7 @@ fn pairs_per_length(target: &TargetCurve, r: f64) -> f64 {
         .sum()
 }
 
-/// The nearest neighbour of every point; of one without any in reach, itself.
+/// Returns the nearest neighbour of every point; a point without any in reach is its own.
 fn nearest(points: &[[f64; 2]], list: &NeighbourList) -> Vec<Nearest> {
     let alone = |i| Nearest { partner: i, way: [0.; 2], square: f64::INFINITY };
     let mut nearest: Vec<Nearest> = (0..points.len()).map(alone).collect();

@@ -1,4 +1,7 @@
-//! Patterns whose pair correlation function, and so their radial spectrum, is given.
+//! Patterns with a given pair correlation function, and so with a given radial spectrum.
+//!
+//! `curve.rs` holds the function to reach, `features.rs` and `waves.rs` measure how far a pattern
+//! is from it, and `descent.rs` moves the points.
 
 mod curve;
 mod descent;
@@ -23,24 +26,32 @@ use super::{Frame, SampleError, Sampler, Watch, nearest_in_number};
 use crate::geometry::{Point, Window};
 use rand::{Rng, RngExt};
 
-/// Points whose pair correlation function is `curve`: uniform ones, moved as little as makes it so.
+/// Points whose pair correlation function g is `curve`: uniform points, moved as little as makes it
+/// so.
 ///
-/// Öztireli & Gross (2012) and Heck et al. (2013) move points down the gradient of ∫ (g − g*)². That takes hundreds of steps,
-/// since many points must move together to change g far out. Here the miss of g at all distances is taken off at once: with
-/// e(x) the misses and J their Jacobian, x ← x − Jᵀ (J Jᵀ + μ)⁻¹ e, the shortest displacement that removes e to first order
-/// (Levenberg–Marquardt). J Jᵀ has as many rows as there are distances, some sixty, and each is a sum over all points, so
-/// some of them are enough to know it; ten steps suffice for any n, each linear in n.
+/// Öztireli and Gross (2012) and Heck et al. (2013) move points down the gradient of ∫ (g − g*)²,
+/// where g* is the function to reach. That takes hundreds of steps, since many points must move
+/// together to change g at large distances. Here the misses of g at all distances are removed at
+/// once. With e(x) the misses and J their Jacobian, x ← x − Jᵀ (J Jᵀ + μ)⁻¹ e is the shortest
+/// displacement that removes e to first order (Levenberg–Marquardt). J Jᵀ has only some sixty rows,
+/// one per distance, and each is a sum over all points, so some of the points are enough to
+/// estimate it. Ten steps suffice for any n, and the time of each is linear in n.
 ///
-/// Pairs fix g, and so the spectrum, up to the waves that are longer than pairs are apart; where the spectrum is given, the power
-/// of those waves is controlled in the same way (the longest 256 of them).
+/// Pairs determine g, and so the spectrum, except for waves longer than the distance of the pairs.
+/// Where the spectrum is given, the power of those waves is controlled in the same way (the longest
+/// 256 of them).
 ///
-/// Distances are those of the torus in every window. They are controlled up to 6 spacings, or half the shorter side of the
-/// window; a window narrower than a spacing gets uniform points.
+/// Distances are those of the torus in every window. They are controlled up to 6 spacings, or half
+/// the shorter side of the window if that is less; a window narrower than a spacing gets uniform
+/// points.
+///
+/// Sources: Öztireli and Gross (2012), <https://doi.org/10.1145/2366145.2366189>; Heck, Schlömer
+/// and Deussen (2013), <https://doi.org/10.1145/2487228.2487233>.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shaped {
-    /// The function to reach.
+    /// Pair correlation function to reach.
     pub curve: TargetCurve,
-    /// Nearest-neighbour distances to reach besides: g alone does not fix them.
+    /// Nearest-neighbour distances to reach as well, as g alone does not determine them.
     pub nearest: Option<NearestTarget>,
 }
 
@@ -73,7 +84,8 @@ impl Sampler for Shaped {
         let filled = (n as f64 * bounds.area() / polygon.area()).round() as usize;
         let frame = Frame::new(filled, &Window::Rectangle(bounds))?;
         let points = self.moved(filled, &frame, rng);
-        // a pattern of the torus is the same process wherever the polygon lies on it: one serves all tries
+        // The pattern of a torus is the same process wherever the polygon lies on it, so one
+        // pattern serves all tries.
         nearest_in_number(n, CUTS, || {
             let turn = [rng.random::<f64>() * frame.width, rng.random::<f64>() * frame.height];
             let turned = points.iter().map(|p| {
@@ -87,15 +99,15 @@ impl Sampler for Shaped {
     }
 }
 
-/// Most places of a polygon on a pattern that are tried.
+/// Most positions of a polygon on a pattern that are tried.
 const CUTS: usize = 64;
-/// Windows narrower than this, in spacings, are left uniform.
+/// Width of a window, in spacings, below which its points stay uniform.
 const NARROWEST: f64 = 1.;
 
 impl Shaped {
-    /// Points on [0, width) × [0, height).
+    /// Returns points on [0, width) × [0, height).
     fn moved(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Vec<[f64; 2]> {
-        // hexagonal spacing 1
+        // lengths in units of the hexagonal spacing
         let scale = frame.spacing(n);
         let sides = [frame.width / scale, frame.height / scale];
         let mut points: Vec<[f64; 2]> =

@@ -1,10 +1,14 @@
-/// Pairs of points of a torus nearer than a reach, from the first of the two: a list that stays complete until a point
-/// has moved by half the margin it was made with (Verlet 1967).
+/// List of the pairs of points of a torus that are nearer than a reach.
+///
+/// Each pair is listed at the first of its two points. The list stays complete until a point has
+/// moved by half the margin with which it was made.
+///
+/// Source: Verlet (1967), <https://doi.org/10.1103/PhysRev.159.98>.
 pub(super) struct NeighbourList {
-    /// Where each point's partners begin; one more than there are points.
+    /// Start of each point's partners in `partners`, and the end of the last.
     starts: Vec<usize>,
     partners: Vec<u32>,
-    /// Positions the list was made at.
+    /// Positions at which the list was made.
     made_at: Vec<[f64; 2]>,
     sides: [f64; 2],
     reach: f64,
@@ -12,7 +16,7 @@ pub(super) struct NeighbourList {
 }
 
 impl NeighbourList {
-    /// For pairs nearer than `reach`, at most half of the shorter side.
+    /// Creates the list for pairs nearer than `reach`, which is at most half of the shorter side.
     pub(super) fn new(points: &[[f64; 2]], sides: [f64; 2], reach: f64, margin: f64) -> Self {
         let mut list =
             Self { starts: Vec::new(), partners: Vec::new(), made_at: Vec::new(), sides, reach, margin };
@@ -32,7 +36,7 @@ impl NeighbourList {
         }
     }
 
-    /// The way from `p` to the nearest image of `q`.
+    /// Returns the vector from `p` to the nearest image of `q`.
     #[inline]
     pub(super) fn shortest(&self, p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
         let wrap = |d: f64, side: f64| {
@@ -48,7 +52,7 @@ impl NeighbourList {
         [wrap(q[0] - p[0], self.sides[0]), wrap(q[1] - p[1], self.sides[1])]
     }
 
-    /// Calls `pair(i, j, dx, dy, d²)` for every pair nearer than the reach once.
+    /// Calls `pair(i, j, dx, dy, d²)` once for every pair nearer than the reach.
     #[inline]
     pub(super) fn visit(&self, points: &[[f64; 2]], mut pair: impl FnMut(usize, usize, f64, f64, f64)) {
         let reach2 = self.reach * self.reach;
@@ -74,7 +78,8 @@ impl NeighbourList {
             let at = cell(p[1], self.sides[1], rows) * columns + cell(p[0], self.sides[0], columns);
             cells[at].push(i as u32);
         }
-        // cells are half a reach wide: two on either side, each once on a small torus
+        // Cells are at least half a reach wide, so two on either side are searched; on a small
+        // torus each cell once.
         let around = |at: usize, cells: usize| -> Vec<usize> {
             if cells <= 5 {
                 (0..cells).collect()

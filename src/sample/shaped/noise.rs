@@ -4,14 +4,14 @@ use crate::sample::{Frame, SampleError, Sampler, Watch};
 use rand::Rng;
 use std::sync::LazyLock;
 
-/// Noise whose curves are known: [`Shaped`] under a name of its own.
+/// Noise with known curves: [`Shaped`] under a name of its own.
 #[derive(Debug)]
 pub struct Noise {
-    /// See [`Sampler::name`].
+    /// Name that users type, see [`Sampler::name`].
     pub(in crate::sample) name: &'static str,
-    /// See [`Sampler::about`].
+    /// One line about the pattern, see [`Sampler::about`].
     pub(in crate::sample) about: &'static str,
-    /// The curves, made when first asked for.
+    /// Sampler with the curves, made when first asked for.
     pub(in crate::sample) shaped: &'static LazyLock<Shaped>,
 }
 

@@ -1,6 +1,8 @@
-//! The cubic B-spline on nodes 1 apart: sum 1 over the nodes, standard deviation 1/√3.
+//! Cubic B-spline on nodes 1 apart: its values at the nodes sum to 1, its standard deviation is
+//! 1/√3.
 
-/// Values at the nodes −1, 0, 1, 2 of a spline centred `u` beyond node 0, 0 ≤ u < 1.
+/// Returns the values at the nodes −1, 0, 1 and 2 of a spline centred `u` beyond node 0, with 0 ≤ u
+/// < 1.
 #[inline]
 pub(super) fn weights(u: f64) -> [f64; 4] {
     let v = 1. - u;
@@ -8,7 +10,7 @@ pub(super) fn weights(u: f64) -> [f64; 4] {
     [v * v * v / 6., middle(u), middle(v), u * u * u / 6.]
 }
 
-/// Their derivatives by `u`.
+/// Returns the derivatives of [`weights`] by `u`.
 #[inline]
 pub(super) fn slopes(u: f64) -> [f64; 4] {
     let v = 1. - u;
@@ -16,7 +18,7 @@ pub(super) fn slopes(u: f64) -> [f64; 4] {
     [-0.5 * v * v, middle(u), -middle(v), 0.5 * u * u]
 }
 
-/// Value at distance `t` from the centre.
+/// Returns the value at distance `t` from the centre.
 pub(super) fn at(t: f64) -> f64 {
     match t.abs() {
         t if t < 1. => 2. / 3. - t * t + 0.5 * t * t * t,

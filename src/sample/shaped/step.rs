@@ -4,19 +4,23 @@ use crate::sample::{Configure, Frame, SampleError, Sampler, Settable, Setting, W
 use rand::Rng;
 use std::f64::consts::FRAC_2_SQRT_PI;
 
-/// The highest frequency, in √n, at which g stays above 0 is 1/√π: there g(0) = 1 − π f² = 0 (Heck et al. 2013, §4).
+/// Highest frequency, in √n, at which g stays at or above 0: 1/√π, where g(0) = 1 − π f² = 0 (Heck
+/// et al. 2013, §4).
 const HIGHEST: f64 = 0.5 * FRAC_2_SQRT_PI;
 
-/// Step blue noise (Heck et al. 2013): no power below a frequency, that of independent points above; [`Shaped`] towards
-/// g(r) = 1 − f J₁(2πfr)/r.
+/// Step blue noise: no power below a frequency, and the power of independent points above it.
+///
+/// It is [`Shaped`] with g(r) = 1 − f J₁(2πfr)/r.
+///
+/// Source: Heck, Schlömer and Deussen (2013), <https://doi.org/10.1145/2487228.2487233>.
 #[derive(Clone, Copy, Debug)]
 pub struct Step {
-    /// Where the step is, in √n: at most 1/√π.
+    /// Frequency of the step, in √n; at most 1/√π.
     pub frequency: f64,
 }
 
 impl Step {
-    /// The step at 1/√π √n, the highest there can be.
+    /// Setting with the step at 1/√π √n, the highest possible.
     pub const HIGHEST: Self = Self { frequency: HIGHEST };
 
     fn shaped(&self) -> Shaped {

@@ -1,15 +1,21 @@
+//! Power of a pattern's longest waves, which pairs at short distances do not determine.
+
 use super::curve::TargetCurve;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
 
-/// Waves of fewer cycles a spacing than this reach farther than pairs do, whose g fixes the others.
+/// Highest frequency of a long wave, in cycles per spacing.
+///
+/// These waves reach farther than the pairs that are controlled; g determines the others.
 const HIGHEST: f64 = 0.25;
-/// At most about so many waves, the longest: their number grows with n.
+/// Approximate number of waves to control at most, the longest ones: their number grows with n.
 const MOST: usize = 256;
 
-/// The long waves of a torus of hexagonal spacing 1, by annuli of |k|√A, and the power each annulus is to have.
+/// Long waves of a torus of hexagonal spacing 1, by annuli of |k|√A, and the power that each
+/// annulus is to have.
 pub(super) struct LongWaves {
-    /// Whole wave numbers (kx, ky), one of a wave and its opposite; annulus by annulus.
+    /// Whole wave numbers (kx, ky), annulus by annulus; of a wave and its opposite only one is
+    /// listed.
     waves: Vec<(usize, isize)>,
     annuli: Vec<Annulus>,
     sides: [f64; 2],
@@ -22,12 +28,12 @@ struct Annulus {
 }
 
 impl LongWaves {
-    /// None, if the target says nothing of the spectrum.
+    /// Creates the list of waves; it is empty if the target says nothing about the spectrum.
     pub(super) fn new(target: &TargetCurve, sides: [f64; 2]) -> Self {
         let mut long = Self { waves: Vec::new(), annuli: Vec::new(), sides, highest: [0; 2] };
         let root = (sides[0] * sides[1]).sqrt();
         let stretch = (sides[1] / sides[0]).sqrt();
-        // a spacing is √(2/√3)/√λ
+        // a hexagonal spacing is √(2/√3) in units of 1/√λ
         let unit = (2. / 3f64.sqrt()).sqrt();
         for k in 1..=(HIGHEST * root) as usize {
             let Some(power) = target.power(k as f64 / root * unit) else { break };
@@ -60,12 +66,12 @@ impl LongWaves {
         self.annuli.len()
     }
 
-    /// Power that annulus `a` is to have.
+    /// Returns the power that annulus `a` is to have.
     pub(super) fn goal(&self, a: usize) -> f64 {
         self.annuli[a].power
     }
 
-    /// Mean power |Σ exp(−2πi k·x)|²/n of each annulus.
+    /// Computes the mean power |Σ exp(−2πi k·x)|²/n of each annulus.
     pub(super) fn power(&self, points: &[[f64; 2]]) -> Vec<f64> {
         let sums = self.sums(points);
         let n = points.len() as f64;
@@ -75,7 +81,8 @@ impl LongWaves {
         self.annuli.iter().map(mean).collect()
     }
 
-    /// Calls `add(i, a, gradient)` for each point: the gradient of the power of annulus `a` by its place.
+    /// Calls `add(i, a, gradient)` with the gradient of the power of annulus `a` by the place of
+    /// point `i`.
     pub(super) fn derive(&self, points: &[[f64; 2]], mut add: impl FnMut(usize, usize, [f64; 2])) {
         if self.waves.is_empty() {
             return;
@@ -98,6 +105,7 @@ impl LongWaves {
         }
     }
 
+    /// Computes Σ exp(−2πi k·x) over the points for each wave.
     fn sums(&self, points: &[[f64; 2]]) -> Vec<Complex64> {
         let mut sums = vec![Complex64::default(); self.waves.len()];
         if sums.is_empty() {
@@ -112,7 +120,7 @@ impl LongWaves {
     }
 }
 
-/// exp(−2πi kx x/w) and exp(−2πi ky y/h) at one point.
+/// Values of exp(−2πi kx x/w) and exp(−2πi ky y/h) at one point, for all kx and ky ≥ 0 in use.
 #[derive(Default)]
 struct Turns {
     across: Vec<Complex64>,

@@ -1,17 +1,22 @@
+//! Distances from a grid of test places to the nearest point, from which F is estimated.
+
 use crate::geometry::{Point, Window, distances_to_nearest};
 
-/// Test places along each side of the window's bounds, as in spatstat.
+/// Number of test places along each side of the window's bounds, as in spatstat.
 const PLACES: usize = 128;
 
-/// Distances from the centres of 128 × 128 pixels that cover the window to the nearest point and to the border.
+/// Distances from the centres of 128 × 128 pixels that cover the window to the nearest point and to
+/// the border.
 pub(super) struct EmptySpace {
-    /// To the nearest point; infinite without points.
+    /// Distance of each place to the nearest point; infinite without points.
     pub distances: Vec<f64>,
-    /// To the border; infinite on a torus.
+    /// Distance of each place to the border; infinite on a torus.
     pub borders: Vec<f64>,
+    /// Border distances in rising order, for areas of eroded polygons.
     sorted_borders: Vec<f64>,
 }
 
+/// Measures the distances from all test places that lie in the window.
 pub(super) fn empty_space(points: &[Point], window: &Window) -> EmptySpace {
     let bounds = window.bounds();
     let (w, h) = (bounds.width() / PLACES as f64, bounds.height() / PLACES as f64);
@@ -30,7 +35,8 @@ pub(super) fn empty_space(points: &[Point], window: &Window) -> EmptySpace {
 }
 
 impl EmptySpace {
-    /// Area of the window without a margin of width `r`: exact for rectangles, by the pixels for polygons.
+    /// Returns the area of the window without a margin of width `r`: exact for rectangles, counted
+    /// in pixels for polygons.
     pub(super) fn eroded(&self, window: &Window, r: f64) -> f64 {
         let bounds = window.bounds();
         match window {

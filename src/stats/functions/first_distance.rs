@@ -1,22 +1,39 @@
+//! Estimators of the distribution of the distance to the nearest point, under censoring by the
+//! border.
+//!
+//! Distances d fall into bins (r_{k−1}, r_k]. A distance is censored if it exceeds b, the distance
+//! to the border, beyond which a nearer point may be hidden.
+//!
+//! 1. Count distances and border distances by the first row that reaches them.
+//! 2. Pass over the rows once, updating the numbers reached, beyond the border and at risk.
+
 use super::first_at_least;
 
-/// Distribution function of the distance to the first point, with several rules for the border, at given distances r.
+/// Distribution function of the distance to the nearest point, at given distances r, with several
+/// rules for the border.
 ///
-/// Distances d fall into bins (r_{k−1}, r_k]; b is the distance to the border, beyond which a nearer point may be hidden.
+/// Distances d fall into bins (r_{k−1}, r_k]; b is the distance to the border, beyond which a
+/// nearer point may be hidden.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FirstDistance {
-    /// No correction: #{d ≤ r}/n.
+    /// Estimate without correction: #{d ≤ r}/n.
     pub none: Vec<f64>,
     /// Reduced sample (border correction): #{d ≤ b, d ≤ r_k, b > r_{k−1}} / #{b > r_{k−1}}.
     pub reduced_sample: Vec<f64>,
-    /// Kaplan–Meier (Baddeley & Gill 1997): 1 − Π (1 − #{d ≤ b, d in bin k} / #{min(d, b) > r_{k−1}}).
+    /// Kaplan–Meier estimate: 1 − Π (1 − #{d ≤ b, d in bin k} / #{min(d, b) > r_{k−1}}).
+    ///
+    /// Source: Baddeley & Gill (1997), <https://doi.org/10.1214/aos/1034276629>.
     pub kaplan_meier: Vec<f64>,
-    /// Hanisch (1984), for F Chiu & Stoyan (1998): Σ #{d ≤ b, d in bin k} / |W eroded by r_k|, over its last value.
+    /// Hanisch's estimate: Σ #{d ≤ b, d in bin k} / |W eroded by r_k|, divided by its last value.
+    ///
+    /// Sources: Hanisch (1984), <https://doi.org/10.1080/02331888408801788>; for F, Chiu & Stoyan
+    /// (1998).
     pub hanisch: Vec<f64>,
 }
 
 impl FirstDistance {
-    /// `eroded(r)`: area of the window without a margin of width r, in any unit.
+    /// Estimates the distribution; `eroded(r)` is the area of the window without a margin of width
+    /// r, in any unit.
     pub(in crate::stats) fn new(
         distances: &[f64],
         borders: &[f64],
@@ -24,10 +41,11 @@ impl FirstDistance {
         eroded: impl Fn(f64) -> f64,
     ) -> Self {
         let rows = r.len();
-        // Counts by the first row that reaches them; what is beyond the last row stands behind.
+        // Values are counted by the first row that reaches them; those beyond the last row come
+        // after it.
         let count = || vec![0usize; rows + 2];
         let (mut all, mut seen, mut observed, mut border) = (count(), count(), count(), count());
-        // Those seen, by the first row that is beyond their border distance.
+        // Uncensored distances, by the first row beyond their border distance.
         let mut seen_ends = count();
         for (&d, &b) in distances.iter().zip(borders) {
             let (at_d, at_b) = (first_at_least(r, d), first_at_least(r, b));

@@ -1,36 +1,45 @@
+//! Pair correlation function by spatstat's convention, with an Epanechnikov kernel of half width
+//! .15/√λ.
+//!
+//! It is smoothed as `pcf.ppp` does through R's binned `density.default`, so that values agree with
+//! R's to the last digits. Exact kernel sums differ from these by up to .003.
+//!
+//! 1. Spread each distance linearly over the two nearest of 512 nodes.
+//! 2. Convolve the nodes with the kernel.
+//! 3. Interpolate linearly at the distances of the table.
+
 use std::f64::consts::TAU;
 
-/// Nodes of R's `density.default`.
+/// Number of nodes of R's `density.default`.
 const NODES: usize = 512;
-/// Stoyan & Stoyan (1994): half width of the kernel times √λ.
+/// Half width of the kernel times √λ (Stoyan & Stoyan 1994).
 const STOYAN: f64 = 0.15;
-/// Bandwidths by which R widens the range on either side.
+/// Number of bandwidths by which R widens the range on either side.
 const CUT: f64 = 4.;
 
-/// g by spatstat's convention: Epanechnikov kernel of half width h = .15/√λ, smoothed as `pcf.ppp` does through R's binned
-/// `density.default` (distances spread linearly over 512 nodes, values interpolated linearly), so that values are R's to
-/// the last digits; exact kernel sums differ from these by up to .003.
+/// Pair distances on the nodes of R's `density.default`, with their edge weights.
 #[derive(Clone, Debug)]
 pub(super) struct Binned {
     bandwidth: f64,
     low: f64,
     high: f64,
-    /// Nodes a unit of length.
+    /// Number of nodes per unit of length.
     density: f64,
-    /// At every node the translation and the isotropic weights, and both over distance.
+    /// Sums at every node: translation weights, isotropic weights, and both divided by distance.
     nodes: Vec<[f64; 4]>,
 }
 
-/// g at the distances of a table; NaN where it is not defined.
+/// Values of g at the distances of a table; NaN where it is not defined.
 #[derive(Clone, Debug)]
 pub(super) struct PcfCurves {
-    /// Divided by 2πr.
+    /// Estimate in which the sum at r is divided by 2πr.
     pub by_r: Vec<f64>,
-    /// Every pair divided by 2π of its own distance.
+    /// Estimate in which every pair is divided by 2π times its own distance.
     pub by_d: Vec<f64>,
 }
 
 impl Binned {
+    /// Prepares empty nodes for distances up to `r_max` and the given density of points.
     pub(super) fn new(r_max: f64, density: f64) -> Self {
         let bandwidth = STOYAN / density.sqrt() / 5f64.sqrt();
         let margin = CUT * bandwidth;
@@ -43,19 +52,20 @@ impl Binned {
         }
     }
 
-    /// Distance beyond which a pair does not count.
+    /// Returns the distance from r beyond which a pair does not count.
     pub(super) fn half_width(&self) -> f64 {
         self.bandwidth * 5f64.sqrt()
     }
 
-    /// Takes in a pair at distance `d` with its translation and its isotropic weight.
+    /// Adds a pair at distance `d` with its translation and its isotropic weight.
     #[inline]
     pub(super) fn add(&mut self, d: f64, translation: f64, isotropic: f64) {
         let at = (d - self.low) * self.density;
         let node = at as usize;
         let share = at - node as f64;
         let Some([before, after]) = self.nodes.get_mut(node..node.saturating_add(2)) else { return };
-        // Points that coincide have no distance to divide by: they count at r = 0 of the other divisor only.
+        // Points that coincide have no distance to divide by, so they count only in the estimate
+        // divided by r, near r = 0.
         let by_d = if d > 0. { 1. / d } else { 0. };
         let weights = [translation, isotropic, translation * by_d, isotropic * by_d];
         for ((before, after), weight) in before.iter_mut().zip(after).zip(weights) {
@@ -64,16 +74,18 @@ impl Binned {
         }
     }
 
+    /// Adds the sums of another part of the pattern.
     pub(super) fn merge(&mut self, other: &Self) {
         for (a, b) in self.nodes.as_flattened_mut().iter_mut().zip(other.nodes.as_flattened()) {
             *a += b;
         }
     }
 
-    /// The curves with translation and with isotropic weights. `per_pair`: A/(n(n−1)).
+    /// Returns the curves with translation and with isotropic weights; `per_pair` is A/(n(n−1)).
     pub(super) fn curves(&self, r: &[f64], per_pair: f64) -> [PcfCurves; 2] {
         let range = self.high - self.low;
-        // R takes 2n nodes over twice the range for the kernel, which are not quite as far apart as those of the data.
+        // For the kernel R takes 2n nodes over twice the range, which are not quite as far apart as
+        // those of the data.
         let kernel_step = 2. * range / (2 * NODES - 1) as f64;
         let half = self.half_width();
         let kernel: Vec<f64> = (0..NODES)

@@ -1,9 +1,15 @@
-//! Functions of distance: G, F, J, K, L and g, with the edge corrections and the binning of spatstat 3.0 (Baddeley,
-//! Rubak & Turner 2015), so that values can be compared digit by digit.
+//! Functions of distance: G, F, J, K, L and g.
 //!
-//! In a polygon spatstat takes pixels for some of it: for F the distance to the nearest pixel outside instead of to the border (its F is up
-//! to .004 off for that, measured on one outline), for translation weights a table of the set covariance (as here; K is then within
-//! .2 % of the exact value), for Hanisch's estimates the area of an eroded mask (as here; within 1 % of F and G).
+//! Edge corrections and binning are those of spatstat 3.0 (Baddeley, Rubak & Turner 2015,
+//! <https://doi.org/10.1201/b19708>), so that values can be compared digit by digit.
+//!
+//! In a polygon spatstat approximates some quantities by pixels:
+//!
+//! - F: the distance to the nearest pixel outside replaces that to the border. Its F differs by up
+//!   to .004 for that reason, measured on one outline.
+//! - Translation weights: a table of the set covariance, as here; K is then within .2 % of the
+//!   exact value.
+//! - Hanisch's estimates: the area of an eroded mask, as here; within 1 % of F and G.
 
 mod empty_space;
 mod first_distance;
@@ -20,26 +26,30 @@ use ripley::Ripley;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// More rows than this are refused.
+/// Largest number of distances; requests for more are refused.
 const MAX_ROWS: f64 = 100_000.;
-/// Rows where only the end of the grid is given.
+/// Number of steps up to `r_max` where no step is given.
 const DEFAULT_ROWS: f64 = 128.;
 
-/// Distances at which functions are taken: 0, step, 2 step, … up to `r_max`, in the unit of the coordinates.
+/// Distances at which functions are taken: 0, step, 2 step, … up to `r_max`, in the unit of the
+/// coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FunctionOptions {
-    /// Distance between rows; `None`: 128 to `r_max`.
+    /// Distance between rows; `None` gives 128 steps to `r_max`.
     pub r_step: Option<f64>,
-    /// The last row is at most here; `None`: a quarter of the shorter side of the window (Ripley's rule), but no more than
-    /// √(1000/(πλ)), where 1000 points are expected within reach, as in spatstat.
+    /// Upper limit of the distances.
+    ///
+    /// `None` gives a quarter of the shorter side of the window (Ripley's rule), but, as in
+    /// spatstat, at most √(1000/(πλ)), where 1000 points are expected within reach.
     pub r_max: Option<f64>,
 }
 
 impl FunctionOptions {
-    /// The distances, in the unit of the coordinates.
+    /// Returns the distances, in the unit of the coordinates.
     ///
     /// # Errors
-    /// If a number is not positive, or there would be more than 100 000 rows.
+    /// Returns [`StatsError::Option`] if a length is not positive or there would be more than
+    /// 100 000 rows.
     pub fn distances(&self, points: usize, window: &Window) -> Result<Vec<f64>, StatsError> {
         let positive = |option, value: f64| {
             let ok = value.is_finite() && value > 0.;
@@ -59,26 +69,30 @@ impl FunctionOptions {
     }
 }
 
-/// Functions of distance, all at the same distances. A value that is not defined (no points at risk, r = 0 of g) is NaN.
+/// Functions of distance, all at the same distances.
+///
+/// A value that is not defined (no points at risk, g at r = 0) is NaN.
 #[derive(Clone, Debug)]
 pub struct Functions {
     /// Distances r, in the unit of the coordinates.
     pub r: Vec<f64>,
-    /// G: distribution of the distance from a point to its nearest neighbour; `None` for fewer than two points.
+    /// Distribution G of the distance from a point to its nearest neighbour; `None` for fewer than
+    /// two points.
     pub g: Option<FirstDistance>,
-    /// F: distribution of the distance from any place to the nearest point; `None` without points.
+    /// Distribution F of the distance from any place to the nearest point; `None` without points.
     pub f: Option<FirstDistance>,
-    /// What G and F are of independent points of that density: 1 − exp(−λπr²).
+    /// Values of G and F for independent points of the same density: 1 − exp(−λπr²).
     pub poisson: Vec<f64>,
+    /// K and g with their edge corrections; `None` for fewer than two points.
     ripley: Option<Ripley>,
 }
 
-/// All functions of a pattern, given the nearest neighbour of every point.
+/// Computes all functions of a pattern, given the nearest neighbour of every point.
 ///
-/// On a torus nothing is hidden: all corrections agree.
+/// On a torus nothing is hidden, and all corrections agree.
 ///
 /// # Errors
-/// If the distances are out of range, or a point is not inside the window.
+/// Returns [`StatsError`] if the distances are out of range or a point is not inside the window.
 pub fn functions(
     points: &[Point],
     window: &Window,
@@ -104,8 +118,10 @@ pub fn functions(
 }
 
 impl Functions {
-    /// Names and values of all columns, in the order of a table; names are those of spatstat with the function's before.
-    /// Distances and L are in the unit of the coordinates, K in its square, the others are numbers.
+    /// Returns the names and values of all columns, in the order of a table.
+    ///
+    /// Names are those of spatstat, preceded by the function's. Distances and L are in the unit of
+    /// the coordinates, K in its square; the others are pure numbers.
     pub fn columns(&self) -> Vec<(&'static str, Vec<f64>)> {
         let nan = || vec![f64::NAN; self.r.len()];
         let of = |d: &Option<FirstDistance>, pick: fn(&FirstDistance) -> &Vec<f64>| {
@@ -115,7 +131,8 @@ impl Functions {
             (Some(g), Some(f)) => pick(g)
                 .iter()
                 .zip(pick(f))
-                // J = (1 − G)/(1 − F) (van Lieshout & Baddeley 1996), where F < 1
+                // J = (1 − G)/(1 − F), where F < 1 (van Lieshout & Baddeley 1996,
+                // <https://doi.org/10.1111/j.1467-9574.1996.tb01501.x>).
                 .map(|(g, f)| if 1. - f > 1e-12 { (1. - g) / (1. - f) } else { f64::NAN })
                 .collect(),
             _ => nan(),
@@ -154,25 +171,27 @@ impl Functions {
     }
 }
 
-/// Ripley's K with its edge corrections, at the distances `r`; in squared units of the coordinates.
+/// Ripley's K with its edge corrections, in squared units of the coordinates.
 #[derive(Clone, Debug)]
 pub struct RipleyK {
-    /// Distances, in the unit of the coordinates.
+    /// Distances r, in the unit of the coordinates.
     pub r: Vec<f64>,
-    /// No correction.
+    /// Estimate without edge correction.
     pub none: Vec<f64>,
-    /// Border correction: from the points with b ≥ r; NaN where there is none.
+    /// Border correction: only the points with border distance b ≥ r count; NaN where there are
+    /// none.
     pub border: Vec<f64>,
-    /// Translation correction (Ohser & Stoyan 1981).
+    /// Translation correction (Ohser & Stoyan 1981, <https://doi.org/10.1002/bimj.4710230602>).
     pub translation: Vec<f64>,
-    /// Isotropic correction (Ripley 1976).
+    /// Isotropic correction (Ripley 1976, <https://doi.org/10.2307/3212829>).
     pub isotropic: Vec<f64>,
 }
 
-/// K alone of the [`functions`], which has the same values.
+/// Computes K alone, with the same values as in [`functions`].
 ///
 /// # Errors
-/// If the distances are out of range, a point is not inside the window, or there are fewer than two.
+/// Returns [`StatsError`] if the distances are out of range, a point is not inside the window, or
+/// there are fewer than two points.
 pub fn ripley_k(points: &[Point], window: &Window, options: &FunctionOptions) -> Result<RipleyK, StatsError> {
     let r = options.distances(points.len(), window)?;
     all_inside(points, window)?;
@@ -184,13 +203,14 @@ pub fn ripley_k(points: &[Point], window: &Window, options: &FunctionOptions) ->
     Ok(RipleyK { r, none, border, translation, isotropic })
 }
 
-/// Index of the first of the `r` that is at least `d`; `r` begins with 0 and is even.
+/// Returns the index of the first entry of `r` that is at least `d`; `r` begins with 0 and is
+/// evenly spaced.
 fn first_at_least(r: &[f64], d: f64) -> usize {
     let step = r.get(1).copied().unwrap_or(f64::INFINITY);
     settle(r, (d / step) as usize, d)
 }
 
-/// The same, from an index that is near.
+/// Returns the same index as [`first_at_least`], by a search that starts at a nearby index.
 #[inline]
 fn settle(r: &[f64], near: usize, d: f64) -> usize {
     let mut k = near.min(r.len());
@@ -228,7 +248,7 @@ mod tests {
             let g = column(&found, name);
             assert!((g[9], g[11]) == (0., 1.), "{name} {} {}", g[9], g[11]);
         }
-        // 4 neighbours at 1, 4 at √2, of 99 others on an area of 100
+        // Each point has 4 neighbours at 1 and 4 at √2, among 99 others on an area of 100.
         for name in ["K_none", "K_border", "K_iso", "K_trans"] {
             let k = column(&found, name);
             let lambda = if name == "K_border" { 1. } else { 0.99 };

@@ -1,3 +1,9 @@
+//! Ripley's K and the pair correlation function g, with several edge corrections.
+//!
+//! 1. Visit all pairs within reach, in parts that may run in parallel.
+//! 2. Add each pair's weights to the first row of the table that reaches its distance.
+//! 3. Cumulate the rows and divide by the expected number of pairs.
+
 use super::kernel_pcf::{Binned, PcfCurves};
 use super::{first_at_least, settle};
 use crate::geometry::{Point, Window};
@@ -5,33 +11,50 @@ use crate::stats::edge_weight::EdgeWeights;
 use crate::stats::pairs::PairGrid;
 use rayon::prelude::*;
 
-/// Parts of a large pattern that may run in parallel; sums are taken in their order.
+/// Number of parts of a large pattern that may run in parallel; their sums are added in order.
 const CHUNKS: usize = 32;
+/// Number of points from which a pattern is cut into parts.
 const CHUNKED_FROM: usize = 2048;
 
-/// K (Ripley 1977) and g with several edge corrections: none, border, translation (Ohser & Stoyan 1981), isotropic
-/// (Ripley 1976). λ² is n(n−1)/A²; the border correction takes λ = n/A and the points with b ≥ r.
+/// K and g with several edge corrections: none, border, translation and isotropic.
+///
+/// λ² is n(n−1)/A²; the border correction takes λ = n/A and the points with border distance b ≥ r.
+///
+/// Sources: K of Ripley (1977), <https://doi.org/10.1111/j.2517-6161.1977.tb01615.x>; translation
+/// correction of Ohser & Stoyan (1981), <https://doi.org/10.1002/bimj.4710230602>; isotropic
+/// correction of Ripley (1976), <https://doi.org/10.2307/3212829>.
 #[derive(Clone, Debug)]
 pub(super) struct Ripley {
+    /// K without edge correction.
     pub none: Vec<f64>,
+    /// K with the border correction; NaN where no point has b ≥ r.
     pub border: Vec<f64>,
+    /// K with the translation correction.
     pub translation: Vec<f64>,
+    /// K with the isotropic correction.
     pub isotropic: Vec<f64>,
+    /// g with the translation correction.
     pub g_translation: PcfCurves,
+    /// g with the isotropic correction.
     pub g_isotropic: PcfCurves,
 }
 
 /// Sums over the pairs of one part of the pattern, by the first row that reaches them.
 struct Sums {
-    /// Weights without correction, with translation and with isotropic correction.
+    /// Pair weights per row: without correction, with translation and with isotropic correction.
     k: Vec<[f64; 3]>,
-    /// Pairs seen from a point whose border distance is at least r: begun at a row, ended before another.
+    /// Differences from row to row of the number of pairs seen from a point whose border distance
+    /// is at least r.
+    ///
+    /// A pair adds 1 at its first row and subtracts 1 where its point drops out.
     border: Vec<i64>,
     g: Binned,
 }
 
 impl Ripley {
-    /// Of at least two points, all inside the window, with their distances to the border; g is 0 unless it is wanted.
+    /// Computes the functions of at least two points, all inside the window.
+    ///
+    /// `borders` are the points' distances to the border. g is 0 unless `with_g` is set.
     pub(super) fn new(points: &[Point], borders: &[f64], window: &Window, r: &[f64], with_g: bool) -> Self {
         let (n, area, rows) = (points.len(), window.area(), r.len());
         let density = n as f64 / area;
@@ -41,7 +64,8 @@ impl Ripley {
         let per_step = r.get(1).map_or(0., |step| step.recip());
         let grid = PairGrid::new(points, window, torus, reach);
         let weights = EdgeWeights::new(window);
-        // Rows that the border distance of each point reaches; sorted as the grid's points.
+        // Number of rows that the border distance of each point reaches, in the grid's order of
+        // points.
         let borders = grid.sorted(borders);
         let seen_from: Vec<usize> = borders.iter().map(|&b| rows_up_to(r, b)).collect();
         let chunks = if n < CHUNKED_FROM { 1 } else { CHUNKS.min(grid.rows()) };
@@ -51,7 +75,7 @@ impl Ripley {
             grid.visit(part, |i, j, dx, dy| {
                 let d = (dx * dx + dy * dy).sqrt();
                 let translation = if torus { 1. } else { weights.translation(dx, dy) };
-                // circles that do not reach the border are whole
+                // Circles that do not reach the border are whole; this saves computing their arcs.
                 let isotropic = if borders[i] >= d && borders[j] >= d {
                     1.
                 } else {
@@ -66,7 +90,7 @@ impl Ripley {
                 let Some(k) = sums.k.get_mut(at) else { return };
                 *k = [k[0] + 2., k[1] + 2. * translation, k[2] + 2. * isotropic];
                 let ends = [seen_from[i], seen_from[j]];
-                // what ends behind the last row is not read
+                // A pair that ends behind the last row needs no end.
                 if ends == [rows; 2] {
                     sums.border[at] += 2;
                     return;
@@ -122,7 +146,7 @@ impl Ripley {
     }
 }
 
-/// How many of the `r` are at most `b`.
+/// Returns the number of entries of `r` that are at most `b`.
 fn rows_up_to(r: &[f64], b: f64) -> usize {
     let k = first_at_least(r, b);
     if k < r.len() && r[k] <= b { k + 1 } else { k }

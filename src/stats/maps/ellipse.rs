@@ -1,30 +1,44 @@
+//! Least-squares fit of an ellipse to a closed line (Fitzgibbon, Pilu & Fisher 1999; Halíř &
+//! Flusser 1998).
+//!
+//! 1. Centre and scale the line, and weight each piece by its length.
+//! 2. Eliminate the linear coefficients of the conic from its scatter matrices.
+//! 3. Take the eigenvector of the remaining 3 × 3 matrix that satisfies the ellipse constraint.
+//! 4. Convert the coefficients to centre, semi-axes and direction.
+
 use super::Contour;
 use crate::geometry::Point;
 use crate::numeric::{eigenvalues, eigenvector, inverted};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
-/// An ellipse.
+/// Ellipse in the plane, by centre, semi-axes and direction.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ellipse {
-    /// Its middle.
+    /// Centre of the ellipse, in units of the coordinates.
     pub centre: Point,
-    /// Half the longer axis, in units of the coordinates.
+    /// Longer semi-axis, in units of the coordinates.
     pub semi_major: f64,
-    /// Half the shorter axis.
+    /// Shorter semi-axis, in units of the coordinates.
     pub semi_minor: f64,
     /// Direction of the longer axis in degrees from x towards y (down), 0 to 180.
     pub degrees: f64,
 }
 
-/// The ellipse of least algebraic distance to a closed line (Fitzgibbon, Pilu & Fisher 1999, solved as by Halíř & Flusser
-/// 1998), each piece of the line weighted by its length; `None` for lines that do not close, or have no ellipse.
+/// Fits the ellipse of least algebraic distance to a closed line, each piece weighted by its
+/// length.
+///
+/// Returns `None` for lines that do not close, have fewer than 6 places, or have no ellipse.
+///
+/// Sources: Fitzgibbon, Pilu & Fisher (1999), <https://doi.org/10.1109/34.765658>; solved as by
+/// Halíř & Flusser (1998).
 pub(super) fn fitted_ellipse(contour: &Contour) -> Option<Ellipse> {
     let length = contour.length();
     if !contour.closed || contour.places.len() < 6 || !(length.is_finite() && length > 0.) {
         return None;
     }
-    // middles of the pieces about their centroid, in lengths of the whole: numbers near 1
+    // Midpoints of the pieces, relative to their centroid and scaled by the length, keep all
+    // numbers near 1.
     let next = contour.places.iter().cycle().skip(1);
     let pieces: Vec<(Point, f64)> = contour
         .places
@@ -47,7 +61,7 @@ pub(super) fn fitted_ellipse(contour: &Contour) -> Option<Ellipse> {
             }
         }
     }
-    // the linear part follows from the quadratic one: a₂ = T a₁, T = −S₃⁻¹ S₂ᵀ
+    // The linear part follows from the quadratic one: a₂ = T a₁, T = −S₃⁻¹ S₂ᵀ.
     let inverse = inverted(s3)?;
     let t = std::array::from_fn(|i| {
         std::array::from_fn(|j| -(0..3).map(|k| inverse[i][k] * s2[j][k]).sum::<f64>())
@@ -72,7 +86,7 @@ pub(super) fn fitted_ellipse(contour: &Contour) -> Option<Ellipse> {
     })
 }
 
-/// a x² + b xy + c y² + d x + e y + f = 0 as an ellipse.
+/// Converts a x² + b xy + c y² + d x + e y + f = 0 to an ellipse; `None` if it is none.
 fn geometric([a, b, c]: [f64; 3], [d, e, f]: [f64; 3]) -> Option<Ellipse> {
     let determinant = 4. * a * c - b * b;
     let centre = Point::new((b * e - 2. * c * d) / determinant, (b * d - 2. * a * e) / determinant);
@@ -83,7 +97,8 @@ fn geometric([a, b, c]: [f64; 3], [d, e, f]: [f64; 3]) -> Option<Ellipse> {
     if !(one.is_finite() && other.is_finite() && one > 0. && other > 0.) {
         return None;
     }
-    // direction of greatest curvature of the form: that of the shorter axis if the form is positive
+    // The form curves most along the shorter axis if it is positive, along the longer one
+    // otherwise.
     let steep = b.atan2(a - c) / 2.;
     let along = if one < other { steep + PI / 2. } else { steep };
     Some(Ellipse {
@@ -102,7 +117,7 @@ mod tests {
         let (sin, cos) = degrees.to_radians().sin_cos();
         let places = (0..n)
             .map(|k| {
-                // unevenly spaced, so that weights matter
+                // Uneven spacing makes the weights matter.
                 let t = TAU * (k as f64 / n as f64).powf(1.3);
                 let scale = 1. + wobble * (7. * t).sin();
                 let (u, v) = (a * scale * t.cos(), b * scale * t.sin());

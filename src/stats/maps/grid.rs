@@ -2,22 +2,28 @@ use super::surface::{Surface, weighted};
 use super::{LocalFlag, LocalValues};
 use crate::geometry::{Point, Rectangle};
 
-/// Maps sampled in the middles of the cells of a square grid over the bounds of a window, row by row from the upper left.
+/// Map sampled at the centres of the cells of a square grid over the bounds of a window.
+///
+/// Cells are stored row by row from the upper left.
 #[derive(Clone, Debug)]
 pub struct MapGrid {
-    /// Cells in a row.
+    /// Number of cells per row.
     pub columns: usize,
-    /// Rows.
+    /// Number of rows of the grid.
     pub rows: usize,
     /// Side of a cell, in units of the coordinates.
     pub step: f64,
-    /// Values; not a number where the map is not defined: beyond the hull of the cones or the window, and in triangles one
-    /// of whose corners has no value.
+    /// Values of the map, NaN where it is not defined.
+    ///
+    /// It is not defined beyond the hull of the cones or the window, nor in triangles with a corner
+    /// that has no value.
     pub values: Vec<f64>,
-    /// Whether the local windows of all three corners are whole.
+    /// Flags of cells for which the local windows of all three corners are whole.
     pub whole: Vec<bool>,
 }
 
+/// Samples the map of one local value on a grid; `longer` is the number of cells along the longer
+/// side.
 pub(super) fn grid(
     surface: &Surface,
     bounds: &Rectangle,

@@ -4,29 +4,36 @@ use super::surface::Surface;
 use super::{LocalFlag, LocalValues, MapOptions};
 use crate::geometry::{Point, Window};
 
-/// What is read off the density map. Lengths are in units of the coordinates, densities per squared unit.
+/// Landmarks of the density map.
+///
+/// Lengths are in units of the coordinates, densities per squared unit.
 #[derive(Clone, Debug, Default)]
 pub struct Landmarks {
-    /// Cones whose local window is whole: the map is made of these.
+    /// Number of cones whose local window is whole; the map is made of these.
     pub whole: usize,
     /// Peak cone density (PCD): the greatest local density; `None` without a whole window.
     pub peak: Option<f64>,
-    /// The cone there, of several the first.
+    /// Cone at the peak; the first if there are several.
     pub peak_at: Option<Point>,
-    /// Area of the region in which the map is at least the given share of the peak; `None` without a map.
+    /// Area of the region in which the map is at least the given share of the peak; `None` without
+    /// a map.
     pub isodensity_area: Option<f64>,
-    /// Cone density centroid (CDC): the density-weighted centroid of that region (Reiniger et al. 2021).
+    /// Cone density centroid (CDC): the density-weighted centroid of that region.
+    ///
+    /// Source: Reiniger et al. (2021), <https://doi.org/10.1016/j.cub.2021.07.005>.
     pub centroid: Option<Point>,
-    /// The map at that place; `None` where it has none there.
+    /// Density of the map at the centroid; `None` where the map is not defined there.
     pub centroid_density: Option<f64>,
-    /// The ellipse fitted to the longest contour of the region, if that closes.
+    /// Ellipse fitted to the longest contour of the region, if that contour closes.
     pub ellipse: Option<Ellipse>,
-    /// The region ends where the map does: its area is too small, and its centroid lies too far inwards.
+    /// Flag that the region ends at the edge of the map: its area is too small, and its centroid
+    /// lies too far inwards.
     pub cut: bool,
-    /// The outlines of the region, longest first.
+    /// Outlines of the region, longest first.
     pub contours: Vec<Contour>,
 }
 
+/// Finds the landmarks of the density map.
 pub(super) fn landmarks(
     points: &[Point],
     window: &Window,
@@ -36,7 +43,7 @@ pub(super) fn landmarks(
     options: &MapOptions,
 ) -> Landmarks {
     let whole = local.iter().filter(|v| v.flag == LocalFlag::Whole).count();
-    // of equals the first, whatever the number of threads
+    // The first of equal maxima is taken, whatever the number of threads.
     let peak = density.iter().enumerate().filter_map(|(k, d)| Some((k, (*d)?))).fold(
         None,
         |best: Option<(usize, f64)>, (k, d)| match best {

@@ -1,27 +1,37 @@
+//! Local values of a mosaic: averages over the bound cells in a square window around each cone.
+//!
+//! 1. Collect the bound cells near the cone, each with the half-side of the smallest square around
+//!    the cone that contains it.
+//! 2. Take the `n` cells with the smallest half-sides, or all within a given side; search wider if
+//!    there are too few.
+//! 3. Average area, distances, ψ6 and numbers of sides over these cells.
+
 use super::LocalWindow;
 use crate::geometry::index::NeighbourTree;
 use crate::geometry::{NearestNeighbours, Point, Rectangle, Window};
 use crate::stats::{Deviation, Voronoi, moments};
 use rayon::prelude::*;
 
-/// How much wider a window is looked for where the one before held too few cells.
+/// Factor by which the search is widened if the previous window held too few cells.
 const WIDER: f64 = 1.4;
-/// Share of its area by which a square within a polygon may differ from one that is cut: rounding.
+/// Relative difference of area up to which a square counts as lying inside a polygon: rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Whether a local window is what was asked for.
+/// State of a local window: whether it is the one requested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LocalFlag {
-    /// It lies in the mosaic's window.
+    /// The window lies in the mosaic's window.
     Whole,
-    /// It reaches beyond the mosaic's window before it holds its cells: they lie to one side of the cone.
+    /// The window reaches beyond the mosaic's window before it holds its cells, which lie to one
+    /// side of the cone.
     Edge,
-    /// The mosaic holds fewer bound cells than asked for, or none, or the window is wider than a torus: there are no values.
+    /// There are no values: the mosaic has too few bound cells or none, or the window is wider than
+    /// the torus.
     Few,
 }
 
 impl LocalFlag {
-    /// As it is written in tables: empty for a whole window.
+    /// Returns the name of the flag in tables, which is empty for a whole window.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Whole => "",
@@ -31,33 +41,38 @@ impl LocalFlag {
     }
 }
 
-/// The mosaic in the square window around one cone. Values are means over the bound cells that lie wholly in it.
+/// Mosaic in the square window around one cone.
+///
+/// Values are means over the bound cells that lie wholly in the window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocalValues {
-    /// Side of the window, in units of the coordinates: of the least that holds the cells asked for.
+    /// Side of the window, in units of the coordinates; the smallest that holds the requested
+    /// cells.
     pub side: Option<f64>,
-    /// Bound cells in it: more than asked for where several enter at once; without a window those of the mosaic.
+    /// Number of bound cells in the window; without a window, that of the mosaic.
+    ///
+    /// It exceeds the requested number where several cells enter at once.
     pub bound: usize,
-    /// Whether the window is what was asked for.
+    /// State of the window: whole, at the edge, or without values.
     pub flag: LocalFlag,
-    /// Cells over their total area, per squared unit of the coordinates.
+    /// Number of cells divided by their total area, per squared unit of the coordinates.
     pub density: Option<f64>,
     /// Mean distance to the Delaunay neighbours (ICD), in units of the coordinates.
     pub inter_cell: Option<f64>,
     /// Mean distance to the nearest neighbour, in units of the coordinates.
     pub nearest: Option<f64>,
-    /// Regularity index of these: mean over standard deviation.
+    /// Regularity index of the nearest-neighbour distances: mean over standard deviation.
     pub nearest_ri: Option<f64>,
-    /// Mean modulus of ψ6.
+    /// Mean modulus of ψ6, the bond-orientational order.
     pub psi6: Option<f64>,
-    /// Per cent of the cells that have six sides.
+    /// Percentage of the cells that have six sides.
     pub six_sided_percent: Option<f64>,
 }
 
-/// A bound cell.
+/// Bound cell with the values that are averaged.
 struct Member {
     at: Point,
-    /// To the left, up, to the right, down.
+    /// Reach of the cell from its point to the left, up, to the right and down.
     extent: [f64; 4],
     area: f64,
     inter_cell: f64,
@@ -66,7 +81,8 @@ struct Member {
     six: bool,
 }
 
-/// Local values at every cone, in the order of the points; the same for any number of threads.
+/// Computes the local values at every cone, in the order of the points, equal for any number of
+/// threads.
 pub(super) fn local_values(
     points: &[Point],
     window: &Window,
@@ -108,6 +124,8 @@ pub(super) fn local_values(
     points.par_iter().map(found).collect()
 }
 
+/// Returns the values of a cone without a local window; `bound` is the number of bound cells of the
+/// mosaic.
 const fn few(bound: usize) -> LocalValues {
     LocalValues {
         side: None,
@@ -122,6 +140,7 @@ const fn few(bound: usize) -> LocalValues {
     }
 }
 
+/// Averages the values of the chosen cells.
 fn values(
     members: &[Member],
     chosen: &[usize],
@@ -148,7 +167,7 @@ fn values(
     }
 }
 
-/// Bound cells by place.
+/// Spatial index of the bound cells.
 struct Finder<'a> {
     members: &'a [Member],
     tree: NeighbourTree,
@@ -157,6 +176,7 @@ struct Finder<'a> {
 }
 
 impl<'a> Finder<'a> {
+    /// Indexes the bound cells; `None` if there are none.
     fn new(members: &'a [Member], window: &'a Window) -> Option<Self> {
         if members.is_empty() {
             return None;
@@ -167,13 +187,16 @@ impl<'a> Finder<'a> {
         Some(Self { members, tree, window, sides: [bounds.width(), bounds.height()] })
     }
 
-    /// Half the side of a window that a torus can hold.
+    /// Returns half the side of the largest window that fits on a torus; infinity elsewhere.
     fn widest(&self) -> f64 {
         if self.window.is_torus() { self.sides[0].min(self.sides[1]) / 2. } else { f64::INFINITY }
     }
 
-    /// For every cell whose point lies within `half` along both axes half the side of the square around `at` that just
-    /// holds the cell, and the cell. Since the window is a square, a cell lies in it as soon as its extent does.
+    /// Returns, for each cell whose point is at most `half` away along x and along y, its half-side
+    /// and its index.
+    ///
+    /// The half-side is that of the smallest square centred on `at` that contains the cell. Since
+    /// the window is a square, a cell lies in it as soon as its extent does.
     fn near(&self, at: Point, half: f64) -> Vec<(f64, usize)> {
         let reach = |k: usize| {
             let member = &self.members[k];
@@ -184,6 +207,7 @@ impl<'a> Finder<'a> {
         self.tree.in_square(at, half).map(|k| (reach(k), k)).collect()
     }
 
+    /// Returns the vector between two points, along the shortest way on a torus.
     fn offset(&self, from: Point, to: Point) -> [f64; 2] {
         let [dx, dy] = [to.x - from.x, to.y - from.y];
         if !self.window.is_torus() {
@@ -192,7 +216,10 @@ impl<'a> Finder<'a> {
         [dx - self.sides[0] * (dx / self.sides[0]).round(), dy - self.sides[1] * (dy / self.sides[1]).round()]
     }
 
-    /// Half the side of the least window that holds `n` cells, and the cells in order; `None` if none does.
+    /// Returns half the side of the smallest window that holds `n` cells, and the cells in rising
+    /// order.
+    ///
+    /// Returns `None` if no window holds them.
     fn grown(&self, at: Point, n: usize) -> Option<(f64, Vec<usize>)> {
         if self.members.len() < n || n == 0 {
             return None;
@@ -202,7 +229,8 @@ impl<'a> Finder<'a> {
         loop {
             half = half.min(self.widest());
             let mut near = self.near(at, half);
-            // a cell farther than this may be held by a window no wider than that of a nearer one
+            // A cell beyond `half` was not searched for, although its window might be no wider than
+            // that of a nearer cell. So only half-sides up to `half` are complete.
             near.retain(|&(reach, _)| reach <= half);
             if near.len() >= n {
                 let (_, &mut (least, _), _) = near.select_nth_unstable_by(n - 1, |a, b| a.0.total_cmp(&b.0));
@@ -215,7 +243,8 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// The cells strictly within a window of this side.
+    /// Returns half of the given side and the cells strictly within a window of that side; `None`
+    /// if it exceeds the torus.
     fn of_side(&self, at: Point, side: f64) -> Option<(f64, Vec<usize>)> {
         let half = side / 2.;
         (half <= self.widest())
@@ -223,19 +252,20 @@ impl<'a> Finder<'a> {
     }
 }
 
-/// Sums must not depend on the order in which a tree is walked.
+/// Sorts the indices of cells, because sums must not depend on the order in which a tree is walked.
 fn in_order(found: impl Iterator<Item = (f64, usize)>) -> Vec<usize> {
     let mut indices: Vec<usize> = found.map(|(_, k)| k).collect();
     indices.sort_unstable();
     indices
 }
 
-/// Whether the square around `at` lies in the window.
+/// Returns whether the square of half-side `half` around `at` lies in the window.
 fn fits(window: &Window, at: Point, half: f64) -> bool {
     let room = window.border_distance(at);
     match window {
         Window::Rectangle(_) | Window::Torus(_) => room >= half,
-        // the border is nearer than the square's sides, or farther than its corners
+        // The border is nearer than the square's sides, or farther than its corners; both are cheap
+        // to decide.
         _ if room < half => false,
         _ if room >= half * std::f64::consts::SQRT_2 => true,
         Window::Polygon(polygon) => {

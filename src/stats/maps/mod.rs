@@ -1,10 +1,14 @@
-//! Maps of a mosaic: what a square window around each cone holds, interpolated between cones, and what is read off them: peak
-//! cone density, cone density centroid, isodensity area, profiles.
+//! Maps of a mosaic: local values around each cone, and the landmarks and profiles read from them.
 //!
-//! **Edge rule.** The cells are those of the whole mosaic, of which only bound ones count (Cooper et al. 2016); a cell
-//! counts in a window if all of it lies strictly inside. A window that reaches beyond the mosaic's own before it holds its
-//! cells goes on growing within the mosaic, so that its cells lie to one side; it is flagged, and neither the maps' landmarks
-//! nor the meridians use it.
+//! Local values are taken in a square window around each cone and interpolated between cones. The
+//! density map gives the peak cone density, the cone density centroid, the isodensity area and
+//! profiles.
+//!
+//! **Edge rule.** The cells are those of the whole mosaic, and only bound ones count (Cooper et al.
+//! 2016, <https://doi.org/10.1167/iovs.16-19072>). A cell counts in a window if all of it lies
+//! strictly inside. A window that reaches beyond the mosaic's own window before it holds enough
+//! cells continues to grow within the mosaic, so its cells lie to one side. Such a window is
+//! flagged, and neither landmarks nor meridians use it.
 
 mod ellipse;
 mod grid;
@@ -29,23 +33,29 @@ use super::{Measures, StatsError};
 use crate::mosaic::Mosaic;
 use surface::Surface;
 
-/// Local values of every cone and what follows from them. Lengths are in units of the coordinates.
+/// Local values of every cone, and the landmarks and profiles that follow from them.
+///
+/// Lengths are in units of the coordinates.
 #[derive(Clone, Debug)]
 pub struct Maps {
-    /// How they were made.
+    /// Options with which the maps were made.
     pub options: MapOptions,
-    /// One a cone, in the order of the points.
+    /// Local values, one per cone, in the order of the points.
     pub local: Vec<LocalValues>,
     /// Peak, centroid and isodensity region of the density map.
     pub landmarks: Landmarks,
-    /// Density and spacing by distance from the cone density centroid; empty without one.
+    /// Density and spacing by distance from the cone density centroid; empty if there is no
+    /// centroid.
     pub profile: Vec<ProfileRow>,
+    /// Interpolation of values between cones.
     surface: Surface,
 }
 
 impl Maps {
-    /// A map of any of the local values, as a grid of `longer` cells along the longer side of the window. Values of windows
-    /// that reach beyond the mosaic's are there, and marked as not whole.
+    /// Returns a map of any of the local values, as a grid.
+    ///
+    /// `longer` is the number of grid cells along the longer side of the window. Values of windows
+    /// that reach beyond the mosaic's are included, and marked as not whole.
     pub fn grid(
         &self,
         mosaic: &Mosaic,
@@ -56,13 +66,14 @@ impl Maps {
     }
 }
 
-/// Maps of a mosaic that has been measured.
+/// Computes the maps of a mosaic that has been measured.
 ///
-/// The maps are linear between cones, so that their peak is the cone of greatest local density: a maximum over as many
-/// windows as cones, which lies above the density at the place it is found at by about the scatter of one window.
+/// The maps are linear between cones, so their peak is at the cone of greatest local density. This
+/// is a maximum over as many windows as cones, so it exceeds the true density at that place by
+/// about the scatter of one window.
 ///
 /// # Errors
-/// If an option is out of its range.
+/// Returns [`StatsError::Option`] if an option is out of its range.
 pub fn maps(mosaic: &Mosaic, measures: &Measures, options: &MapOptions) -> Result<Maps, StatsError> {
     options.validate()?;
     let (points, window) = (mosaic.points(), mosaic.window());

@@ -1,24 +1,26 @@
 use super::StatsError;
 use serde::{Deserialize, Serialize};
 
-/// The square around a cone in which local values are taken.
+/// Square around a cone in which local values are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LocalWindow {
-    /// Grown until it holds this many bound cells, 3 to 100 000.
+    /// Square that grows until it holds this many bound cells, 3 to 100 000.
     Cells(usize),
-    /// Of this side, in the unit of the coordinates.
+    /// Square with this side, in the unit of the coordinates.
     Side(f64),
 }
 
-/// How maps are made, and what is read off them.
+/// Options of maps and of the landmarks read from them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MapOptions {
-    /// The window around each cone; default: 100 bound cells.
+    /// Window around each cone; default: 100 bound cells.
     pub window: LocalWindow,
-    /// Density of the contour whose inside is averaged, as a share of the peak, 0.01 to 0.99; default 0.8.
+    /// Density of the contour whose inside is averaged, as a share of the peak: 0.01 to 0.99,
+    /// default 0.8.
     pub isodensity: f64,
-    /// Distance between rows of the profiles, in the unit of the coordinates; `None`: two hexagonal spacings.
+    /// Distance between rows of the profiles, in the unit of the coordinates; `None` gives two
+    /// hexagonal spacings.
     pub profile_step: Option<f64>,
 }
 
@@ -29,10 +31,10 @@ impl Default for MapOptions {
 }
 
 impl MapOptions {
-    /// Whether every field is in its range.
+    /// Checks that every field is in its range.
     ///
     /// # Errors
-    /// The first field that is not, with its range.
+    /// Returns [`StatsError::Option`] for the first field that is not, with its range.
     pub fn validate(&self) -> Result<(), StatsError> {
         let check = |option, value: f64, ok: bool, range| {
             if ok { Ok(()) } else { Err(StatsError::Option { option, value, range }) }

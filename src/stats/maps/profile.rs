@@ -1,32 +1,35 @@
+//! Profiles of a mosaic by distance from its cone density centroid: averages over rings, and maps
+//! along meridians.
+
 use super::surface::Surface;
 use crate::geometry::{Point, Window};
 use crate::mosaic::hexagonal_spacing;
 use crate::stats::edge_weight::EdgeWeights;
 use crate::stats::{NearestNeighbours, Voronoi};
 
-/// No more rows than this in one direction.
+/// Largest number of rows in one direction.
 const MOST_ROWS: f64 = 10_000.;
 
-/// What a row of a profile runs along.
+/// Direction of a row of a profile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Along {
     /// Rings about the centre.
     Ring,
-    /// The meridian towards greater x.
+    /// Meridian towards greater x.
     Right,
-    /// Towards greater y.
+    /// Meridian towards greater y.
     Down,
-    /// Towards smaller x.
+    /// Meridian towards smaller x.
     Left,
-    /// Towards smaller y.
+    /// Meridian towards smaller y.
     Up,
 }
 
 impl Along {
-    /// The four meridians.
+    /// Meridians in all four directions.
     pub const MERIDIANS: [Self; 4] = [Self::Right, Self::Down, Self::Left, Self::Up];
 
-    /// As it is written in tables.
+    /// Returns the name of the direction in tables.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Ring => "ring",
@@ -37,6 +40,7 @@ impl Along {
         }
     }
 
+    /// Returns the unit vector of a meridian; 0 for rings.
     const fn direction(self) -> [f64; 2] {
         match self {
             Self::Ring => [0., 0.],
@@ -48,20 +52,26 @@ impl Along {
     }
 }
 
-/// The mosaic at a distance from the cone density centroid. Lengths are in units of the coordinates.
+/// Values of the mosaic at one distance from the cone density centroid.
+///
+/// Lengths are in units of the coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProfileRow {
-    /// A ring or a meridian.
+    /// Ring or meridian to which the row belongs.
     pub along: Along,
-    /// Distance: of a ring the middle of its width.
+    /// Distance from the centroid; for a ring, the middle of its width.
     pub r: f64,
-    /// Of a ring: the bound cells whose cones lie in it.
+    /// Number of bound cells whose cones lie in the ring; `None` on a meridian.
     pub bound: Option<usize>,
-    /// Of a ring: the share of the circle through its middle that lies in the window.
+    /// Share of the circle through the middle of the ring that lies in the window; `None` on a
+    /// meridian.
     pub share: Option<f64>,
-    /// Of a ring the bound cells over their area; on a meridian the map. Per squared unit of the coordinates.
+    /// Density per squared unit of the coordinates.
+    ///
+    /// In a ring it is the number of bound cells divided by their area, on a meridian the value of
+    /// the map.
     pub density: Option<f64>,
-    /// Hexagonal spacing of that density.
+    /// Hexagonal spacing at that density.
     pub spacing: Option<f64>,
     /// Mean distance to the Delaunay neighbours (ICD).
     pub inter_cell: Option<f64>,
@@ -69,8 +79,10 @@ pub struct ProfileRow {
     pub nearest: Option<f64>,
 }
 
-/// Rings of width `step` about the centre, as far as there are bound cells, then the maps of density, inter-cell distance
-/// and nearest neighbour along the four meridians, as far as they are defined.
+/// Returns rings of width `step` about the centre, then the four meridians.
+///
+/// Rings extend as far as there are bound cells. Along meridians the maps of density, inter-cell
+/// distance and nearest-neighbour distance are read as far as they are defined.
 pub(super) fn profile(
     (points, window): (&[Point], &Window),
     (cells, neighbours): (&Voronoi, &NearestNeighbours),

@@ -1,31 +1,38 @@
+//! Region in which a map is at least as high as a level: its area, centroid and outlines.
+//!
+//! 1. Cut each triangle, in which the map is linear, along the level.
+//! 2. Integrate area and moments exactly over the part above the level.
+//! 3. Join the crossings of the level with the triangles' sides to outlines.
+
 use super::surface::{Surface, Valued, cross};
 use crate::geometry::Point;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The part of a map that is at least as high as a level.
+/// Part of a map that is at least as high as a level.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Region {
-    /// Its area.
+    /// Area of the region.
     pub(super) area: f64,
-    /// The centroid of what is under the map there.
+    /// Centroid of the region, weighted by the map.
     pub(super) centroid: Option<Point>,
-    /// Whether it ends where the map does, and not where the map falls below the level.
+    /// Flag that the region is cut off by the edge of the map, where the map has not yet fallen
+    /// below the level.
     pub(super) cut: bool,
-    /// Its outlines, longest first.
+    /// Outlines of the region, longest first.
     pub(super) contours: Vec<Contour>,
 }
 
-/// A line along which the map has the level.
+/// Line along which a map has a given level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
-    /// From place to place; a closed line does not repeat its first.
+    /// Places along the line, in order; a closed line does not repeat its first place.
     pub places: Vec<Point>,
-    /// Whether it returns to its beginning; otherwise it ends at the edge of the map.
+    /// Flag of a line that returns to its beginning; otherwise it ends at the edge of the map.
     pub closed: bool,
 }
 
 impl Contour {
-    /// Its length, in units of the coordinates.
+    /// Returns the length of the line, in units of the coordinates.
     pub fn length(&self) -> f64 {
         let steps: f64 = self.places.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
         let back = match (self.places.first(), self.places.last()) {
@@ -36,12 +43,16 @@ impl Contour {
     }
 }
 
-/// Integrates exactly what is linear in each triangle; sums are relative to `origin`, so that far windows do not cancel.
+/// Computes the region in which the map, linear in each triangle, is at least `level`.
+///
+/// Sums are taken relative to `origin`, to avoid cancellation in windows far from the origin of the
+/// coordinates.
 pub(super) fn region(surface: &Surface, values: &[Option<f64>], level: f64, origin: Point) -> Region {
     let (mut area, mut mass, mut moment) = (0., 0., [0.; 2]);
-    // by the number of a triangle's side: where the level crosses it, and the sides it is joined with
+    // By number of the side: the place where the level crosses it, and the sides to which that
+    // place is joined.
     let mut crossings: BTreeMap<usize, (Point, Vec<usize>)> = BTreeMap::new();
-    // sides of one triangle alone, with a corner in the region
+    // Sides that belong to one triangle only, with a corner in the region.
     let mut border: BTreeSet<usize> = BTreeSet::new();
     for triangle in &surface.triangles {
         let Some(corners) = surface.valued(triangle, values) else { continue };
@@ -51,7 +62,7 @@ pub(super) fn region(surface: &Surface, values: &[Option<f64>], level: f64, orig
             let (from, to) = (corners[k], corners[(k + 1) % 3]);
             let side = triangle.sides[k];
             if from.1 >= level || to.1 >= level {
-                // the second triangle takes it away again
+                // A second triangle with the same side removes it again.
                 if !border.remove(&side) {
                     border.insert(side);
                 }
@@ -79,7 +90,8 @@ pub(super) fn region(surface: &Surface, values: &[Option<f64>], level: f64, orig
             let (a, b, c) = (part[0], part[k - 1], part[k]);
             let size = cross(a.0, b.0, c.0).abs() / 2.;
             area += size;
-            // Σ over the middles of the sides is exact for a product of two linear functions
+            // The sum over the midpoints of the sides is exact for a product of two linear
+            // functions.
             for (p, q) in [(a, b), (b, c), (c, a)] {
                 let weight = size / 3. * (p.1 + q.1) / 2.;
                 mass += weight;
@@ -94,7 +106,7 @@ pub(super) fn region(surface: &Surface, values: &[Option<f64>], level: f64, orig
     Region { area, centroid, cut: !border.is_empty(), contours }
 }
 
-/// Joins crossings to lines: first those that end, then those that close.
+/// Joins crossings to lines: first those that end at the edge of the map, then the closed ones.
 fn contours(mut crossings: BTreeMap<usize, (Point, Vec<usize>)>) -> Vec<Contour> {
     let mut lines = Vec::new();
     for open in [true, false] {

@@ -1,27 +1,35 @@
+//! Linear interpolation of values at cones over the Delaunay triangles between them.
+
 use crate::geometry::{Point, Window};
 use crate::stats::delaunay::delaunay;
 use rayon::prelude::*;
 use spade::Triangulation;
 
-/// Values at cones become values between them: linear over the Delaunay triangles that lie in the window, by the middles
-/// of their sides. Nothing is said beyond the hull of the cones, nor in a triangle with a corner that has no value.
+/// Interpolation between cones, linear over the Delaunay triangles that lie in the window.
+///
+/// A triangle lies in the window if the midpoints of its sides do. Beyond the hull of the cones,
+/// and in a triangle with a corner that has no value, nothing is defined.
 #[derive(Clone, Debug)]
 pub(super) struct Surface {
     points: Vec<Point>,
     pub(super) triangles: Vec<Triangle>,
 }
 
-/// Three points, by their indices, and the sides from each to the next, numbered alike in both triangles that share one.
+/// Three points and three sides of a triangle, by their indices.
+///
+/// Side k runs from corner k to the next. A side has the same number in both triangles that share
+/// it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Triangle {
     pub(super) corners: [usize; 3],
     pub(super) sides: [usize; 3],
 }
 
-/// A place and its value.
+/// A place with the value of the map there.
 pub(super) type Valued = (Point, f64);
 
 impl Surface {
+    /// Triangulates the points and keeps the triangles that lie in the window.
     pub(super) fn new(points: &[Point], window: &Window) -> Self {
         let mut triangles = Vec::new();
         if let Some(found) = delaunay(points, &window.bounds()) {
@@ -39,13 +47,13 @@ impl Surface {
         Self { points: points.to_vec(), triangles }
     }
 
-    /// The corners of a triangle with their values; `None` where one has none.
+    /// Returns the corners of a triangle with their values; `None` where one has none.
     pub(super) fn valued(&self, triangle: &Triangle, values: &[Option<f64>]) -> Option<[Valued; 3]> {
         let [a, b, c] = triangle.corners;
         Some([(self.points[a], values[a]?), (self.points[b], values[b]?), (self.points[c], values[c]?)])
     }
 
-    /// The values at a place of several maps, each if it is defined there.
+    /// Returns the values of several maps at a place, each `None` where it is not defined.
     pub(super) fn at<const N: usize>(&self, place: Point, maps: &[Vec<Option<f64>>; N]) -> [Option<f64>; N] {
         let found = self.triangles.par_iter().find_map_first(|triangle| {
             let shares = self.shares(triangle, place)?;
@@ -56,7 +64,8 @@ impl Surface {
         found.unwrap_or([None; N])
     }
 
-    /// Barycentric coordinates of a place in a triangle, on whose border it may lie.
+    /// Returns the barycentric coordinates of a place in a triangle, including its border; `None`
+    /// outside.
     pub(super) fn shares(&self, triangle: &Triangle, place: Point) -> Option<[f64; 3]> {
         let [a, b, c] = triangle.corners.map(|k| self.points[k]);
         let (low, high) = (a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
@@ -68,18 +77,18 @@ impl Surface {
             return None;
         }
         let shares = [cross(place, b, c) / twice, cross(a, place, c) / twice, cross(a, b, place) / twice];
-        // a hair of room, so that no place falls between two triangles
+        // The small tolerance ensures that no place falls between two triangles.
         shares.iter().all(|&share| share >= -1e-12).then_some(shares)
     }
 
-    /// The smallest upright rectangle around a triangle: left, upper, right and lower edge.
+    /// Returns the bounding box of a triangle: left, upper, right and lower edge.
     pub(super) fn extent(&self, triangle: &Triangle) -> [f64; 4] {
         let [a, b, c] = triangle.corners.map(|k| self.points[k]);
         [a.x.min(b.x).min(c.x), a.y.min(b.y).min(c.y), a.x.max(b.x).max(c.x), a.y.max(b.y).max(c.y)]
     }
 }
 
-/// The value within a triangle, if its corners have one.
+/// Returns the interpolated value within a triangle; `None` if a corner has no value.
 pub(super) fn weighted(values: &[Option<f64>], triangle: &Triangle, shares: [f64; 3]) -> Option<f64> {
     let mut sum = 0.;
     for (&corner, share) in triangle.corners.iter().zip(shares) {
@@ -88,7 +97,7 @@ pub(super) fn weighted(values: &[Option<f64>], triangle: &Triangle, shares: [f64
     Some(sum)
 }
 
-/// Twice the signed area of a triangle.
+/// Returns twice the signed area of a triangle.
 pub(super) fn cross(a: Point, b: Point, c: Point) -> f64 {
     (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)
 }

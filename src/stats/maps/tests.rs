@@ -20,7 +20,7 @@ fn cells(n: usize) -> MapOptions {
     MapOptions { window: LocalWindow::Cells(n), ..MapOptions::default() }
 }
 
-/// Triangular lattice of spacing 1, `columns` × `rows`, filling a torus.
+/// Returns a triangular lattice of spacing 1, `columns` × `rows`, that fills a torus.
 fn lattice(columns: u32, rows: u32) -> (Vec<Point>, Rectangle) {
     let height = 3f64.sqrt() / 2.;
     let points = (0..rows)
@@ -83,7 +83,8 @@ fn windows_of_a_side_hold_what_lies_in_them() {
     let (points, bounds) = lattice(20, 24);
     let options = MapOptions { window: LocalWindow::Side(6.1), ..MapOptions::default() };
     let found = mapped(&mosaic(points.clone(), Window::Torus(bounds)), &options);
-    // a hexagon is 1 wide and 2/√3 high: |dx| < 2.55 and |dy| < 3.05 − 1/√3, that is rows 0, ±1 and ±2 (of 5, 6 and 5)
+    // A hexagon is 1 wide and 2/√3 high: |dx| < 2.55 and |dy| < 3.05 − 1/√3, that is rows 0, ±1 and
+    // ±2 (of 5, 6 and 5).
     assert!(found.local.iter().all(|v| v.bound == 27 && v.side == Some(6.1)), "{:?}", found.local[0]);
     let wide = MapOptions { window: LocalWindow::Side(20.5), ..MapOptions::default() };
     let found = mapped(&mosaic(points, Window::Torus(bounds)), &wide);
@@ -117,8 +118,10 @@ fn found_grid(found: &Maps, mosaic: &Mosaic) -> MapGrid {
     found.grid(mosaic, |v| v.density, 90)
 }
 
-/// A mosaic around a fovea of known density, of whose field a part is seen that does not have it in its middle; the place
-/// of the fovea, and the law of density by the distance from it.
+/// Returns a mosaic around a fovea of known density, seen in a window that does not have the fovea
+/// in its middle.
+///
+/// Also returns the position of the fovea, and the density as a function of the distance from it.
 fn fovea(seed: u64) -> (Mosaic, Point, impl Fn(f64) -> f64) {
     let options = MosaicOptions {
         width: 700,
@@ -130,12 +133,13 @@ fn fovea(seed: u64) -> (Mosaic, Point, impl Fn(f64) -> f64) {
     };
     let points = cone_mosaic(&options, &mut ChaCha8Rng::seed_from_u64(seed)).unwrap();
     let window = Window::rectangle(130., 60., 699.5, 520.).unwrap();
-    // spacing 6 px in the middle, in proportion to 1 + r/350 px
+    // Spacing is 6 px in the middle and grows in proportion to 1 + r/350 px.
     let law = |r: f64| 2. / (3f64.sqrt() * 36.) / (1. + r / 350.).powi(2);
     (mosaic(points, window), Point::new(349.5, 299.5), law)
 }
 
-/// The mean of a density over a square about its peak: what a window of that side holds over its area.
+/// Returns the mean of a density over a square about its peak, which a window of that side
+/// measures.
 fn over_square(law: impl Fn(f64) -> f64, side: f64) -> f64 {
     const N: i32 = 200;
     let at = |i: i32| (f64::from(i) + 0.5) / f64::from(N) * side - side / 2.;
@@ -154,14 +158,14 @@ fn peak_centroid_and_area_of_a_known_density_are_found() {
             let (peak, at) = (landmarks.peak.unwrap(), landmarks.peak_at.unwrap());
             let k = mosaic.points().iter().position(|p| *p == at).unwrap();
             let peak_error = peak / over_square(&law, found.local[k].side.unwrap()) - 1.;
-            // where the law falls to .8 of the peak that was found
+            // Radius at which the true density falls to .8 of the peak that was found.
             let radius = 350. * ((law(0.) / (0.8 * peak)).sqrt() - 1.);
             let area_error =
                 landmarks.isodensity_area.unwrap() / (std::f64::consts::PI * radius * radius) - 1.;
             let ellipse = landmarks.ellipse.unwrap();
             let [peak_off, centroid_off, ellipse_off] =
                 [at, landmarks.centroid.unwrap(), ellipse.centre].map(|p| p.distance(middle) / 6.);
-            // measured over six seeds: 1.2 %, 2.1 spacings, .38 and .40 spacings, −6.4 %
+            // Measured over six seeds: 1.2 %, 2.1 spacings, .38 and .40 spacings, −6.4 %.
             let case = format!(
                 "seed {seed}, {n} cells: {peak_error} {peak_off} {centroid_off} {ellipse_off} {area_error}"
             );
@@ -187,7 +191,7 @@ fn profiles_follow_the_law_of_density() {
             found.profile.iter().filter(move |row| row.along == along && (30. ..130.).contains(&row.r));
         rows.map(error).collect::<Vec<_>>()
     };
-    // measured: 2.2 % on rings, 3 % on meridians (whose windows flatten the peak)
+    // Measured: 2.2 % on rings, 3 % on meridians (whose windows flatten the peak).
     for (along, most) in [
         (Along::Ring, 0.04),
         (Along::Right, 0.05),
@@ -202,7 +206,7 @@ fn profiles_follow_the_law_of_density() {
     let spacing = 6. * (1. + 70. / 350.);
     assert!((ring.spacing.unwrap() / spacing - 1.).abs() < 0.02 && ring.share == Some(1.), "{ring:?}");
     assert!((ring.inter_cell.unwrap() / spacing - 1.).abs() < 0.05, "{ring:?}");
-    // rings hold every bound cell
+    // The rings together hold every bound cell.
     let bound: usize = found.profile.iter().filter_map(|row| row.bound).sum();
     let cells = crate::stats::voronoi(mosaic.points(), mosaic.window()).cells;
     assert_eq!(bound, cells.iter().filter(|cell| cell.bound).count());
@@ -210,7 +214,7 @@ fn profiles_follow_the_law_of_density() {
 
 #[test]
 fn regions_of_what_is_linear_are_exact() {
-    // f = x on [0, 10]²: f ≥ 4 is 6 × 10, its centroid weighs x by x
+    // For f = x on [0, 10]² the region f ≥ 4 is 6 × 10, and its centroid weights x by x.
     let points: Vec<Point> =
         (0..121).map(|i| Point::new(1e5 + f64::from(i % 11), f64::from(i / 11) - 1e5)).collect();
     let window = Window::rectangle(1e5, -1e5, 1e5 + 10., -1e5 + 10.).unwrap();
@@ -228,7 +232,7 @@ fn regions_of_what_is_linear_are_exact() {
         Some(3.25e6)
     );
 
-    // a pyramid ends in the map: its contour is a square
+    // A pyramid falls below the level within the map, so its contour is a closed square.
     let peak = |p: &Point| 5. - (p.x - 1e5 - 5.).abs().max((p.y + 1e5 - 5.).abs());
     let values: Vec<Option<f64>> = points.iter().map(|p| Some(peak(p))).collect();
     let found = region(&surface, &values, 2., Point::new(1e5, -1e5));
@@ -308,7 +312,7 @@ fn options_out_of_range_are_refused() {
 proptest! {
     #[test]
     fn any_small_pattern_has_maps(
-        // a coarse lattice of coordinates, so that points coincide and lie on the border
+        // On a coarse lattice of coordinates points coincide and lie on the border.
         raw in prop::collection::vec((0..9u8, 0..9u8), 0..60), torus: bool, by_side: bool, far in -1e6..1e6f64,
     ) {
         let bounds = Rectangle::new(far, 0., far + 8., 8.).unwrap();

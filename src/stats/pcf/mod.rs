@@ -1,3 +1,9 @@
+//! Pair correlation function g(r) of a stationary pattern, with several edge corrections.
+//!
+//! 1. Visit all pairs of points within reach and weigh each for the pairs that the border hides.
+//! 2. Collect their distances in a fine histogram and smooth it with the kernel (see `smoother`).
+//! 3. Divide by the number expected for independent points of the same density.
+
 use crate::choice::UnknownChoice;
 mod smoother;
 
@@ -14,7 +20,7 @@ pub(super) use smoother::Smoother;
 use std::f64::consts::TAU;
 use strum::{Display, EnumString, VariantArray, VariantNames};
 
-/// How the pairs that the border hides are made up for.
+/// Rule for compensating for the pairs that the border hides.
 #[derive(
     Clone,
     Copy,
@@ -36,38 +42,50 @@ use strum::{Display, EnumString, VariantArray, VariantNames};
     parse_err_fn = UnknownChoice::among::<EdgeCorrection>
 )]
 pub enum EdgeCorrection {
-    /// The sum at r is divided by the isotropised set covariance, in a w × h window 1 − 2r(w+h)/(πwh) + r²/(πwh); beyond
-    /// the shorter side, where that does not hold, translation weights. In a polygon the covariance is averaged over
-    /// directions ([`crate::geometry::SetCovariance`]), at least .01. On a torus this means [`EdgeCorrection::Torus`].
+    /// Division of the sum at r by the isotropised set covariance.
+    ///
+    /// In a w × h window this is 1 − 2r(w+h)/(πwh) + r²/(πwh). Beyond the shorter side, where that
+    /// does not hold, translation weights are used. In a polygon the covariance is averaged over
+    /// directions ([`crate::geometry::SetCovariance`]) and taken as at least .01. On a torus this
+    /// means [`EdgeCorrection::Torus`].
     #[default]
     SetCovariance,
-    /// Each pair weighs the area of the window W over |W ∩ (W + Δ)|, at most 100: wh/((w−|Δx|)(h−|Δy|)) in a rectangle,
-    /// within 2 · 10⁻³ of the exact value in a polygon (Ohser & Stoyan 1981).
+    /// Weight of each pair: the area of the window W divided by |W ∩ (W + Δ)|, at most 100.
+    ///
+    /// In a rectangle this is wh/((w−|Δx|)(h−|Δy|)); in a polygon it is within 2 · 10⁻³ of the
+    /// exact value. Source: Ohser & Stoyan (1981), <https://doi.org/10.1002/bimj.4710230602>.
     Translation,
-    /// Each pair weighs the inverse share, within the window, of the circles around either point through the other,
-    /// at most 100 (Ripley 1976).
+    /// Weight of each pair: the inverse share, within the window, of the circles around either
+    /// point through the other.
+    ///
+    /// The weight is the mean over both circles, each at most 100. Source: Ripley (1976),
+    /// <https://doi.org/10.2307/3212829>.
     Isotropic,
-    /// Pairs are those of a point and the images of others on the torus: nothing is hidden. Torus windows only.
+    /// Pairs with the images of other points on the torus, so that no pair is hidden; for torus
+    /// windows only.
     Torus,
-    /// None: g falls with r.
+    /// No correction, so that g falls with r.
     None,
 }
 
-/// How to estimate the pair correlation function. Lengths are in hexagonal spacings s = √(2/(√3 λ)) of the pattern.
+/// Options for estimating the pair correlation function.
+///
+/// Lengths are in hexagonal spacings s = √(2/(√3 λ)) of the pattern.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PcfOptions {
     /// Shape of the smoothing kernel.
     pub kernel: Kernel,
-    /// Its standard deviation σ, in spacings: .005–1, default .1.
+    /// Standard deviation σ of the kernel, in spacings: .005–1, default .1.
     pub bandwidth: f64,
-    /// The first bin, in spacings: at least 1.5 σ (nearer to 0 the kernel reaches negative distances), default .15.
+    /// Left edge of the first bin, in spacings: at least 1.5 σ (nearer to 0 the kernel reaches
+    /// negative distances), default .15.
     pub r_min: f64,
-    /// The end of the last bin, in spacings: above `r_min`, at most 50, default 2.5.
+    /// Right edge of the last bin, in spacings: above `r_min`, at most 50, default 2.5.
     pub r_max: f64,
-    /// Number of bins; g is taken at their left edges. 1–2000, default 200.
+    /// Number of bins, at whose left edges g is taken: 1–2000, default 200.
     pub bins: usize,
-    /// Edge correction.
+    /// Compensation for the pairs that the border hides.
     pub edge: EdgeCorrection,
 }
 
@@ -85,8 +103,10 @@ impl Default for PcfOptions {
 }
 
 impl PcfOptions {
+    /// Checks that every option is in its range.
+    ///
     /// # Errors
-    /// If an option is out of its range; the error says the range.
+    /// Returns [`StatsError::Option`] with the permitted range if an option is outside it.
     pub fn validate(&self) -> Result<(), StatsError> {
         let check = |ok: bool, option, value, range| {
             if ok { Ok(()) } else { Err(StatsError::Option { option, value, range }) }
@@ -108,45 +128,67 @@ impl PcfOptions {
         check((1..=2000).contains(&self.bins), "number of PCF bins", self.bins as f64, "1 to 2000")
     }
 
-    /// Left edges of the bins, in spacings.
+    /// Returns the left edges of the bins, in spacings.
     pub fn radii(&self) -> Vec<f64> {
         (0..self.bins).map(|b| self.r_min + b as f64 * self.bin_width()).collect()
     }
 
+    /// Returns the width of a bin, in spacings.
     fn bin_width(&self) -> f64 {
         (self.r_max - self.r_min) / self.bins as f64
     }
 }
 
-/// A pair correlation function, with how it was made.
+/// Pair correlation function, with the options it was estimated with.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pcf {
     /// Distances, in hexagonal spacings.
     pub r: Vec<f64>,
-    /// g at those distances: 1 for independent points.
+    /// Values of g at those distances: 1 for independent points.
     pub g: Vec<f64>,
-    /// The hexagonal spacing, in the unit of the coordinates.
+    /// Hexagonal spacing of the pattern, in the unit of the coordinates.
     pub spacing: f64,
-    /// As used: on a torus the default correction has become [`EdgeCorrection::Torus`].
+    /// Options as used: on a torus the default correction has become [`EdgeCorrection::Torus`].
     pub options: PcfOptions,
 }
 
-/// Pair correlation function (Öztireli & Gross 2012; Illian et al. 2008) of a stationary pattern:
+/// Estimates the pair correlation function of a stationary pattern.
 ///
-/// g(r) = A Σ_{i≠j} k_σ(r − |x_i − x_j|) / (n (n−1) · 2πr · c(r)), with k_σ the kernel and c(r) the edge correction.
+/// g(r) = A Σ_{i≠j} k_σ(r − |x_i − x_j|) / (n (n−1) · 2πr · c(r)), with k_σ the kernel and c(r) the
+/// edge correction.
 ///
-/// Distances go into a histogram whose bins are σ/24 or finer, spread over four bins by cubic interpolation, and that is
-/// smoothed: linear in n, within 10⁻⁷ of the sum over pairs. Large patterns use all threads, with the same result for any
-/// number of them.
+/// Distances go into a histogram whose bins are σ/24 or finer; each is spread over four bins by
+/// cubic interpolation, and the histogram is then smoothed. The time is linear in n, and the result
+/// is within 10⁻⁷ of the sum over pairs. Large patterns use all threads, with the same result for
+/// any number of them.
+///
+/// Sources: Öztireli & Gross (2012), <https://doi.org/10.1145/2366145.2366189>; Illian et al.
+/// (2008), <https://doi.org/10.1002/9780470725160>.
 ///
 /// # Errors
-/// If an option is out of range, there are fewer than two points, one is not inside the window, or torus correction is
-/// asked for in a bounded window.
+/// Returns [`StatsError`] if an option is out of range, there are fewer than two points, a point is
+/// not inside the window, or the torus correction is requested in a bounded window.
+///
+/// # Examples
+/// ```
+/// use conemosaic::prelude::*;
+///
+/// let window = Window::rectangle(0., 0., 10., 10.)?;
+/// let lattice = |i: usize| Point::new((i % 10) as f64 + 0.5, (i / 10) as f64 + 0.5);
+/// let points: Vec<Point> = (0..100).map(lattice).collect();
+///
+/// let found = pcf(&points, &window, &PcfOptions::default())?;
+/// let (r, g) = (found.options.radii(), &found.g); // r in hexagonal spacings
+/// let highest = (0..g.len()).max_by(|&a, &b| g[a].total_cmp(&g[b])).ok_or("no bins")?;
+/// // a square lattice of side 1 has a hexagonal spacing of 1.075
+/// assert!((r[highest] - 1. / 1.075).abs() < 0.05);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn pcf(points: &[Point], window: &Window, options: &PcfOptions) -> Result<Pcf, StatsError> {
     estimate(points, window, options, true)
 }
 
-/// [`pcf`] that never hands work to another thread.
+/// Estimates the function as [`pcf`] does, but never hands work to another thread.
 pub(crate) fn pcf_on_one_thread(
     points: &[Point],
     window: &Window,
@@ -155,12 +197,16 @@ pub(crate) fn pcf_on_one_thread(
     estimate(points, window, options, false)
 }
 
-/// Points from which on the work is cut into [`CHUNKS`] that may run in parallel.
+/// Number of points from which the work is cut into [`CHUNKS`] parts that may run in parallel.
 const CHUNKED_FROM: usize = 8192;
+/// Number of parts of a large pattern; fixed, so that the result does not depend on the number of
+/// threads.
 const CHUNKS: usize = 32;
-/// Images of a torus so thin that a disk holds more turns than this are refused.
+/// Largest number of turns round a torus within reach; windows so thin that a disk holds more are
+/// refused.
 const MAX_TURNS: f64 = 1000.;
 
+/// Estimates g, in parallel if `parallel` is set and the pattern is large.
 fn estimate(
     points: &[Point],
     window: &Window,
@@ -235,7 +281,7 @@ fn estimate(
     };
 
     let r = options.radii();
-    // Every unordered pair was visited once: twice that are ordered.
+    // Every unordered pair was visited once; the formula counts both orders.
     let pairs = n as f64 * (n - 1) as f64 / 2.;
     let g = r
         .iter()

@@ -1,10 +1,20 @@
+//! Kernel smoothing of pair distances, in time linear in the number of pairs.
+//!
+//! 1. With the Gaussian, spread each distance over the four nearest nodes of a fine grid by cubic
+//!    interpolation.
+//! 2. Convolve the grid with the kernel, evaluated at the left edges of the bins only.
+//!
+//! The box and the triangle reach less far; for them each distance is added to its bins directly.
+
 use super::PcfOptions;
 use crate::choice::UnknownChoice;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use strum::{Display, EnumString, VariantArray, VariantNames};
 
-/// Shape of the kernel that smooths pair distances; all have integral 1 and the same standard deviation, the bandwidth.
+/// Shape of the kernel that smooths pair distances.
+///
+/// All kernels have integral 1 and the same standard deviation, the bandwidth.
 #[derive(
     Clone,
     Copy,
@@ -26,17 +36,17 @@ use strum::{Display, EnumString, VariantArray, VariantNames};
     parse_err_fn = UnknownChoice::among::<Kernel>
 )]
 pub enum Kernel {
-    /// exp(−t²/2σ²), cut at 6.5 σ: what the paper's numbers were made with.
+    /// Gaussian exp(−t²/2σ²), cut off at 6.5 σ; the numbers of the paper were made with it.
     #[default]
     Gaussian,
-    /// Constant within √3 σ.
+    /// Constant within √3 σ, 0 beyond.
     Box,
-    /// Falling linearly to 0 at √6 σ.
+    /// Linear decrease from the middle to 0 at √6 σ.
     Triangle,
 }
 
 impl Kernel {
-    /// Bandwidths beyond which a pair does not count.
+    /// Returns the number of bandwidths beyond which a pair does not count.
     pub(in crate::stats) fn reach(self) -> f64 {
         match self {
             Self::Gaussian => 6.5,
@@ -45,7 +55,7 @@ impl Kernel {
         }
     }
 
-    /// At `t` bandwidths from the middle, for bandwidth 1.
+    /// Returns the kernel at `t` bandwidths from its middle, for bandwidth 1.
     fn at(self, t: f64) -> f64 {
         let reach = self.reach();
         if t.abs() > reach {
@@ -59,20 +69,23 @@ impl Kernel {
     }
 }
 
-/// Sums Σ weight · k(r − d) over pairs, at the left edges of the bins.
+/// Sums Σ weight · k(r − d) over pairs, at the left edges r of the bins.
 pub(in crate::stats) struct Smoother {
     kernel: Kernel,
     bins: usize,
     first: f64,
     bin_width: f64,
     bandwidth: f64,
-    /// Gaussian: weights on fine nodes, `per_bin` a bin; node 0 is `lead` nodes before the first bin. Others: the sums.
+    /// Weights on fine nodes for the Gaussian, the sums themselves for other kernels.
+    ///
+    /// There are `per_bin` nodes per bin; node 0 is `lead` nodes before the first bin.
     nodes: Vec<f64>,
     per_bin: usize,
     lead: usize,
 }
 
 impl Smoother {
+    /// Prepares empty sums for the bins of `options`; `spacing` is in units of the coordinates.
     pub(in crate::stats) fn new(options: &PcfOptions, spacing: f64) -> Self {
         let bin_width = options.bin_width() * spacing;
         let bandwidth = options.bandwidth * spacing;
@@ -87,10 +100,10 @@ impl Smoother {
             lead: 0,
         };
         if options.kernel == Kernel::Gaussian {
-            // Cubic interpolation errs by .07 (node distance/σ)⁴ of the kernel's peak: 2·10⁻⁷ at σ/24, less in a
-            // sum over pairs.
+            // Cubic interpolation has an error of .07 (node distance/σ)⁴ of the kernel's peak:
+            // 2·10⁻⁷ at σ/24, less in a sum over pairs.
             smoother.per_bin = (24. * bin_width / bandwidth).ceil().max(1.) as usize;
-            // Two nodes more, for the interpolation at either end.
+            // Two more nodes serve the interpolation at either end.
             smoother.lead = smoother.half_width() + 2;
             smoother.nodes = vec![0.; (options.bins - 1) * smoother.per_bin + 2 * smoother.lead + 1];
         } else {
@@ -99,11 +112,12 @@ impl Smoother {
         smoother
     }
 
-    /// Nodes on either side of a bin that its Gaussian reaches.
+    /// Returns the number of nodes that the Gaussian of a bin reaches on either side.
     fn half_width(&self) -> usize {
         (self.kernel.reach() * self.bandwidth * self.per_bin as f64 / self.bin_width).ceil() as usize
     }
 
+    /// Adds a pair at distance `d`.
     #[inline]
     pub(in crate::stats) fn add(&mut self, d: f64, weight: f64) {
         match self.kernel {
@@ -137,6 +151,7 @@ impl Smoother {
         }
     }
 
+    /// Returns the sums, one per bin.
     pub(in crate::stats) fn sums(self) -> Vec<f64> {
         if self.kernel != Kernel::Gaussian {
             return self.nodes;
@@ -155,7 +170,7 @@ impl Smoother {
     }
 }
 
-/// Inner product in four interleaved sums, which the processor adds at once.
+/// Computes an inner product in four interleaved sums, whose additions the processor overlaps.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.; 4];
     let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));

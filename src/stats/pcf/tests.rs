@@ -15,7 +15,9 @@ fn points_in(bounds: &Rectangle, n: usize, seed: u64) -> Vec<Point> {
         .collect()
 }
 
-/// The definition, summed over all ordered pairs (and images), for windows wider than r or torus windows.
+/// Computes g by its definition, as a sum over all ordered pairs (and images).
+///
+/// Valid for windows wider than r and for torus windows.
 fn direct(points: &[Point], window: &Window, options: &PcfOptions) -> Vec<f64> {
     let b = window.bounds();
     let (w, h, n) = (b.width(), b.height(), points.len() as f64);
@@ -46,7 +48,8 @@ fn direct(points: &[Point], window: &Window, options: &PcfOptions) -> Vec<f64> {
                             }
                             EdgeCorrection::Translation => translated,
                             EdgeCorrection::Isotropic => {
-                                // The arc inside, counted on 20 000 points of the circle around p.
+                                // The arc inside is counted on 20 000 points of the circle around
+                                // p.
                                 let m = 20_000;
                                 let inside = (0..m).filter(|&a| {
                                     let angle = TAU * (f64::from(a) + 0.5) / f64::from(m);
@@ -114,7 +117,7 @@ fn isotropic_weights_are_the_inverse_share_of_the_circle() {
     let options = PcfOptions { bins: 8, edge: EdgeCorrection::Isotropic, ..PcfOptions::default() };
     let points = points_in(&bounds, 20, 5);
     let difference = worst(&pcf(&points, &window, &options).unwrap().g, &direct(&points, &window, &options));
-    // The arcs of the comparison are counted, not measured.
+    // The arcs of the comparison are counted, not computed exactly, hence the wide tolerance.
     assert!(difference < 2e-3, "{difference}");
 }
 
@@ -199,7 +202,8 @@ fn independent_points_in_an_l_have_g_1_under_every_correction_but_none() {
     };
     for edge in [EdgeCorrection::SetCovariance, EdgeCorrection::Translation, EdgeCorrection::Isotropic] {
         let mean = mean_of(edge);
-        // n varies from pattern to pattern, which biases none of them at this level
+        // The number of points varies between patterns, but at this level that biases no
+        // correction.
         assert!(mean.iter().all(|g| (g - 1.).abs() < 0.05), "{edge:?}: {mean:.3?}");
         let far = mean[10..].iter().sum::<f64>() / 20.;
         assert!((far - 1.).abs() < 0.01, "{edge:?}: {far}");

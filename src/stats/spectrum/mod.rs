@@ -1,3 +1,9 @@
+//! Power spectrum of a point pattern and its radial averages (Ulichney 1987; Lagae & Dutré 2008).
+//!
+//! 1. Sum exp(−2πi k·x) over the points for every wave vector k of the window.
+//! 2. Square the moduli and divide by the number of points: the periodogram.
+//! 3. Average it over annuli of |k|; the variance within an annulus gives the anisotropy.
+
 mod modal;
 mod waves;
 
@@ -7,14 +13,15 @@ use crate::geometry::{Point, Window};
 pub use modal::{ModalSpacing, modal_spacing};
 use serde::{Deserialize, Serialize};
 
-/// More waves than this are refused: they fill gigabytes.
+/// Largest number of waves; more are refused, because they would fill gigabytes.
 const MOST_WAVES: f64 = 5e7;
 
-/// How far a spectrum goes.
+/// Range of a power spectrum.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SpectrumOptions {
-    /// Highest frequency in √λ, the square root of the density (√n in the unit square): .1–20, default 4.
+    /// Highest frequency in √λ, the square root of the density (√n in the unit square): .1–20,
+    /// default 4.
     pub max_frequency: f64,
 }
 
@@ -25,8 +32,10 @@ impl Default for SpectrumOptions {
 }
 
 impl SpectrumOptions {
+    /// Checks that the frequency is in its range.
+    ///
     /// # Errors
-    /// If the frequency is out of its range.
+    /// Returns [`StatsError::Option`] if it is not.
     pub fn validate(&self) -> Result<(), StatsError> {
         if (0.1..=20.).contains(&self.max_frequency) {
             return Ok(());
@@ -43,29 +52,54 @@ impl SpectrumOptions {
 /// Power spectrum of a point pattern: 1 on average for independent points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PowerSpectrum {
-    /// Frequencies of the annuli, in √λ: multiples of 1/√n, as far as there are waves.
+    /// Frequencies of the annuli, in √λ: those multiples of 1/√n at which there are waves.
     pub frequency: Vec<f64>,
     /// Mean power of each annulus.
     pub power: Vec<f64>,
-    /// Anisotropy of each annulus, in dB: 10 log₁₀(s²/P²), with s² the variance (divisor number − 1) and P the mean of its power
-    /// (Ulichney 1987; Lagae & Dutré 2008). That of one pattern without direction is about 0 dB, of the mean spectrum of m
-    /// patterns −10 log₁₀ m. `None` where there is a single wave or no variance.
+    /// Anisotropy of each annulus, in dB: 10 log₁₀(s²/P²), with P the mean and s² the variance
+    /// (divisor number − 1) of its power.
+    ///
+    /// For one pattern without direction it is about 0 dB, for the mean spectrum of m patterns
+    /// −10 log₁₀ m. `None` where there is a single wave or no variance.
+    ///
+    /// Sources: Ulichney (1987); Lagae & Dutré (2008),
+    /// <https://doi.org/10.1111/j.1467-8659.2007.01100.x>.
     pub anisotropy_db: Vec<Option<f64>>,
-    /// Highest wave numbers in the plane, along x and y.
+    /// Highest wave numbers of the plane, along x and y.
     highest: [usize; 2],
     /// Frequency of the first wave along x and along y, in √λ.
     step: [f64; 2],
-    /// Power at 0 ≤ kx, |ky| ≤ highest: `[kx · (2 · highest y + 1) + ky + highest y]`.
+    /// Power at 0 ≤ kx, |ky| ≤ highest, at index `kx · (2 · highest y + 1) + ky + highest y`.
     plane: Vec<f64>,
 }
 
-/// Periodogram P(k) = |Σ_j exp(−2πi k·x_j)|²/n over the wave vectors k of the window as a torus, (j/w, l/h) with whole j and l,
-/// without 0; averaged over annuli ⌊|k|√A⌉ (Ulichney 1987; Lagae & Dutré 2008). In a window with a border the same waves are used:
-/// the mean of a pattern that is cut off by it is 0 at them. Linear in n, accurate to 10⁻⁶ of P.
+/// Computes the power spectrum of a point pattern.
+///
+/// It is the periodogram P(k) = |Σ_j exp(−2πi k·x_j)|²/n, averaged over annuli ⌊|k|√A⌉ (Ulichney
+/// 1987; Lagae & Dutré 2008, <https://doi.org/10.1111/j.1467-8659.2007.01100.x>). The wave vectors
+/// k are those of the window as a torus, (j/w, l/h) with whole j and l, without 0. The same waves
+/// are used in a window with a border: at them the transform of the window is 0, so the mean
+/// density contributes nothing. The time is linear in n; the power is accurate to 10⁻⁶ of P.
 ///
 /// # Errors
-/// If there is no point, one is outside, an option is out of its range, the window is a polygon (whose own
-/// spectrum would cover that of the points), or there are more than 5·10⁷ waves.
+/// Returns [`StatsError`] if there is no point, a point is outside, an option is out of its range,
+/// there are more than 5·10⁷ waves, or the window is a polygon (whose own spectrum would hide that
+/// of the points).
+///
+/// # Examples
+/// ```
+/// use conemosaic::prelude::*;
+/// use conemosaic::stats::{SpectrumOptions, spectrum};
+///
+/// let window = Window::rectangle(0., 0., 16., 16.)?;
+/// let place = |i: usize| Point::new((i % 16) as f64, (i / 16) as f64);
+/// let points: Vec<Point> = (0..256).map(place).collect();
+/// let found = spectrum(&points, &window, &SpectrumOptions::default())?;
+/// // a lattice of step 1 has all its power at multiples of 16 waves across the window
+/// let [peak, beside] = [16, 15].map(|kx| found.at(kx, 0));
+/// assert!(peak > Some(255.) && beside < Some(1e-9));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn spectrum(
     points: &[Point],
     window: &Window,
@@ -83,7 +117,7 @@ pub fn spectrum(
     all_inside(points, window)?;
     let root = (n as f64).sqrt();
     let annuli = (options.max_frequency * root).floor();
-    // |k| √A is hypot(j √(h/w), l √(w/h))
+    // |k| √A is hypot(j √(h/w), l √(w/h)).
     let stretch = (bounds.height() / bounds.width()).sqrt();
     let highest = [(annuli + 0.5) / stretch, (annuli + 0.5) * stretch];
     let waves = (highest[0] + 1.) * (2. * highest[1] + 1.);
@@ -101,7 +135,7 @@ pub fn spectrum(
 
     let mut annulus = vec![Annulus::default(); annuli as usize + 1];
     for (j, column) in plane.chunks_exact(2 * highest[1] + 1).enumerate() {
-        // a wave and its opposite have the same power: half of them count
+        // A wave and its opposite have the same power, so half of them are counted.
         let first = if j == 0 { highest[1] + 1 } else { 0 };
         for (l, &power) in column.iter().enumerate().skip(first) {
             let length = (j as f64 * stretch).hypot((l as f64 - highest[1] as f64) / stretch);
@@ -121,7 +155,8 @@ pub fn spectrum(
     })
 }
 
-/// Running mean and sum of squared deviations (Welford 1962).
+/// Running mean and sum of squared deviations (Welford 1962,
+/// <https://doi.org/10.1080/00401706.1962.10490022>).
 #[derive(Clone, Copy, Default)]
 struct Annulus {
     waves: f64,
@@ -130,6 +165,7 @@ struct Annulus {
 }
 
 impl Annulus {
+    /// Adds the power of one wave.
     fn add(&mut self, power: f64) {
         self.waves += 1.;
         let off = power - self.mean;
@@ -137,6 +173,7 @@ impl Annulus {
         self.squares += off * (power - self.mean);
     }
 
+    /// Returns the anisotropy in dB; `None` for a single wave or without variance.
     fn anisotropy_db(&self) -> Option<f64> {
         let ratio = self.squares / (self.waves - 1.) / (self.mean * self.mean);
         (self.waves > 1. && ratio > 0. && ratio.is_finite()).then(|| 10. * ratio.log10())
@@ -144,17 +181,18 @@ impl Annulus {
 }
 
 impl PowerSpectrum {
-    /// Returns how far apart waves lie along x and along y, in √λ: cycles per 1/√density.
+    /// Returns the distance between neighbouring waves along x and along y, in √λ (cycles per
+    /// 1/√density).
     pub const fn wave_step(&self) -> [f64; 2] {
         self.step
     }
 
-    /// Highest wave numbers of the plane along x and y.
+    /// Returns the highest wave numbers of the plane along x and y.
     pub fn highest(&self) -> [usize; 2] {
         self.highest
     }
 
-    /// Power at the wave (kx, ky); `None` beyond the highest. P(0, 0) is n.
+    /// Returns the power at the wave (kx, ky); `None` beyond the highest wave. P(0, 0) is n.
     pub fn at(&self, kx: isize, ky: isize) -> Option<f64> {
         let (kx, ky) = if kx < 0 { (-kx, -ky) } else { (kx, ky) };
         let [columns, rows] = self.highest;

@@ -1,37 +1,51 @@
+//! Modal spacing: the spacing that belongs to the first ring of the power spectrum (Yellott 1983).
+//!
+//! 1. Average the power over frequency with a Gaussian kernel.
+//! 2. Find its maximum between .6 and 1.6 √λ and refine it by a parabola.
+//! 3. Convert the frequency of the maximum to the spacing of the triangular lattice with that ring.
+
 use super::{PowerSpectrum, SpectrumOptions, spectrum};
 use crate::geometry::{Point, Window, lattice_dual};
 use crate::stats::StatsError;
 use serde::{Deserialize, Serialize};
 
-/// Frequencies among which the ring is looked for, in √λ; that of the triangular lattice is √(2/√3) = 1.075.
+/// Frequencies among which the ring is sought, in √λ; that of the triangular lattice is
+/// √(2/√3) = 1.075.
 const RANGE: (f64, f64) = (0.6, 1.6);
 /// Step between the frequencies that are tried, in √λ.
 const STEP: f64 = 0.01;
 /// Standard deviation of the kernel that averages power over frequency, in √λ.
 const SMOOTHING: f64 = 0.05;
-/// Fewest points that have a ring: of fewer, too few waves are as long as their spacing.
+/// Smallest number of points with a ring: with fewer, too few waves are as long as their spacing.
 const FEWEST: usize = 20;
 
-/// Where the power of a point pattern has its first ring (Yellott 1983), and the spacing that goes with it.
+/// First ring of the power of a point pattern, and the spacing that belongs to it.
+///
+/// Source: Yellott (1983), <https://doi.org/10.1126/science.6867716>.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModalSpacing {
     /// Radius f of the ring, in cycles per unit of the coordinates.
     pub frequency: f64,
-    /// Modal spacing 1/f: from row to row of a triangular lattice.
+    /// Modal spacing 1/f: the distance between rows of a triangular lattice.
     pub row_spacing: f64,
-    /// From point to point of the triangular lattice with that ring, 2/(√3 f). It has 2/(√3 spacing²) = (√3/2) f² points per
-    /// squared unit.
+    /// Distance 2/(√3 f) between neighbours of the triangular lattice with that ring.
+    ///
+    /// That lattice has 2/(√3 spacing²) = (√3/2) f² points per squared unit.
     pub spacing: f64,
-    /// Power on the ring, averaged: 1 for independent points.
+    /// Averaged power on the ring: 1 for independent points.
     pub power: f64,
 }
 
 impl PowerSpectrum {
-    /// The ring between .6 and 1.6 √λ: the maximum of the power, averaged over frequency with a Gaussian of standard deviation
-    /// .05 √λ and refined by a parabola. Waves weigh 1/frequency, so that there are equally many at every frequency.
+    /// Finds the ring between .6 and 1.6 √λ.
     ///
-    /// `window` is that of the points. `None` for fewer than 20 points, if there is no maximum within that range, and for a
-    /// spectrum that ends before 1.75 √λ. Independent points have a maximum too, by chance, of a power near 1.
+    /// The ring is the maximum of the power, averaged over frequency with a Gaussian of standard
+    /// deviation .05 √λ and refined by a parabola. The number of waves grows with frequency; each
+    /// has the weight 1/frequency, so that all frequencies count equally.
+    ///
+    /// `window` is that of the points. Returns `None` for fewer than 20 points, if there is no
+    /// maximum within the range, and for a spectrum that ends before 1.75 √λ. Independent points
+    /// have a maximum too, by chance, with a power near 1.
     pub fn modal(&self, window: &Window) -> Option<ModalSpacing> {
         let n = self.at(0, 0)?;
         let bounds = window.bounds();
@@ -45,7 +59,7 @@ impl PowerSpectrum {
         }
         let mut fine = vec![[0.; 2]; (end / STEP) as usize];
         for kx in 0..=columns as isize {
-            // a wave and its opposite have the same power: half of them count
+            // A wave and its opposite have the same power, so half of them are counted.
             let first = if kx == 0 { 1 } else { -(rows as isize) };
             for ky in first..=rows as isize {
                 let frequency = (kx as f64 * stretch).hypot(ky as f64 / stretch) / root;
@@ -82,10 +96,10 @@ impl PowerSpectrum {
     }
 }
 
-/// The ring of a pattern, see [`PowerSpectrum::modal`]; `None` where it has none.
+/// Finds the ring of a pattern as [`PowerSpectrum::modal`] does; `None` if it has none.
 ///
 /// # Errors
-/// As [`spectrum`]: without points, if one is outside, in a polygon.
+/// Returns the errors of [`spectrum`]: without points, if a point is outside, or in a polygon.
 pub fn modal_spacing(points: &[Point], window: &Window) -> Result<Option<ModalSpacing>, StatsError> {
     let options = SpectrumOptions { max_frequency: RANGE.1 + 4. * SMOOTHING };
     Ok(spectrum(points, window, &options)?.modal(window))
@@ -116,7 +130,7 @@ mod tests {
         let found = modal_spacing(&points, &window).unwrap().unwrap();
         assert!((found.spacing / 7. - 1.).abs() < 0.005, "{found:?}");
         assert!((found.row_spacing / row - 1.).abs() < 0.005);
-        // what the doc comment says of density
+        // The documentation of `ModalSpacing::spacing` gives the density.
         assert!((0.75f64.sqrt() * found.frequency.powi(2) * window.area() / 480. - 1.).abs() < 0.01);
         assert!(found.power > 5.);
     }
@@ -143,7 +157,7 @@ mod tests {
         for few in [&line[..1], &line[..3], &[line[0]; 3][..]] {
             assert_eq!(modal_spacing(few, &window), Ok(None));
         }
-        // on a line there is power wherever it repeats, but nothing that fails
+        // On a line there is power wherever the pattern repeats, but nothing fails.
         assert!(modal_spacing(&line, &window).is_ok());
         let short = SpectrumOptions { max_frequency: 1. };
         assert_eq!(spectrum(&line, &window, &short).unwrap().modal(&window), None);

@@ -1,4 +1,10 @@
-//! Σ_j exp(−2πi (kx x_j + ky y_j)) over whole kx, ky, for points of the unit torus.
+//! Sums Σ_j exp(−2πi (kx x_j + ky y_j)) over whole kx and ky, for points of the unit torus.
+//!
+//! Few points and waves are summed directly, others by a non-uniform Fourier transform:
+//!
+//! 1. Spread each point over 14 × 14 cells of a grid with a smooth kernel.
+//! 2. Transform the grid by FFT, first along rows, then along columns.
+//! 3. Divide by the transform of the kernel.
 
 use rayon::prelude::*;
 use realfft::RealFftPlanner;
@@ -6,16 +12,20 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 
-/// Up to this many products of points and waves the sum itself is faster than any grid.
+/// Largest number of products of points and waves for which the direct sum is faster than the grid.
 const FEW: usize = 500_000;
-/// Cells of the grid that a point is spread over, along either axis, and grid points a wave length of the highest wave
-/// has, over two: aliasing is then exp(−πw√(1 − 1/σ)) = 3·10⁻⁹ (Barnett, Magland & af Klinteberg 2019, eq. 4.1).
+/// Number w of grid cells over which a point is spread, along either axis.
+///
+/// With the oversampling σ below, aliasing is exp(−πw√(1 − 1/σ)) = 3·10⁻⁹ (Barnett, Magland & af
+/// Klinteberg 2019, eq. 4.1, <https://doi.org/10.1137/18M120885X>).
 const WIDTH: usize = 14;
+/// Number σ of grid points per wavelength of the highest wave, divided by two.
 const OVERSAMPLING: f64 = 1.25;
-/// Shape of the kernel exp(β(√(1 − z²) − 1)), β for that width and oversampling.
+/// Shape β of the kernel exp(β(√(1 − z²) − 1)), for that width and oversampling.
 const BETA: f64 = 0.97 * PI * WIDTH as f64 * (1. - 0.5 / OVERSAMPLING);
 
-/// Sums for 0 ≤ kx ≤ `columns` and |ky| ≤ `rows`, at `[kx · (2 rows + 1) + ky + rows]`.
+/// Computes the sums for 0 ≤ kx ≤ `columns` and |ky| ≤ `rows`, at index
+/// `kx · (2 rows + 1) + ky + rows`.
 pub(super) fn sums(points: &[[f64; 2]], columns: usize, rows: usize) -> Vec<Complex64> {
     let waves = (columns + 1) * (2 * rows + 1);
     if points.len().saturating_mul(waves) <= FEW {
@@ -25,7 +35,7 @@ pub(super) fn sums(points: &[[f64; 2]], columns: usize, rows: usize) -> Vec<Comp
     }
 }
 
-/// The sum as it stands.
+/// Computes the sums term by term.
 pub(super) fn direct(points: &[[f64; 2]], columns: usize, rows: usize) -> Vec<Complex64> {
     let height = 2 * rows + 1;
     let mut sums = vec![Complex64::default(); (columns + 1) * height];
@@ -40,8 +50,10 @@ pub(super) fn direct(points: &[[f64; 2]], columns: usize, rows: usize) -> Vec<Co
     sums
 }
 
-/// The sum by a non-uniform Fourier transform: points are spread over a grid by a smooth kernel, the grid is transformed, and the
-/// kernel's transform divided out (Dutt & Rokhlin 1993; kernel of Barnett et al. 2019).
+/// Computes the sums by a non-uniform Fourier transform.
+///
+/// Sources: Dutt & Rokhlin (1993), <https://doi.org/10.1137/0914081>; kernel of Barnett et al.
+/// (2019), <https://doi.org/10.1137/18M120885X>.
 pub(super) fn gridded(points: &[[f64; 2]], columns: usize, rows: usize) -> Vec<Complex64> {
     let length = |highest: usize| {
         let least = (OVERSAMPLING * (2 * highest + 1) as f64).ceil() as usize;
@@ -52,7 +64,7 @@ pub(super) fn gridded(points: &[[f64; 2]], columns: usize, rows: usize) -> Vec<C
 
     let plan = RealFftPlanner::<f64>::new().plan_fft_forward(width);
     let half = width / 2 + 1;
-    // of each row only the waves asked for are kept
+    // Only the requested waves of each row are kept.
     let mut kept = vec![Complex64::default(); height * (columns + 1)];
     kept.par_chunks_mut(columns + 1).zip(grid.par_chunks_mut(width)).for_each_init(
         || vec![Complex64::default(); half],
@@ -81,7 +93,7 @@ pub(super) fn gridded(points: &[[f64; 2]], columns: usize, rows: usize) -> Vec<C
     sums
 }
 
-/// The points' kernels on a `width` × `height` grid of the torus, row by row.
+/// Returns the points spread by the kernel over a `width` × `height` grid of the torus, row by row.
 fn spread(points: &[[f64; 2]], width: usize, height: usize) -> Vec<f64> {
     let mut grid = vec![0.; width * height];
     let weights = |at: f64| {
@@ -102,14 +114,14 @@ fn spread(points: &[[f64; 2]], width: usize, height: usize) -> Vec<f64> {
     grid
 }
 
-/// At a distance of `t` grid cells.
+/// Returns the kernel at a distance of `t` grid cells from the point.
 fn kernel(t: f64) -> f64 {
     let z = t * (2. / WIDTH as f64);
     let inside = 1. - z * z;
     if inside < 0. { 0. } else { (BETA * (inside.sqrt() - 1.)).exp() }
 }
 
-/// ∫ kernel(t) cos(2πkt/length) dt for k up to `highest`.
+/// Returns ∫ kernel(t) cos(2πkt/length) dt for k up to `highest`, by the midpoint rule.
 fn kernel_transform(highest: usize, length: usize) -> Vec<f64> {
     const NODES_PER_CELL: usize = 16;
     let nodes: Vec<[f64; 2]> = (0..WIDTH * NODES_PER_CELL / 2)
@@ -139,7 +151,7 @@ mod tests {
             let (exact, fast) = (direct(&points, columns, rows), gridded(&points, columns, rows));
             for (k, (a, b)) in exact.iter().zip(&fast).enumerate() {
                 let (a, b) = (a.norm_sqr() / f64::from(n), b.norm_sqr() / f64::from(n));
-                // of the mean power, which is 1, where the power itself is next to nothing
+                // Relative to the mean power, which is 1, where the power itself is close to 0.
                 assert!((a - b).abs() <= 1e-6 * a.max(0.01), "{n} points, wave {k}: {a} {b}");
             }
         }

@@ -1,4 +1,11 @@
-//! The trend of density across a window.
+//! Trend of the density across a window: its size, its significance and its direction.
+//!
+//! 1. Sum cosine waves across the window over the points.
+//! 2. Take the strength of the trend from the five slowest waves and the noise from the next 24
+//!    (`waves`, `polygon`).
+//! 3. Compare both, to estimate the variation of density and to test it against a tolerance
+//!    (`size`).
+//! 4. Fit a quadratic surface, for the direction and the ratio of densities (`surface`).
 
 mod polygon;
 mod size;
@@ -11,65 +18,104 @@ use self::waves::mean_square;
 use crate::geometry::{Point, Window};
 use serde::{Deserialize, Serialize};
 
-/// Chance of calling a variation of [`TREND_TOLERANCE`] significant, and of either end of the interval of its size.
+/// Significance level: the probability of calling a variation of [`TREND_TOLERANCE`] significant.
+///
+/// It also applies to either end of the interval of the variation.
 pub const TREND_LEVEL: f64 = 0.01;
 
-/// Variation of density, as [`Trend::variation`], that is let pass: 10 %. A gradient of X spreads the spacing by X/2 from side to side,
-/// by X/(2√12) of itself as standard deviation: at 10 % by 1.4 %, which by reckoning, not by measurement, lowers the first peak of g(r) (as wide as its kernel, 10 % of
-/// the spacing, or wider) by less than 1 % of its height. A mosaic relaxed against a straight border varies by 2 % at n = 80.
+/// Variation of density, as in [`Trend::variation`], that is tolerated: 10 %.
+///
+/// A gradient of X changes the spacing by X/2 from side to side, with a standard deviation of
+/// X/(2√12) of the spacing, which is 1.4 % at X = 10 %. By calculation, not by measurement, this
+/// lowers the first peak of g(r) by less than 1 % of its height; the peak is at least as wide as
+/// its kernel, 10 % of the spacing. A mosaic relaxed against a straight border varies by 2 % at
+/// n = 80.
 pub const TREND_TOLERANCE: f64 = 0.1;
 
-/// Fewest points for which a trend is tested.
+/// Smallest number of points for which a trend is tested.
 const FEWEST: usize = 20;
-/// Half periods of the waves along one axis alone that measure the scatter of a pattern without trend.
+/// Half-periods of the waves along a single axis that measure the scatter of a pattern without
+/// trend.
 const NOISE_ALONG_AXIS: std::ops::RangeInclusive<usize> = 3..=8;
-/// Waves along both axes that do the same.
+/// Number of waves along both axes that measure the same scatter.
 const NOISE_ACROSS: usize = 12;
-/// The slowest waves, in half periods along x and y: together they can follow a linear or quadratic trend.
+/// Slowest waves, in half-periods along x and y: together they can follow a linear or quadratic
+/// trend.
 const TREND_WAVES: [(usize, usize); 5] = [(1, 0), (0, 1), (2, 0), (1, 1), (0, 2)];
 
-/// Whether the density of a pattern varies across its window, and by how much.
+/// Variation of a pattern's density across its window, and its significance.
+///
+/// For fewer than 20 points, or if a point is not finite, all values are `None` and `significant`
+/// is false.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Trend {
-    /// Chance of a trend this strong in a pattern whose density varies by [`TREND_TOLERANCE`]; `None` for fewer than 20
-    /// points.
+    /// Probability of a trend this strong in a pattern whose density varies by [`TREND_TOLERANCE`].
     pub p_value: Option<f64>,
-    /// Size of the slow variation of density as a share of its mean: √12 times its root mean square, which in a rectangle is the
-    /// difference between opposite edges of a linear gradient as strong. Chance is taken off.
+    /// Size of the slow variation of density as a share of its mean, with the contribution of
+    /// chance removed.
+    ///
+    /// It is √12 times the root mean square of the variation. In a rectangle this is the difference
+    /// between opposite edges of an equally strong linear gradient.
     pub variation: Option<f64>,
-    /// Ends of the interval of 98 % for it.
+    /// Confidence interval (98 %) of the variation.
     pub variation_interval: Option<(f64, f64)>,
-    /// Greatest over least density in the window by a quadratic fit, at most 100. Above 1 by chance alone.
+    /// Ratio of the greatest to the smallest density in the window by a quadratic fit, at most 100;
+    /// above 1 by chance alone.
     pub density_ratio: Option<f64>,
-    /// Change of density from the left to the right edge, as a share of its mean (linear part of the fit).
+    /// Change of density from the left to the right edge, as a share of its mean (linear part of
+    /// the fit).
     pub change_x: Option<f64>,
     /// Change of density from the upper to the lower edge, as a share of its mean.
     pub change_y: Option<f64>,
-    /// p-value below [`TREND_LEVEL`]: the variation is more than [`TREND_TOLERANCE`].
+    /// Flag of a p-value below [`TREND_LEVEL`]: the variation is more than [`TREND_TOLERANCE`].
     pub significant: bool,
 }
 
-/// Measures the trend in density, and tests whether it is more than negligible.
+/// Measures the trend in density and tests whether it is more than negligible.
 ///
-/// A regular pattern scatters far less than a Poisson pattern, so the usual test of quadrat counts against the Poisson
-/// variance sees nothing in it. Here the scatter is estimated from the pattern itself, as in a regression: the
-/// points' sums over cosine waves across the window have, without a trend, zero mean and nearly the same variance (λ
-/// times the structure factor) as long as the waves are much longer than the spacing. The five slowest waves hold
-/// any linear or quadratic trend, the next 24 measure the noise. That density does not vary at all is true of no mosaic,
-/// and nearly crystalline ones scatter so little that they would tell: so what is tested is that it varies by more than
-/// [`TREND_TOLERANCE`].
+/// A regular pattern scatters far less than a Poisson pattern, so the usual test of quadrat counts
+/// against the Poisson variance detects nothing in it. Here the scatter is estimated from the
+/// pattern itself, as in a regression. Without a trend, the points' sums over cosine waves across
+/// the window have zero mean and nearly the same variance (λ times the structure factor), as long
+/// as the waves are much longer than the spacing. The five slowest waves hold any linear or
+/// quadratic trend; the next 24 measure the noise.
 ///
-/// It is the density of this very pattern that is judged. One whose slow waves scatter more than its faster ones is reported even if
-/// it is one of many whose average is even: Lloyd's method smooths variations of density as diffusion does, by a factor
-/// exp(−.15 k²/λ) a step for a wave of k radians per length (fitted by eye to patterns of 80 and 300 points, 10 and 50 steps), so that
-/// after fewer than n steps those across the window are still in good part the random ones that it began with.
+/// No mosaic has an exactly constant density, and nearly crystalline ones scatter so little that
+/// the smallest variation would be significant. The test is therefore whether density varies by
+/// more than [`TREND_TOLERANCE`].
 ///
-/// The structure factor of a regular pattern may rise with frequency: then trends are reported too rarely, not too often.
+/// The density of this particular pattern is judged. A pattern whose slow waves scatter more than
+/// its faster ones is reported even if it is one of many whose average density is even. Lloyd's
+/// method, for example, smooths variations of density as diffusion does: each step multiplies a
+/// wave of k radians per length by exp(−.15 k²/λ) (fitted by eye to patterns of 80 and 300 points,
+/// 10 and 50 steps). After fewer than n steps, the waves across the window are still largely the
+/// random ones of the starting pattern.
 ///
-/// In a polygon the same waves, across its bounds, are made orthonormal over the polygon, slow ones first.
+/// The structure factor of a regular pattern may rise with frequency. Trends are then reported too
+/// rarely, not too often.
 ///
-/// The density itself is fitted by a series of Legendre polynomials up to degree 2; in a polygon by least squares over
-/// its area.
+/// In a polygon the same waves, across its bounds, are made orthonormal over the polygon, slow ones
+/// first.
+///
+/// The density itself is fitted by a series of Legendre polynomials up to degree 2; in a polygon,
+/// by least squares over its area.
+///
+/// # Examples
+/// ```
+/// use conemosaic::prelude::*;
+/// use conemosaic::sample::sampler;
+/// use conemosaic::stats::trend;
+/// use rand::SeedableRng;
+///
+/// let window = Window::rectangle(0., 0., 100., 100.)?;
+/// let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(2);
+/// let even = sampler("jittered")?.sample(900, &window, &mut rng)?;
+/// // stretched towards the right, so that the density falls from left to right
+/// let stretch = |x: f64| 100. * (0.7 * x / 100. + 0.3 * (x / 100.).powi(2));
+/// let uneven: Vec<Point> = even.iter().map(|p| Point::new(stretch(p.x), p.y)).collect();
+/// assert!(!trend(&even, &window).significant && trend(&uneven, &window).significant);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn trend(points: &[Point], window: &Window) -> Trend {
     if points.len() < FEWEST || points.iter().any(|p| !p.is_finite()) {
         return Trend::default();
@@ -88,8 +134,8 @@ pub fn trend(points: &[Point], window: &Window) -> Trend {
             [&TREND_WAVES[..], &along, &across].map(|modes| mean_square(&unit, modes))
         }
     };
-    // Four of the five waves of the trend run along an axis, and so in the noise: the two kinds feel the cut edges of
-    // the window differently.
+    // Four of the five waves of the trend run along a single axis. The noise is mixed in the same
+    // proportion, because the cut edges of the window affect the two kinds of waves differently.
     let scatter = 0.8 * scatter_along + 0.2 * scatter_across;
     let size = Size::new(strength, scatter, points.len());
     let p_value = size.chance_of_more(TREND_TOLERANCE);
@@ -111,7 +157,9 @@ pub fn trend(points: &[Point], window: &Window) -> Trend {
     }
 }
 
-/// The slowest waves along both axes after the trend's, by periods per length in a window of that height over width.
+/// Returns the slowest waves along both axes after those of the trend.
+///
+/// `aspect` is height over width of the window; waves are ordered by periods per length.
 fn noise_across(aspect: f64) -> Vec<(usize, usize)> {
     let most = NOISE_ACROSS + 1;
     let mut modes: Vec<(usize, usize)> = (1..=most)
@@ -132,8 +180,10 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
-    /// Share of `runs` patterns of about n points in which a trend is reported, thinned linearly so that the density at
-    /// the right edge is `ratio` times lower than at the left.
+    /// Returns the share of `runs` patterns of about n points in which a trend is reported.
+    ///
+    /// The patterns are thinned linearly, so that the density at the right edge is `ratio` times
+    /// lower than at the left.
     fn reported(sampler: &dyn Sampler, n: usize, window: &Window, ratio: f64, runs: u64) -> f64 {
         let mean_kept = 0.5 * (1. + 1. / ratio);
         let bounds = window.bounds();
@@ -149,8 +199,11 @@ mod tests {
         found.count() as f64 / runs as f64
     }
 
-    /// Those that mosaics are compared with by default (growing a cone model thousands of times takes minutes), the other fast
-    /// ones, and Lloyd's with the 3n steps that it takes to even out variations as wide as the window.
+    /// Returns the samplers whose patterns should have no trend.
+    ///
+    /// They are those that mosaics are compared with by default (growing a cone model thousands of
+    /// times takes minutes), the other fast ones, and Lloyd's with the 3n steps that it takes to
+    /// even out variations as wide as the window.
     fn stationary(n: usize) -> impl Iterator<Item = &'static dyn Sampler> {
         let lloyd: &dyn Sampler = Box::leak(Box::new(Lloyd { steps: 3 * n, ..Lloyd::DEFAULT }));
         let others = crate::sample::samplers()
@@ -159,7 +212,7 @@ mod tests {
         others.map(|s| crate::sample::as_reference(*s)).chain([lloyd])
     }
 
-    /// As few Lloyd patterns as there is time for.
+    /// Returns the number of patterns to test, smaller for Lloyd's method, which is slow.
     fn runs(sampler: &dyn Sampler, n: usize) -> u64 {
         if sampler.name() == "lloyd" && n > 100 { 20 } else { 150 }
     }
@@ -172,14 +225,14 @@ mod tests {
             for sampler in stationary(n) {
                 let rate = reported(sampler, n, window, 1., runs(sampler, n));
                 println!("{} n {n}: {:.1} % false alarms", sampler.name(), 100. * rate);
-                // 1 % expected; 4 % is 3.7 standard deviations above it.
-                // Step noise has next to no long waves but those that the border makes by cutting it, and these fall with
+                // 1 % is expected; 4 % is 3.7 standard deviations above it. Step noise has hardly
+                // any long waves except those that the cut at the border makes, and these fall with
                 // frequency: up to 5.3 % were measured.
                 let most = if sampler.name() == "step" { 0.08 } else { 0.04 };
                 assert!(rate <= most, "{} at {n}: {rate}", sampler.name());
             }
         }
-        // Neither is it idle: independent points have the level itself.
+        // The test is not too strict either: independent points have the level itself.
         let rate = reported(sampler("uniform").unwrap(), 300, &windows[0], 1., 1500);
         assert!((0.004..0.018).contains(&rate), "{rate}");
     }
@@ -237,7 +290,8 @@ mod tests {
 
     #[test]
     fn fit_tells_the_direction_and_the_ratio_of_a_linear_trend() {
-        // Density falling from 1.5 to .5 of its mean: the distribution is inverted on a fine grid.
+        // Density falls from 1.5 to .5 of its mean; its distribution function is inverted on a fine
+        // grid.
         let side = 200;
         let points: Vec<Point> = (0..side * side)
             .map(|i| {
@@ -257,7 +311,8 @@ mod tests {
         for (name, n, ratio, least) in
             [("dart-throwing", 300, 1.5, 0.85), ("dart-throwing", 150, 2., 0.9), ("jittered", 300, 2., 0.9)]
         {
-            // density 1 + c(u − ½): points of even density u move to where as much of it lies left of them
+            // Points of even density move so that their density becomes 1 + c(u − ½); the share of
+            // points to the left of each stays the same.
             let c: f64 = 2. * (ratio - 1.) / (ratio + 1.);
             let left = 1. - c / 2.;
             let found = (0..100).filter(|&seed| {
@@ -291,7 +346,8 @@ mod tests {
             println!("{steps} steps: variation {:.3}, {found} of 60 found", sum / 60.);
             (sum / 60., found)
         };
-        // the same random points, relaxed for longer: what was reported was there, and goes
+        // The same random points are relaxed for longer: the variation that was reported existed,
+        // and disappears.
         let (early, found) = variation(20);
         assert!(early > 0.2 && found > 40, "{early} {found}");
         let (late, found) = variation(3 * n);
@@ -306,7 +362,7 @@ mod tests {
         let lattice = trend(&points, &window);
         assert!(lattice.variation.unwrap() < 0.01 && lattice.p_value.unwrap() > 0.5, "{lattice:?}");
 
-        // density from 1.25 to .75 of its mean: variation .5
+        // Density falls from 1.25 to .75 of its mean: a variation of .5.
         let held = (0..100).filter(|&seed| {
             let mut rng = ChaCha8Rng::seed_from_u64(seed);
             let mut points = sampler("dart-throwing").unwrap().sample(500, &window, &mut rng).unwrap();
@@ -319,7 +375,8 @@ mod tests {
 
     #[test]
     fn deviate_agrees_with_tables() {
-        // without a tolerated variation the test is that of F(5, 17), 4.3359 at 1 % and 2.8100 at 5 %
+        // Without a tolerated variation the test is that of F(5, 17): 4.3359 at 1 % and 2.8100
+        // at 5 %.
         for (f, level) in [(4.3359, 0.01), (2.81, 0.05)] {
             let p = Size::new(f, 1., 100).chance_of_more(0.);
             assert!((p / level - 1.).abs() < 0.03, "{p}");

@@ -1,16 +1,25 @@
+//! Waves and polynomials over a polygon: orthonormal sums, and least squares.
+//!
+//! Over a polygon the cosine waves are not orthogonal. Their mean products are integrated along the
+//! outline (Green's theorem), and a Cholesky decomposition of that Gram matrix makes the waves
+//! orthonormal.
+
 use super::waves::waves;
 use crate::geometry::{Point, Polygon};
 use crate::numeric::Cholesky;
 use std::f64::consts::{PI, SQRT_2};
 
-/// Pieces of the shorter side of the bounds on which integrands are smooth.
+/// Number of pieces of the shorter side of the bounds; on a piece of that length integrands are
+/// smooth.
 const PIECES: f64 = 16.;
-/// A wave of which less than this share is left when earlier ones are taken off says nothing of its own.
+/// Share below which the rest of a wave, after earlier ones are subtracted, carries no information
+/// of its own.
 const LEAST_OWN: f64 = 1e-3;
 
-/// For each group of modes the mean square of the points' sums over waves cos(jπu)·cos(kπv), made orthonormal over
-/// the polygon and orthogonal to 1, in the order given (Cholesky's decomposition of their Gram matrix, whose entries are
-/// integrated along the outline). Points in units of the polygon's bounds.
+/// Returns, for each group of modes, the mean square of the points' sums over its waves.
+///
+/// The waves cos(jπu)·cos(kπv) are made orthonormal over the polygon and orthogonal to 1, in the
+/// order given. `unit` are the points in units of the polygon's bounds.
 pub(super) fn mean_squares<const N: usize>(
     polygon: &Polygon,
     unit: &[(f64, f64)],
@@ -40,14 +49,17 @@ pub(super) fn mean_squares<const N: usize>(
     })
 }
 
-/// Coefficients c of the function Σ c·term whose mean products with the terms, over the polygon, are `means`. Terms are
-/// polynomials of (u, v) in units of the bounds, at most of degree 2 in u. `None` if the terms are not independent.
+/// Returns the coefficients c of the function Σ c·term whose mean products with the terms over the
+/// polygon are `means`.
+///
+/// Terms are polynomials of (u, v) in units of the bounds, of degree at most 2 in u. Returns `None`
+/// if the terms are not independent.
 pub(super) fn least_squares<const N: usize>(
     polygon: &Polygon,
     terms: [impl Fn((f64, f64)) -> f64; N],
     means: [f64; N],
 ) -> Option<[f64; N]> {
-    // Gauss's rule of 3 nodes integrates products of degree 4 along u exactly
+    // Gauss's rule with 3 nodes is exact for products of degree 4 along u.
     const GAUSS: [(f64, f64); 3] =
         [(-0.774_596_669_241_483_4, 5. / 9.), (0., 8. / 9.), (0.774_596_669_241_483_4, 5. / 9.)];
     let mut gram = [[0.; N]; N];
@@ -70,7 +82,7 @@ pub(super) fn least_squares<const N: usize>(
     (0..N).all(|k| factor.is_own(k)).then_some(solution)
 }
 
-/// Places on the outline, in units of the bounds, with their weights along v.
+/// Returns places on the outline, in units of the bounds, with their weights along v.
 fn rule(polygon: &Polygon) -> impl Iterator<Item = (f64, f64, f64)> {
     let b = polygon.bounds();
     let nodes = polygon.boundary_rule(b.width().min(b.height()) / PIECES);
@@ -88,6 +100,7 @@ struct CosineIntegrals {
 }
 
 impl CosineIntegrals {
+    /// Integrates all means with frequencies up to `most` along the outline.
     fn new(polygon: &Polygon, most: usize) -> Self {
         let side = most + 1;
         let mut means = vec![0.; side * side];
@@ -109,7 +122,8 @@ impl CosineIntegrals {
         Self { side, means }
     }
 
-    /// Mean of the product of two waves, each √2cos where its frequency is not 0.
+    /// Returns the mean of the product of two waves, each with a factor √2 where its frequency is
+    /// not 0.
     fn product(&self, (j, k): (usize, usize), (l, m): (usize, usize)) -> f64 {
         let norm = |k: usize| if k == 0 { 1. } else { SQRT_2 };
         let mean = |a: usize, b: usize| self.means[a * self.side + b];
@@ -142,7 +156,8 @@ mod tests {
         };
         let area = 0.4 + 0.35 * 0.6;
         for (a, b) in [(0, 0), (1, 0), (0, 3), (2, 5), (8, 8)] {
-            // the L is a wide and a high rectangle less what they share, in units of its bounds
+            // The L is a wide and a high rectangle minus their intersection, in units of its
+            // bounds.
             let over_area = rectangle(1., 0.4, a, b) + rectangle(0.35, 1., a, b) - rectangle(0.35, 0.4, a, b);
             let found = integrals.means[a * 9 + b];
             assert!((found - over_area / area).abs() < 1e-12, "{a} {b}: {found}");
@@ -153,7 +168,8 @@ mod tests {
     fn a_plane_is_fitted_exactly() {
         let polygon = l_shape();
         let terms = [|_: (f64, f64)| 1., |(u, _): (f64, f64)| u, |(_, v): (f64, f64)| v];
-        // mean products of 1 + 2u − v with the terms, from those of the terms with each other
+        // Mean products of 1 + 2u − v with the terms follow from those of the terms with each
+        // other.
         let gram = |a: usize, b: usize| {
             let sums = rule(&polygon).map(|(u, v, w)| {
                 let u_power = i32::from(a == 1) + i32::from(b == 1);

@@ -1,6 +1,11 @@
+//! Sums of cosine waves over the points of the unit square.
+
 use std::f64::consts::{PI, SQRT_2};
 
-/// Mean square of the points' sums over waves √2cos(jπx) · √2cos(kπy), each of mean square 1 over the unit square.
+/// Returns the mean square of the points' sums over waves √2cos(jπx) · √2cos(kπy).
+///
+/// Each wave along both axes has mean square 1 over the unit square; where j or k is 0, that factor
+/// is 1.
 pub(super) fn mean_square(unit: &[(f64, f64)], modes: &[(usize, usize)]) -> f64 {
     let most = modes.iter().map(|&(j, k)| j.max(k)).max().unwrap_or(0);
     let (mut across, mut down) = (vec![1.; most + 1], vec![1.; most + 1]);
@@ -15,7 +20,7 @@ pub(super) fn mean_square(unit: &[(f64, f64)], modes: &[(usize, usize)]) -> f64 
     sums.iter().map(|s| s * s).sum::<f64>() / modes.len() as f64
 }
 
-/// 1, √2cos(πu), √2cos(2πu) …, by cos((j+1)t) = 2 cos t cos jt − cos((j−1)t).
+/// Fills `values` with 1, √2cos(πu), √2cos(2πu) …, by cos((j+1)t) = 2 cos t cos jt − cos((j−1)t).
 pub(super) fn waves(u: f64, values: &mut [f64]) {
     let cosine = (PI * u).cos();
     let (mut before, mut now) = (cosine, 1.);

@@ -14,14 +14,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// What a run of the program left behind.
+/// The exit code and the output of a run of the program.
 pub struct Outcome {
     pub code: i32,
     pub stdout: String,
     pub stderr: String,
 }
 
-/// A folder in which the program is run; it goes with the test.
+/// A temporary folder in which the program is run; it is removed when the test ends.
 pub struct Place(TempDir);
 
 impl Place {
@@ -51,7 +51,7 @@ impl Place {
         self.write(to, fs::read(self.path(from)).unwrap());
     }
 
-    /// Runs the program here, with these arguments.
+    /// Runs the program in the folder with these arguments.
     pub fn run(&self, arguments: &[&str]) -> Outcome {
         let output = Command::new(env!("CARGO_BIN_EXE_conemosaic"))
             .current_dir(self.0.path())
@@ -73,7 +73,7 @@ impl Place {
         outcome
     }
 
-    /// Runs the program and insists on exit code 1 and one line of complaint, which is returned.
+    /// Runs the program, insists on exit code 1 and one line of complaint, and returns that line.
     pub fn refused(&self, arguments: &[&str]) -> String {
         let outcome = self.run(arguments);
         assert_eq!(outcome.code, 1, "{arguments:?}\n{}{}", outcome.stdout, outcome.stderr);
@@ -83,12 +83,12 @@ impl Place {
         outcome.stderr
     }
 
-    /// A small simulated image.
+    /// Renders a small image.
     pub fn image(&self, name: &str, seed: u32) {
         self.image_of(name, 64, 56, seed);
     }
 
-    /// A simulated image of a given size in px.
+    /// Renders an image of a given size in px.
     pub fn image_of(&self, name: &str, width: u32, height: u32, seed: u32) {
         fs::create_dir_all(self.path(name).parent().unwrap()).unwrap();
         let (path, seed) = (self.path(name), seed.to_string());
@@ -96,31 +96,31 @@ impl Place {
         self.ok(&["render", "--width", &width, "--height", &height, "--seed", &seed, "--out", path, "-q"]);
     }
 
-    /// Every file below a folder but those of its ledger, by its path in it.
+    /// Returns the content of every file below a folder by its path in it, without the ledger.
     pub fn files(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
         let mut found = BTreeMap::new();
         collect(&self.path(folder), &self.path(folder), &mut found);
         found
     }
 
-    /// Results of a run: all but the record of the run itself, which holds times.
+    /// Returns the results of a run: all files but the record of the run itself, which holds times.
     pub fn results(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
         let mut files = self.files(folder);
         files.remove("run.json");
         files
     }
 
-    /// The paths of these files.
+    /// Returns the paths of the files below a folder.
     pub fn names(&self, folder: &str) -> Vec<String> {
         self.files(folder).into_keys().collect()
     }
 
-    /// The rows of a CSV, each by its column names.
+    /// Returns the rows of a CSV, each by its column names.
     pub fn table(&self, name: &str) -> Vec<BTreeMap<String, String>> {
         table(&self.path(name))
     }
 
-    /// The column names of a CSV.
+    /// Returns the column names of a CSV.
     pub fn header(&self, name: &str) -> Vec<String> {
         let mut reader = csv::Reader::from_path(self.path(name)).unwrap();
         reader.headers().unwrap().iter().map(str::to_owned).collect()
@@ -153,7 +153,8 @@ fn collect(root: &Path, folder: &Path, found: &mut BTreeMap<String, Vec<u8>>) {
     }
 }
 
-/// Too few points for most statistics, collinear, coincident and border ones, as rows x,y of a window of 10 × 10.
+/// Patterns of too few points for most statistics, and of collinear, coincident and border points,
+/// as rows x,y in a window of 10 × 10.
 pub const FEW_POINTS: [&str; 7] = [
     "",
     "5,5\n",
@@ -164,7 +165,7 @@ pub const FEW_POINTS: [&str; 7] = [
     "0,0\n10,0\n0,10\n",
 ];
 
-/// A folder of the shared data, or a word that the test is skipped.
+/// Returns a folder of the shared data; without it, prints that the test is skipped.
 pub fn shared(folder: &str, what: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared").join(folder);
     if path.is_dir() {
@@ -174,7 +175,8 @@ pub fn shared(folder: &str, what: &str) -> Option<PathBuf> {
     None
 }
 
-/// The Python with OpenCV to run scripts with. One that is asked for by CONEMOSAIC_PYTHON must be there.
+/// Returns the Python with OpenCV that runs scripts. One that CONEMOSAIC_PYTHON names must be
+/// there.
 pub fn python() -> Option<PathBuf> {
     if let Some(python) = std::env::var_os("CONEMOSAIC_PYTHON").filter(|p| !p.is_empty()) {
         return Some(python.into());
@@ -183,14 +185,14 @@ pub fn python() -> Option<PathBuf> {
     usual.exists().then_some(usual)
 }
 
-/// A script of the project's, run to its end.
+/// Runs one of the project's scripts to its end.
 pub fn run_script(python: &Path, script: &str, arguments: &[&std::ffi::OsStr]) {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts").join(script);
     let done = Command::new(python).arg(script).args(arguments).output().unwrap();
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
 }
 
-/// Dice coefficient of detections in an image against marks.
+/// Returns the Dice coefficient of detections in an image against marks.
 pub fn dice(found: &Detections, marks: &[Point], image: &Plane) -> f64 {
     validate(marks, &found.centres(), image.ncols(), image.nrows(), &MatchOptions::default())
         .unwrap()
@@ -203,7 +205,7 @@ pub fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
     row[column].parse().unwrap_or_else(|_| panic!("{column}: {:?}", row.get(column)))
 }
 
-/// A simulated image of a preset that `change` has been applied to, and the spacing of all its cones, px.
+/// Returns a simulated image of a preset after `change`, and the spacing of all its cones in px.
 pub fn of_preset(preset: &str, seed: u64, change: impl FnOnce(&mut RenderOptions)) -> (Plane, f64) {
     let (mosaic, mut options) = PRESETS.iter().find(|p| p.name == preset).unwrap().options();
     change(&mut options);
@@ -212,7 +214,8 @@ pub fn of_preset(preset: &str, seed: u64, change: impl FnOnce(&mut RenderOptions
     (simulated.image, true_spacing)
 }
 
-/// With the darkest and the brightest of its pixels, these parts of all, made black and white.
+/// Returns the image with the parts `black` and `white` of its pixels, the darkest and the
+/// brightest, made black and white.
 pub fn exposed(image: &Plane, black: f64, white: f64) -> Plane {
     let mut values: Vec<f32> = image.iter().copied().collect();
     values.sort_by(f32::total_cmp);

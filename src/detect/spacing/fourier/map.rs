@@ -5,18 +5,20 @@ use crate::geometry::Point;
 use crate::image::{EmptyPixels, Plane};
 use std::f64::consts::TAU;
 
-/// Tiles per side of a tile: they overlap by three quarters.
+/// Number of tiles that begin within the side of one tile: tiles overlap by three quarters.
 const PER_SIDE: usize = 4;
-/// The ring of a tile may differ from that of the image by this factor.
+/// Largest factor by which the ring of a tile may differ from that of the image.
 const LOCAL: f64 = 2.;
 
-/// How the spacing is mapped.
+/// Options of a map of the spacing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FourierMapOptions {
-    /// Side of a tile, in spacings of the whole image: 6–60, default 12, some 160 cones, of which the Hann window leaves the weight of a
+    /// Side of a tile, in spacings of the whole image: 6–60, default 12.
+    ///
+    /// A tile of 12 spacings holds some 160 cones, of which the Hann window leaves the weight of a
     /// seventh.
     pub side: f64,
-    /// Which waves are looked at.
+    /// Directions of the waves that are evaluated.
     pub sector: Sector,
 }
 
@@ -27,6 +29,8 @@ impl Default for FourierMapOptions {
 }
 
 impl FourierMapOptions {
+    /// Checks that the side is in its range.
+    ///
     /// # Errors
     /// If the side is out of its range.
     pub fn validate(&self) -> Result<(), DetectError> {
@@ -34,32 +38,43 @@ impl FourierMapOptions {
     }
 }
 
-/// Modal spacing from place to place.
+/// The modal spacing of an image from place to place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FourierMap {
-    /// Side of the tiles, px.
+    /// Side of the tiles in px.
     pub side: usize,
-    /// Middles of the tiles, px: columns, rising.
+    /// Columns of the tiles' middles, px, rising.
     pub x: Vec<f64>,
-    /// And rows.
+    /// Rows of the tiles' middles, px, rising.
     pub y: Vec<f64>,
-    /// What each tile shows by itself, row by row; `None` where it has no ring or too little was imaged.
+    /// Spacing that each tile shows by itself, row by row; `None` where it has no ring or too
+    /// little was imaged.
     pub tiles: Vec<Option<FourierSpacing>>,
-    /// Hexagonal spacing, px: at the middle of a tile the mean logarithm of all tiles, weighted by the square of their confidence and by a
-    /// Hann window as wide as a tile is in both directions.
+    /// Hexagonal spacing in px from place to place.
+    ///
+    /// At the middle of a tile, it is the mean logarithm of the tiles around, weighted by the
+    /// square of their confidence and by a Hann window that reaches one side of a tile in either
+    /// direction along x and y.
     pub spacing: SpacingMap,
-    /// Their mean confidence, with the weights of that window alone; 0 for tiles without a ring. Row by row.
+    /// Mean confidence, 0–1, of the tiles around each middle, row by row.
+    ///
+    /// The weights are those of the Hann window alone. Tiles without a ring count as 0.
     pub confidence: Vec<f64>,
 }
 
-/// Modal spacing all over an image, from tiles of a side of twelve spacings ([`FourierMapOptions::side`]; at least 24 px, at most the shorter
-/// side of the image), overlapping by three quarters; `whole` is what [`fourier_spacing`](super::fourier_spacing) finds in the image. Within a factor of two of the modal spacing of the whole image. Cones much wider
-/// apart than on average fill no tile with enough of them: beyond that factor the map is not to be trusted. At a spacing of 9 px
-/// 1024 × 1024 px take .75 s on two cores, 4096 × 4096 px 17 s.
+/// Maps the modal spacing of an image, from tiles that overlap by three quarters.
+///
+/// A tile has a side of twelve spacings ([`FourierMapOptions::side`]), but at least 24 px and at
+/// most the shorter side of the image. `whole` is the result of
+/// [`fourier_spacing`](super::fourier_spacing) for the image. Only spacings within a factor of two
+/// of its modal spacing are found. Where cones are much farther apart than on average, too few of
+/// them fill a tile: beyond that factor, the map is not to be trusted.
+///
+/// At a spacing of 9 px, 1024 × 1024 px take .75 s on two cores, 4096 × 4096 px 17 s.
 ///
 /// # Errors
-/// If an option is out of its range, the image is too small, its pixels are all the same or one is not a number, or the whole image
-/// has no ring.
+/// If an option is out of its range, the image is too small, its pixels are all the same or one is
+/// not a number, or the whole image has no ring.
 pub fn fourier_map(
     image: &Plane,
     whole: &FourierEstimate,
@@ -124,7 +139,7 @@ pub fn fourier_map(
 }
 
 impl FourierMap {
-    /// Confidence, 0–1, at the nearest middle of a tile.
+    /// Returns the confidence, 0–1, at the middle of the nearest tile.
     pub fn confidence_at(&self, p: Point) -> f64 {
         let nearest = |nodes: &[f64], v: f64| {
             let after = nodes.partition_point(|n| *n < v).min(nodes.len().saturating_sub(1));

@@ -1,13 +1,23 @@
-//! Spacing from the ring that cones leave in the spectrum of an image, without looking for cones, after Cooper, Aguirre & Morgan
-//! (2019, "Fully automated estimation of spacing and density for retinal mosaics").
+//! Spacing from the ring that cones leave in the spectrum of an image, without detecting cones.
 //!
-//! As there, the logarithm of power is averaged over angle, over all of them or over 90° around either axis, and the modal frequency
-//! is where it rises farthest above a smooth background. Different are the background, a cubic over log-frequency fitted
-//! together with the ring by least squares (there two exponentials, by descent from a guess, then a walk to the next peak), and
-//! the confidence, the share of what the background leaves that the ring explains (there the height of the peak in the range of the
-//! residual). It does not depend on the modality. The degree of the background, the width of the ring and the lowest frequency were
-//! chosen among nine combinations by looking at every third or fourth of the marked images and at simulated ones, so that the accuracies
-//! below are those of the chosen, not of images never seen.
+//! The method follows Cooper, Aguirre and Morgan (2019, “Fully automated estimation of spacing and
+//! density for retinal mosaics”), <https://doi.org/10.1167/tvst.8.5.26>:
+//!
+//! 1. The logarithm of power is averaged over all angles, or over the 90° around either axis.
+//! 2. The modal frequency is where that profile rises farthest above a smooth background.
+//!
+//! Two things differ from the paper:
+//!
+//! - The background is a cubic polynomial over log-frequency, fitted together with the ring by
+//!   least squares. In the paper it is two exponentials, fitted by descent from a guess, followed
+//!   by a walk to the next peak.
+//! - The confidence is the share of what the background leaves that the ring explains. In the paper
+//!   it is the height of the peak in the range of the residual.
+//!
+//! The method does not depend on the modality. The degree of the background, the width of the ring
+//! and the lowest frequency were chosen among nine combinations on every third or fourth of the
+//! marked images and on simulated ones. The accuracies given for [`fourier_spacing`] are therefore
+//! those of the best combination, not of images never seen.
 
 mod map;
 mod profile;
@@ -24,56 +34,77 @@ use rayon::prelude::*;
 use ring_fit::RingFit;
 use serde::{Deserialize, Serialize};
 
-/// Longest side of a tile, px.
+/// Longest side of a tile in px.
 const LONGEST: usize = 512;
-/// Images of more pixels are covered by tiles that do not overlap: the mean of so many (at least 16) is steady without.
+/// Number of pixels above which the tiles of an image do not overlap.
+///
+/// There are then at least 16 tiles, whose mean is steady without overlap.
 const LARGE: usize = 16 * LONGEST * LONGEST;
-/// Of a tile, at least this part must have been imaged.
+/// Smallest fraction of a tile that must have been imaged for it to count.
 const IMAGED: f64 = 0.5;
 
 /// The modal spacing of an image, or of a part of it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FourierSpacing {
-    /// Modal spacing 1/f, px, with f the modal frequency: from row to row of a triangular lattice.
+    /// Modal spacing 1/f in px, with f the modal frequency: the distance of the rows of a
+    /// triangular lattice.
     pub row_spacing: f64,
-    /// From cone to cone of the triangular lattice with these rows, px: 2/√3 times as much. Such a lattice has
-    /// 2/(√3 spacing²) cones per px². Mosaics less regular than a lattice are denser than that.
+    /// Distance, px, of neighbouring cones in the triangular lattice with these rows: 2/√3 of
+    /// `row_spacing`.
+    ///
+    /// Such a lattice has 2/(√3 spacing²) cones per px². Mosaics less regular than a lattice are
+    /// denser than that.
     pub spacing: f64,
-    /// Share, 0–1, of the variance of the profile about its background that the ring explains, less what it explains of
-    /// noise by three standard deviations: 0 of noise.
+    /// Share, 0–1, of the variance of the profile about its background that the ring explains.
+    ///
+    /// The part that it would explain of noise at three standard deviations is subtracted: noise
+    /// has 0.
     pub confidence: f64,
 }
 
-/// The modal spacing of an image by the direction of the waves. In a mosaic that is not stretched the three agree, since the first
-/// peaks of a lattice lie on one circle, whatever its orientation. In the confocal images below, those sideways are 6.5 % wider than
-/// those up and down, and so is the ellipse of the marks' neighbours ([`crate::stats::NeighbourEllipse`]), 8.4 %. A split detector shows cones by
-/// their slope in one direction: there the two say nothing of a stretch.
+/// The modal spacing of an image, by the direction of the waves.
+///
+/// In a mosaic that is not stretched the three spacings agree, since the first peaks of a lattice
+/// lie on one circle, whatever its orientation. In the confocal images on which [`fourier_spacing`]
+/// was measured, the spacings sideways are 6.5 % wider than those up and down. The ellipse of the
+/// marks' neighbours ([`crate::stats::NeighbourEllipse`]) is stretched in the same way, by 8.4 %.
+///
+/// A split detector shows cones by their slope in one direction; there, the two directions say
+/// nothing about a stretch.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FourierEstimate {
-    /// Side of the tiles that the spectrum is a mean over, px.
+    /// Side, px, of the tiles whose spectra are averaged.
     pub side: usize,
-    /// All directions; `None`, here and below, where the profile has no ring.
+    /// Spacing from all directions; `None`, here and below, if the profile has no ring.
     pub all: Option<FourierSpacing>,
-    /// Waves within 45° of the y axis.
+    /// Spacing from waves within 45° of the y axis.
     pub row: Option<FourierSpacing>,
-    /// Waves within 45° of the x axis.
+    /// Spacing from waves within 45° of the x axis.
     pub cell: Option<FourierSpacing>,
 }
 
-/// Modal spacing of an image between 4 and 40 px (but at most a fifth of its shorter side from row to row), from the spectra of
-/// half-overlapping square tiles that are as large as the image allows, up to 512 px (beyond 4 megapixels they only touch). Pixels that were not imaged are filled in, and
-/// tiles of which more than half was not are left out unless all are.
+/// Returns the modal spacing of an image, from the spectra of square tiles.
 ///
-/// A mosaic has a ring because its patches of lattice are turned every way. A single perfect lattice has six points instead,
-/// which the mean of logarithms hardly sees: it may be missed.
+/// The spacing lies between 4 and 40 px; the row spacing is at most a fifth of the shorter side.
+/// Tiles are as large as the image allows, up to 512 px, and overlap by half; beyond 4 megapixels
+/// they only touch. Pixels that were not imaged are filled in, and tiles that are mostly such
+/// pixels are left out unless all tiles are.
 ///
-/// Against the spacing of the lattice with the density of the marks (`tests/it/fourier_spacing.rs` measures it): of 200 confocal images
-/// all are within 15 %, on average 3.5 % wider, standard deviation 1.6 %, and the ring of the marks themselves
-/// ([`modal_spacing`](crate::stats::modal_spacing)) is 3.0 % wider, 1.9 %: mosaics are no lattices. Of 184 split-detector images 84 % are within 15 %
-/// (−2.9 %, 5.5 %), by the ring of the marks as many.
+/// A mosaic has a ring because its patches of lattice are turned every way. A single perfect
+/// lattice has six points instead, which the mean of logarithms hardly shows: it may be missed.
+///
+/// The accuracy is measured by `tests/it/fourier_spacing.rs` against the spacing of the lattice
+/// with the density of the marks:
+///
+/// - Of 200 confocal images all are within 15 %, on average 3.5 % too wide (standard deviation
+///   1.6 %). The ring of the marks themselves ([`modal_spacing`](crate::stats::modal_spacing)) is
+///   3.0 % too wide (1.9 %), because mosaics are no lattices.
+/// - Of 184 split-detector images 84 % are within 15 % (on average −2.9 %, standard deviation
+///   5.5 %), as many as by the ring of the marks.
 ///
 /// # Errors
-/// If a side is below [`MIN_SIDE`](crate::detect::MIN_SIDE), all pixels are the same, or one is not a number.
+/// If a side is below [`MIN_SIDE`](crate::detect::MIN_SIDE), all pixels are the same, or one is not
+/// a number.
 pub fn fourier_spacing(image: &Plane) -> Result<FourierEstimate, DetectError> {
     check(image)?;
     let empty = EmptyPixels::of(image);
@@ -81,6 +112,7 @@ pub fn fourier_spacing(image: &Plane) -> Result<FourierEstimate, DetectError> {
     Ok(estimate(filled.as_ref().unwrap_or(image), empty.as_ref()))
 }
 
+/// Returns the modal spacing of an image whose `empty` pixels are already filled in.
 fn estimate(image: &Plane, empty: Option<&EmptyPixels>) -> FourierEstimate {
     let (height, width) = image.dim();
     let side = height.min(width).min(LONGEST);
@@ -102,7 +134,9 @@ fn estimate(image: &Plane, empty: Option<&EmptyPixels>) -> FourierEstimate {
     FourierEstimate { side, all, row, cell }
 }
 
-/// Profiles of the tiles with their first pixels in these columns and rows, row by row; none where too little was imaged.
+/// Returns the profiles of the tiles with their first pixels in these columns and rows, row by row.
+///
+/// A tile has none if too little of it was imaged.
 fn profiles(
     image: &Plane,
     polar: &Polar,
@@ -120,7 +154,9 @@ fn profiles(
     corners.par_iter().map(profile).collect()
 }
 
-/// First pixels of tiles of `side` px that cover a length from end to end, one at least every `side`/`per_side` px.
+/// Returns the first pixels of tiles of `side` px that cover a length from end to end.
+///
+/// There is one at least every `side`/`per_side` px.
 fn starts(length: usize, side: usize, per_side: usize) -> Vec<usize> {
     let room = length.saturating_sub(side);
     let steps = room.div_ceil((side / per_side).max(1));
@@ -197,7 +233,7 @@ mod tests {
         let mut broken = picture(&MosaicOptions::default(), 50, 50);
         broken[[3, 4]] = f32::NAN;
         assert!(matches!(fourier_spacing(&broken), Err(DetectError::NotFinite { x: 4, y: 3, .. })));
-        // the logarithm of the power of huge and tiny values
+        // squares of such values are close to the limits of single precision
         for factor in [1e-15, 1e15] {
             let scaled = picture(&MosaicOptions::default(), 100, 100).mapv(|v| v * factor);
             assert!((fourier_spacing(&scaled).unwrap().all.unwrap().spacing / 9. - 1.).abs() < 0.15);

@@ -1,14 +1,22 @@
+//! Radial profile of the power spectrum of a square tile.
+//!
+//! 1. The tile is taken less its mean, under a Hann window along both axes, and padded with zeros.
+//! 2. The logarithm of the power of its transform is averaged over angle, in sectors.
+//!
+//! The logarithm comes before the mean, so that a few strong terms do not dominate it.
+
 use crate::image::{Plane, Spectrum, crop, fast_length, signed_frequency};
 
-/// Terms of the transform per term that a tile has of its own: zeros behind the tile interpolate the spectrum.
+/// Zero-padding factor of the transform: tiles are padded to this multiple of their side, which
+/// interpolates the spectrum.
 const PADDING: usize = 2;
-/// Power below this part of the mean counts as this part: a term without any has no logarithm.
+/// Smallest power, as a fraction of the mean: a term without power has no logarithm.
 const FLOOR: f32 = 1e-12;
 
-/// Which directions of the spectrum are averaged over.
+/// Directions of the spectrum over which the power is averaged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sector {
-    /// All of them.
+    /// All directions of the spectrum.
     #[default]
     All,
     /// The upper and lower 90°: waves that run up and down, from row to row of cones.
@@ -18,10 +26,10 @@ pub enum Sector {
 }
 
 impl Sector {
-    /// Every sector, in the order in which profiles are stored.
+    /// All sectors, in the order in which profiles are stored.
     pub(super) const ALL: [Self; 3] = [Self::All, Self::Row, Self::Cell];
 
-    /// Which part of all directions it is.
+    /// Returns the fraction of all directions that the sector covers.
     pub(super) const fn part(self) -> f64 {
         match self {
             Self::All => 1.,
@@ -30,31 +38,40 @@ impl Sector {
     }
 }
 
-/// Mean decimal logarithm of power at every radius, a cycle per `size` px apart, in the three sectors.
+/// Mean decimal logarithms of power in the three sectors, at radii that are one cycle per `size` px
+/// apart.
 pub(super) type Profile = [Vec<f64>; 3];
 
-/// One term of the transform: where it lies, which two radii share it and how, and whether it is of the row sector.
+/// One term of the transform, and its shares in the profile.
 struct Term {
+    /// Index in the transform's order of storage.
     index: u32,
+    /// Lower of the two radii that share the term.
     radius: u16,
+    /// Share of the upper radius.
     upper_share: f32,
+    /// `true` if the term belongs to the row sector.
     row: bool,
+    /// Number of terms that it stands for.
     weight: f32,
 }
 
 /// The spectrum of square tiles of one size in polar coordinates.
 pub(super) struct Polar {
+    /// Side of a tile in px.
     pub side: usize,
-    /// Side of the transform, px.
+    /// Side of the transform in px.
     pub size: usize,
+    /// Hann window along a side of the tile.
     taper: Vec<f32>,
+    /// Terms of the transform inside its largest circle.
     terms: Vec<Term>,
-    /// Weight of each radius in each sector.
+    /// Sum of the weights at each radius of each sector.
     weights: Profile,
 }
 
 impl Polar {
-    /// For tiles of `side` px.
+    /// Prepares the transform of tiles of `side` px.
     pub fn new(side: usize) -> Self {
         let size = fast_length(PADDING * side);
         let radii = size / 2 + 1;
@@ -82,9 +99,7 @@ impl Polar {
         Self { side, size, taper, terms, weights }
     }
 
-    /// The profile of the tile of an image whose first pixel is (`left`, `top`): less its mean, under a Hann window along either
-    /// axis, continued by zeros to twice its size. The logarithm is taken before the mean, so that a few strong terms do not
-    /// rule it.
+    /// Returns the profile of the tile of an image whose first pixel is (`left`, `top`).
     pub fn profile(&self, image: &Plane, top: usize, left: usize) -> Profile {
         let mut tile = crop(image, top, left, self.side, self.side);
         let mean = (tile.iter().map(|v| f64::from(*v)).sum::<f64>() / tile.len() as f64) as f32;
@@ -96,14 +111,14 @@ impl Polar {
         let mut profile =
             summed(&self.terms, self.size / 2 + 1, |t| power[t.index as usize].max(floor).log10());
         for (sums, weights) in profile.iter_mut().zip(&self.weights) {
-            // radii of a sector between whose terms it has none
+            // a sector may have no term near a radius: its sum is 0, too
             sums.iter_mut().zip(weights).for_each(|(sum, weight)| *sum /= weight.max(1e-9));
         }
         profile
     }
 }
 
-/// Sums over terms, by radius and sector.
+/// Returns the sums of `value` over the terms, by radius and sector.
 fn summed(terms: &[Term], radii: usize, value: impl Fn(&Term) -> f32) -> Profile {
     let mut sums = [vec![0.; radii], vec![0.; radii], vec![0.; radii]];
     for term in terms {
@@ -118,7 +133,7 @@ fn summed(terms: &[Term], radii: usize, value: impl Fn(&Term) -> f32) -> Profile
     sums
 }
 
-/// The mean of profiles; `None` without any.
+/// Returns the mean of profiles; `None` without any.
 pub(super) fn mean(profiles: &[Profile]) -> Option<Profile> {
     let (first, others) = profiles.split_first()?;
     let mut mean = first.clone();

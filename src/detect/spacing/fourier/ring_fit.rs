@@ -1,44 +1,62 @@
+//! Least-squares fit of a background and a ring to the profile of a spectrum.
+//!
+//! Over the logarithm of frequency, from three periods per tile to half a cycle per px, the
+//! logarithm of power is modelled as a cubic polynomial plus a Gaussian. All but the Gaussian's
+//! place is linear, so every place is tried and no starting guess is needed.
+//!
+//! 1. Orthonormal polynomials over the places of the profile are prepared once, and for every place
+//!    that is tried the normalised part of the Gaussian that they leave.
+//! 2. The square of its product with the profile is what the Gaussian explains beyond the
+//!    background.
+//! 3. The highest peak of that over all places, refined by a parabola, is the ring.
+
 use super::FourierSpacing;
 use crate::detect::SPACING_RANGE;
 use crate::geometry::lattice_dual;
 use std::ops::RangeInclusive;
 
-/// Places per octave of frequency at which profiles are fitted, and at which rings are tried.
+/// Number of places per octave of frequency at which profiles are fitted.
 const PER_OCTAVE: f64 = 24.;
+/// Number of places per octave of frequency at which rings are tried.
 const TRIED_PER_OCTAVE: f64 = 48.;
-/// Slower waves than these, in periods per tile, are illumination, and what the Hann window leaves of the mean.
+/// Lowest frequency of the fit, in periods per tile.
+///
+/// Slower waves are illumination, and what the Hann window leaves of the mean.
 const FIRST: f64 = 3.;
-/// A ring of fewer periods per tile than this cannot be told from the background.
+/// Smallest number of periods per tile with which a ring can be told from the background.
 const PERIODS: f64 = 5.;
-/// Degree of the polynomial that is the background.
+/// Degree of the polynomial that models the background.
 const DEGREE: usize = 3;
-/// Standard deviation of a ring in the natural logarithm of frequency. With .15 instead spacings are on average .05 % wider in
-/// confocal images, .5 % closer in split-detector ones, 1.2 % wider in simulated histology.
+/// Standard deviation of a ring in the natural logarithm of frequency.
+///
+/// With .15 instead, spacings are on average .05 % wider in confocal images, .5 % closer in
+/// split-detector ones and 1.2 % wider in simulated histology.
 const WIDTH: f64 = 0.12;
 
-/// Least squares of a background and a ring to profiles of tiles of one size.
-///
-/// Over the logarithm of frequency from three periods per tile to half a cycle per px, the logarithm of power is a cubic polynomial
-/// plus a Gaussian. All but the Gaussian's place is linear, so that every place can be tried and none is a guess to start from.
+/// The prepared fit of a background and a ring to profiles of tiles of one size.
 pub(super) struct RingFit {
+    /// Side of the tiles in px.
     side: f64,
-    /// Where profiles are read: radius and share of the next.
+    /// Places at which profiles are read: a radius, and the share of the next one.
     places: Vec<(usize, f64)>,
-    /// Orthonormal polynomials over them.
+    /// Orthonormal polynomials over these places.
     background: Vec<Vec<f64>>,
-    /// Logarithms of frequency, in cycles per px, and the ring there, less its part that is background, normalised.
+    /// Rings that are tried: the logarithm of frequency (cycles per px), and the normalised part of
+    /// the ring that the background leaves.
     rings: Vec<(f64, Vec<f64>)>,
 }
 
-/// Variance of the decimal logarithm of the power of noise, which is exponentially distributed: π²/(6 ln²10).
+/// Variance of the decimal logarithm of the power of noise: π²/(6 ln²10).
+///
+/// The power of noise is exponentially distributed.
 const SCATTER: f64 = 0.3102;
-/// Terms of the transform of a tile that a Hann window makes one, along a line.
+/// Number of neighbouring terms of a tile's transform, along a line, that a Hann window makes one.
 const CORRELATED: f64 = 1.5;
-/// Rings within so many standard deviations of the scatter of power are none.
+/// Number of standard deviations of the scatter of power within which a ring does not count.
 const DEVIATIONS: f64 = 3.;
 
 impl RingFit {
-    /// For tiles of `side` px transformed to `size` terms.
+    /// Prepares the fit for tiles of `side` px whose transform has `size` × `size` terms.
     pub fn new(side: usize, size: usize) -> Self {
         let first = (FIRST / side as f64).ln();
         let step = std::f64::consts::LN_2 / PER_OCTAVE;
@@ -64,9 +82,11 @@ impl RingFit {
         Self { side: side as f64, places, background, rings }
     }
 
-    /// The ring of a profile among these hexagonal spacings, px; `None` if there is none: nowhere between their ends does a ring
-    /// explain more of the profile than beside it. `part` is how many tiles the profile is a mean over, times the part of all
-    /// directions.
+    /// Returns the ring of a profile, among these hexagonal spacings in px.
+    ///
+    /// `None` if there is no ring: nowhere strictly between the ends does a ring explain more of
+    /// the profile than beside it. `part` is the number of tiles that the profile is a mean over,
+    /// times the fraction of all directions.
     pub fn ring(&self, profile: &[f64], part: f64, spacings: RangeInclusive<f64>) -> Option<FourierSpacing> {
         let at = |&(k, share): &(usize, f64)| profile[k] + share * (profile[k + 1] - profile[k]);
         let values: Vec<f64> = self.places.iter().map(at).collect();
@@ -94,8 +114,11 @@ impl RingFit {
         })
     }
 
-    /// What a ring explains on average of the scatter of power around a circle of one tile, half of which mirrors the other:
-    /// variance of the mean over the terms on it, times the places that share them.
+    /// Returns the sum of squares that a ring explains, on average, of noise in the profile of one
+    /// tile.
+    ///
+    /// That is the variance of the mean over the terms on a circle, half of which mirrors the
+    /// other, times the number of places of the profile that share these terms.
     fn chance(&self, frequency: f64) -> f64 {
         let radius = frequency * self.side;
         let variance = SCATTER * CORRELATED / (std::f64::consts::PI * radius);
@@ -105,7 +128,8 @@ impl RingFit {
     }
 }
 
-/// A vector less its parts along orthonormal others, of length 1; `None` if nothing is left.
+/// Returns a vector less its components along the orthonormal `others`, normalised to length 1;
+/// `None` if nothing is left.
 fn without(mut vector: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64>> {
     let before = dot(&vector, &vector);
     for other in others {
@@ -116,6 +140,7 @@ fn without(mut vector: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64>> {
     (length > 1e-9 * before.sqrt()).then(|| vector.into_iter().map(|v| v / length).collect())
 }
 
+/// Returns the scalar product of two vectors.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
@@ -124,7 +149,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// A profile at radii of 1/400 cycles per px that is all that the model says.
+    /// Returns a profile that the model describes exactly, at radii of 1/400 cycles per px.
     fn profile(frequency: f64, height: f64) -> Vec<f64> {
         let at = |k: i32| {
             let log = (f64::from(k.max(1)) / 400.).ln();
@@ -151,7 +176,7 @@ mod tests {
     fn without_a_ring_or_with_one_elsewhere_there_is_none() {
         let fit = RingFit::new(200, 400);
         assert_eq!(fit.ring(&[1.; 201], 1., 4. ..=40.), None);
-        // a dip, seen where there is nothing else
+        // a dip instead of a ring, and only spacings around it are allowed
         assert_eq!(fit.ring(&profile(0.1, -1.), 1., 10. ..=13.), None);
         assert_eq!(fit.ring(&profile(0.1, 1.), 1., 14. ..=40.).filter(|r| r.confidence > 0.5), None);
     }

@@ -1,0 +1,80 @@
+//! Compares mosaics with a sampler of one's own.
+//!
+//!     cargo run --release --example own_sampler
+//!
+//! Implement [`Sampler`] and every comparison takes it: curves, l-infinity distances, verdicts. The
+//! sampler here is a hard-core process made by removal: points are drawn at random, and of any two
+//! that are too near each other the later one is removed (Matérn's second process).
+
+use conemosaic::compare::{References, l_infinity};
+use conemosaic::prelude::*;
+use conemosaic::sample::{Frame, SampleError, sampler};
+use rand::{Rng, RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// Points at random, thinned so that no two are nearer than a share of the spacing.
+///
+/// Matérn, *Spatial Variation*, 2nd ed. (1986), <https://doi.org/10.1007/978-1-4615-7892-5>.
+#[derive(Debug)]
+struct Matern {
+    /// Least distance between two points, in hexagonal spacings of the points that stay.
+    least: f64,
+}
+
+impl Sampler for Matern {
+    fn name(&self) -> &'static str {
+        "matern"
+    }
+
+    fn about(&self) -> &'static str {
+        "independent points; of two that are too near, the later one is removed; about n"
+    }
+
+    fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
+        let radius = self.least * frame.spacing(n);
+        // A point stays if it is the first within `radius` of itself: of λ points per area that is a
+        // share (1 − e^−λc) / λc, where c is the area of that disk. Solved for λ, so that n stay.
+        let area = frame.width * frame.height;
+        let disk = std::f64::consts::PI * radius * radius;
+        let drawn = -(1. - n as f64 * disk / area).ln() / disk * area;
+        let points: Vec<Point> = (0..drawn.round() as usize)
+            .map(|_| {
+                let (u, v): (f64, f64) = (rng.random(), rng.random());
+                frame.place(u * frame.width, v * frame.height)
+            })
+            .collect();
+        let stays = |&i: &usize| points[..i].iter().all(|p| distance(*p, points[i], frame) >= radius);
+        Ok((0..points.len()).filter(stays).map(|i| points[i]).collect())
+    }
+}
+
+/// Returns the distance between two points, around the edges if the frame is a torus.
+fn distance(a: Point, b: Point, frame: &Frame) -> f64 {
+    let along = |d: f64, side: f64| if frame.torus { d.abs().min(side - d.abs()) } else { d.abs() };
+    along(a.x - b.x, frame.width).hypot(along(a.y - b.y, frame.height))
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    static MATERN: Matern = Matern { least: 0.5 };
+    let options = PcfOptions::default();
+    let references = References::new(vec![&MATERN, sampler("uniform")?], options.clone(), 1);
+
+    println!("mosaic          RI     l∞ to matern   l∞ to uniform");
+    let window = Window::rectangle(0., 0., 200., 200.)?;
+    let others = ["uniform", "jittered", "dart-throwing", "triangular"];
+    for source in others.map(sampler).into_iter().collect::<Result<Vec<_>, _>>()? {
+        let points = source.sample(400, &window, &mut ChaCha8Rng::seed_from_u64(7))?;
+        let (mosaic, _) = Mosaic::new(points, window.clone(), LengthUnit::Unit, None)?;
+        let measures = measure(&mosaic, &MeasureOptions::default());
+        let g = pcf(mosaic.points(), &window, &options)?;
+        let distances: Vec<f64> = references
+            .curves(mosaic.len(), &window)
+            .curves
+            .iter()
+            .map(|curve| l_infinity(&g, &curve.pcf))
+            .collect::<Result<_, _>>()?;
+        let ri = measures.summary.nearest.ri.unwrap_or(f64::NAN);
+        println!("{:<14}  {ri:<5.2}  {:<13.2}  {:.2}", source.name(), distances[0], distances[1]);
+    }
+    Ok(())
+}
