@@ -1,4 +1,4 @@
-//! The type that travels: points, the window they were seen in, and the scale of that window.
+//! The central data type: points, the window in which they were seen, and the scale of that window.
 //!
 //! # Examples
 //! ```
@@ -26,7 +26,7 @@ use crate::geometry::{Point, Window, WindowError};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// The unit of a mosaic's coordinates.
+/// Length unit of a mosaic's coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LengthUnit {
     /// Image pixels; pixel (0, 0) is the centre of the top-left pixel.
@@ -41,8 +41,10 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
-    /// What a length in this unit is multiplied by to be in `wanted`; `None` if that takes a scale that is not known, or one of the two
-    /// is the unit square.
+    /// Returns the factor that converts a length in this unit to the unit `wanted`.
+    ///
+    /// `None` if the conversion needs a scale that is not known, or if only one of the two units is
+    /// [`Unit`](Self::Unit).
     pub fn factor_to(self, wanted: Self, scale: Option<Scale>) -> Option<f64> {
         match (self, wanted) {
             _ if self == wanted => Some(1.),
@@ -52,7 +54,7 @@ impl LengthUnit {
         }
     }
 
-    /// As it stands in column headers: `px`, `um`, `unit`.
+    /// Returns the symbol that column headers use: `px`, `um` or `unit`.
     pub const fn symbol(self) -> &'static str {
         match self {
             Self::Pixel => "px",
@@ -70,17 +72,17 @@ pub enum MosaicError {
     NotFinite {
         /// 0-based index of the point.
         index: usize,
-        /// Its x.
+        /// The x coordinate that was given.
         x: f64,
-        /// Its y.
+        /// The y coordinate that was given.
         y: f64,
     },
-    /// A window that is none.
+    /// The window has no valid shape.
     #[error(transparent)]
     Window(#[from] WindowError),
 }
 
-/// Cone centres, where they could have been seen, and how large that is.
+/// Cone centres with the window in which they could have been seen, its unit and its scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mosaic {
     points: Vec<Point>,
@@ -90,8 +92,10 @@ pub struct Mosaic {
 }
 
 impl Mosaic {
-    /// The points that lie in `window` (border included), and how many did not.
-    /// `scale` counts for pixels only; without it results stay in pixels and say so.
+    /// Makes a mosaic of the points inside `window`, and counts those outside, which are left out.
+    ///
+    /// Points on the border count as inside. `unit` is the unit of both the points and the window.
+    /// `scale` applies to pixels only; without it, results stay in pixels and say so.
     ///
     /// # Errors
     /// If a coordinate is not finite.
@@ -111,22 +115,22 @@ impl Mosaic {
         Ok((Self { points, window, unit, scale }, dropped))
     }
 
-    /// The points, in the order given.
+    /// Returns the points, in the order given.
     pub fn points(&self) -> &[Point] {
         &self.points
     }
 
-    /// Where points could have been seen.
+    /// Returns the window in which points could have been seen.
     pub const fn window(&self) -> &Window {
         &self.window
     }
 
-    /// The unit of the coordinates and of the window.
+    /// Returns the unit of the coordinates and of the window.
     pub const fn unit(&self) -> LengthUnit {
         self.unit
     }
 
-    /// Micrometres per unit of the coordinates, if known.
+    /// Returns the micrometres per unit of the coordinates, or `None` if they are not known.
     pub fn micrometres_per_unit(&self) -> Option<f64> {
         match self.unit {
             LengthUnit::Pixel => self.scale.map(|s| s.micrometres_per_pixel()),
@@ -135,35 +139,38 @@ impl Mosaic {
         }
     }
 
-    /// Pixels to micrometres and degrees, if known.
+    /// Returns the scale from pixels to micrometres and degrees, or `None` if it is not known.
     pub const fn scale(&self) -> Option<Scale> {
         self.scale
     }
 
-    /// Number of points.
+    /// Returns the number of points.
     pub fn len(&self) -> usize {
         self.points.len()
     }
 
-    /// Whether there is no point.
+    /// Returns whether the mosaic has no points.
     pub fn is_empty(&self) -> bool {
         self.points.is_empty()
     }
 
-    /// Points per squared unit: n / A, without edge correction.
+    /// Returns the density in points per squared unit: n / A, without edge correction.
     pub fn density(&self) -> f64 {
         self.points.len() as f64 / self.window.area()
     }
 
-    /// Hexagonal spacing of this density, in units of the coordinates; `None` without points.
+    /// Returns the hexagonal spacing of this density, in units of the coordinates.
+    ///
+    /// See [`hexagonal_spacing`]; `None` if there are no points.
     pub fn hexagonal_spacing(&self) -> Option<f64> {
         hexagonal_spacing(self.points.len(), self.window.area())
     }
 }
 
-/// Distance of neighbours in the perfect triangular lattice of n points in `area`:
-/// s = √(2 A / (√3 n)), twice the r_max of Gamito & Maddock (2009, eq. 5,
-/// <https://doi.org/10.1145/1640443.1640451>). `None` for n = 0.
+/// Returns the distance between neighbours in the perfect triangular lattice of n points in `area`.
+///
+/// s = √(2 A / (√3 n)), which is twice the r_max of Gamito & Maddock (2009, eq. 5),
+/// <https://doi.org/10.1145/1640443.1640451>. `None` for n = 0.
 pub fn hexagonal_spacing(n: usize, area: f64) -> Option<f64> {
     (n > 0).then(|| (2. * area / (3f64.sqrt() * n as f64)).sqrt())
 }

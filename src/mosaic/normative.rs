@@ -1,12 +1,16 @@
-//! What is known of cone density by place in the average eye.
+//! Cone density to expect at a place of the average eye, for comparison with a measured density.
+//!
+//! The values are those of Curcio, Sloan, Kalina & Hendrickson (1990),
+//! <https://doi.org/10.1002/cne.902920402>, along four meridians. Between two eccentricities the
+//! logarithm of the density is interpolated linearly.
 
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 use strum::{Display, IntoStaticStr, VariantArray};
 
-// Eccentricity in mm of retina, cones per mm²: Curcio, Sloan, Kalina & Hendrickson (1990,
-// <https://doi.org/10.1002/cne.902920402>), read off their published curves, means of their eyes.
-// The nasal one has no value at 4 mm, where the optic disc is.
+// Each entry is the eccentricity in mm of retina and the cones per mm² there, read off the
+// published curves, which are means over the eyes. The nasal meridian has no value at 4 mm, where
+// the optic disc is.
 const NASAL: &[(f64, f64)] = &[
     (0., 196_000.),
     (0.05, 154_000.),
@@ -145,7 +149,7 @@ const INFERIOR: &[(f64, f64)] = &[
     (19., 4_700.),
 ];
 
-/// Direction from the fovea on the retina (not in the visual field, where it is the opposite one).
+/// Direction from the fovea on the retina, which is opposite to the direction in the visual field.
 #[derive(
     Clone,
     Copy,
@@ -162,18 +166,18 @@ const INFERIOR: &[(f64, f64)] = &[
 #[serde(rename_all = "snake_case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Meridian {
-    /// Towards the nose and the optic disc.
+    /// Direction towards the nose and the optic disc.
     Nasal,
-    /// Towards the temple.
+    /// Direction towards the temple.
     Temporal,
-    /// Upwards.
+    /// Direction upwards on the retina.
     Superior,
-    /// Downwards.
+    /// Direction downwards on the retina.
     Inferior,
 }
 
 impl Meridian {
-    /// Returns the word for it in options and tables.
+    /// Returns the word for the meridian in options and tables.
     pub fn name(self) -> &'static str {
         self.into()
     }
@@ -187,13 +191,15 @@ impl Meridian {
         }
     }
 
-    /// The greatest eccentricity at which the density along it is known, in mm.
+    /// Returns the greatest eccentricity, in mm, at which the density on this meridian is known.
     pub fn farthest(self) -> f64 {
         self.densities().last().map_or(0., |(at, _)| *at)
     }
 
-    /// Cones per mm² at that many mm of retina from the fovea, between the values known by the logarithm; `None` beyond the last
-    /// of them, and for what is no distance.
+    /// Returns the cones per mm² at this eccentricity, in mm of retina from the fovea.
+    ///
+    /// The logarithm of the density is interpolated between the known values. `None` beyond the
+    /// last of them, and if the eccentricity is negative or not a number.
     pub fn cones_per_mm2(self, eccentricity_mm: f64) -> Option<f64> {
         let known = self.densities();
         let after = known.partition_point(|(at, _)| *at < eccentricity_mm);
@@ -210,7 +216,10 @@ impl Meridian {
 impl FromStr for Meridian {
     type Err = String;
 
-    /// Its name or the first letter of it, in any case.
+    /// Reads the name of a meridian or its first letter, in upper or lower case.
+    ///
+    /// # Errors
+    /// If the text is neither; the message lists the four names.
     fn from_str(text: &str) -> Result<Self, String> {
         let text = text.trim().to_lowercase();
         let fits = |m: &Self| text == m.name() || text == m.name()[..1];
@@ -225,13 +234,16 @@ impl FromStr for Meridian {
 pub struct RetinalPlace {
     /// Distance from the fovea along the retina, in mm.
     pub eccentricity_mm: f64,
-    /// In which direction; `None`: not known.
+    /// Direction from the fovea; `None` if it is not known.
     pub meridian: Option<Meridian>,
 }
 
 impl RetinalPlace {
-    /// Cones per mm² in the average eye (Curcio et al. 1990): along its meridian, or the mean of all four. `None` beyond 18 mm
-    /// (19–22 mm along a meridian), where they end.
+    /// Returns the cones per mm² at this place in the average eye.
+    ///
+    /// This is the value on the meridian or, if that is not known, the mean of all four (Curcio et
+    /// al. 1990, <https://doi.org/10.1002/cne.902920402>). `None` beyond the published values,
+    /// which end at 18 mm (temporal, and the mean) to 22 mm (nasal).
     pub fn expected_cones_per_mm2(&self) -> Option<f64> {
         match self.meridian {
             Some(meridian) => meridian.cones_per_mm2(self.eccentricity_mm),

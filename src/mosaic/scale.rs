@@ -1,15 +1,19 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// Retinal micrometres per degree of visual angle in the average eye (Drasdo & Fowler 1974,
-/// <https://doi.org/10.1136/bjo.58.8.709>, as Lanaro et al. use it).
+/// Retinal micrometres per degree of visual angle in the average eye.
+///
+/// Drasdo & Fowler (1974), <https://doi.org/10.1136/bjo.58.8.709>, with the value that Lanaro et
+/// al. use.
 pub const MICROMETRES_PER_DEGREE: f64 = 288.;
 
-/// Axial length, in mm, of the eye in which a degree spans 291 µm (the rule of the Metricks package).
+/// Axial length, in mm, of the eye in which a degree spans 291 µm (the rule of the Metricks
+/// package).
 const REFERENCE_AXIAL_LENGTH_MM: f64 = 24.;
+/// Micrometres per degree in the eye of that axial length.
 const REFERENCE_MICROMETRES_PER_DEGREE: f64 = 291.;
 
-/// A scale that is not a positive number.
+/// Error for a scale that is not a positive number.
 #[derive(Debug, Error, PartialEq)]
 #[error("{quantity} is {value}: it must be a positive number")]
 pub struct ScaleError {
@@ -21,7 +25,9 @@ fn positive(quantity: &'static str, value: f64) -> Result<f64, ScaleError> {
     if value.is_finite() && value > 0. { Ok(value) } else { Err(ScaleError { quantity, value }) }
 }
 
-/// Retinal micrometres per degree in an eye of the given axial length: 291 µm × length / 24 mm.
+/// Returns the retinal micrometres per degree in an eye of this axial length.
+///
+/// The rule is that of the Metricks package: 291 µm × length / 24 mm.
 ///
 /// # Errors
 /// If the length is not a positive number.
@@ -30,7 +36,7 @@ pub fn micrometres_per_degree(axial_length_mm: f64) -> Result<f64, ScaleError> {
     Ok(REFERENCE_MICROMETRES_PER_DEGREE * length / REFERENCE_AXIAL_LENGTH_MM)
 }
 
-/// How large a pixel is on the retina.
+/// Size of a pixel on the retina, in micrometres and in degrees of visual angle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Scale {
     um_per_px: f64,
@@ -38,7 +44,7 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// From µm per pixel and µm per degree.
+    /// Makes a scale from µm per pixel and µm per degree.
     ///
     /// # Errors
     /// If either is not a positive number.
@@ -49,7 +55,7 @@ impl Scale {
         })
     }
 
-    /// From pixels per degree and µm per degree.
+    /// Makes a scale from pixels per degree and µm per degree.
     ///
     /// # Errors
     /// If either is not a positive number.
@@ -58,12 +64,12 @@ impl Scale {
         Self::new(um_per_degree / per_degree, um_per_degree)
     }
 
-    /// Micrometres per pixel.
+    /// Returns the micrometres per pixel.
     pub const fn micrometres_per_pixel(&self) -> f64 {
         self.um_per_px
     }
 
-    /// Micrometres per degree of visual angle.
+    /// Returns the micrometres per degree of visual angle.
     pub const fn micrometres_per_degree(&self) -> f64 {
         self.um_per_degree
     }

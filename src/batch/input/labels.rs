@@ -118,7 +118,11 @@ impl Labels {
             None => Label {
                 labels: vec![String::new(); manifest.columns().len()],
                 place: None,
-                warning: Some(format!("no row of {} fits its name", manifest.file())),
+                warning: Some(format!(
+                    "no row of {} has an identifier that is part of this file's name, so its columns are empty \
+                     here: add a row",
+                    manifest.file()
+                )),
             },
         })
     }

@@ -1,15 +1,16 @@
-//! Archives of coordinates, with the feature `archives`.
+//! Readers of coordinates in `.zip` and `.tar` archives, with the feature `archives`.
 
 use super::error::{Located, ReadFault, clipped, listed};
 use super::text::decode;
 use super::{RawFile, imagej, webplotdigitizer};
 use std::io::{Cursor, Read};
 
-/// Most that one ROI, and all ROIs of a set together, may unpack to: 4 and 16 million sub-pixel points.
+/// Largest size in bytes to which one ROI may unpack: 4 million sub-pixel points.
 const LARGEST_ROI: u64 = 48 << 20;
+/// Largest size in bytes to which all ROIs of a set together may unpack: 16 million such points.
 const LARGEST_SET: u64 = 192 << 20;
 
-/// A `RoiSet.zip` of the ROI manager.
+/// Reads a `RoiSet.zip` that ImageJ's ROI manager saved.
 pub(super) fn read_set(bytes: &[u8], wanted: imagej::Wanted) -> Result<RawFile, Located> {
     let broken = |detail: &dyn std::fmt::Display| ReadFault::Archive {
         expected: "a set of ImageJ ROIs (.zip)",
@@ -22,7 +23,7 @@ pub(super) fn read_set(bytes: &[u8], wanted: imagej::Wanted) -> Result<RawFile, 
     for index in 0..archive.len() {
         let member = archive.by_index(index).map_err(|e| broken(&e))?;
         let name = member.name().map_err(|e| broken(&e))?.into_owned();
-        // Apple's archiver adds a shadow of every file in this folder.
+        // Apple's archiver adds this folder, with a shadow of every file that is not a ROI itself.
         if !name.to_ascii_lowercase().ends_with(".roi") || name.starts_with("__MACOSX/") {
             others.push(name);
             continue;
@@ -50,7 +51,9 @@ pub(super) fn read_set(bytes: &[u8], wanted: imagej::Wanted) -> Result<RawFile, 
     .into())
 }
 
-/// A project as `.tar`: the image and, in some folder, `wpd.json`.
+/// Reads a WebPlotDigitizer project from a `.tar` archive.
+///
+/// It contains the image and, in some folder, `wpd.json`.
 pub(super) fn read_tar(bytes: &[u8]) -> Result<RawFile, Located> {
     let broken = |e: std::io::Error| ReadFault::Archive {
         expected: "a WebPlotDigitizer project (.tar)",
@@ -67,7 +70,8 @@ pub(super) fn read_tar(bytes: &[u8]) -> Result<RawFile, Located> {
         }
         let size = entry.size();
         let mut json = Vec::new();
-        // A member cannot be larger than its archive, unless it claims to be sparse.
+        // A member cannot be larger than its archive, unless it claims to be sparse: the limit
+        // keeps such a claim from filling the memory.
         entry.take(bytes.len() as u64).read_to_end(&mut json).map_err(broken)?;
         if json.len() as u64 != size {
             let detail = format!("wpd.json should have {size} bytes, {} are there", json.len());

@@ -2,18 +2,24 @@ use super::error::{Located, ReadFault, shortened};
 use super::text::content_lines;
 use std::borrow::Cow;
 
-/// What stands between the cells of a row.
+/// Separator between the cells of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Separator {
+    /// One comma between cells.
     Comma,
+    /// One semicolon between cells.
     Semicolon,
+    /// One tab between cells.
     Tab,
+    /// Any number of blanks between cells.
     Blanks,
 }
 
 impl Separator {
-    /// The separator of a file, from its first line. Tab and semicolon come first because a decimal comma may
-    /// stand between them; blanks come last because they often follow a comma.
+    /// Determines the separator of a file from its first line.
+    ///
+    /// Tab and semicolon are tried first because cells between them may contain a decimal comma;
+    /// blanks are tried last because they often follow a comma.
     fn of(line: &str) -> Self {
         let mut quoted = false;
         let outside: Vec<char> = line
@@ -33,7 +39,9 @@ impl Separator {
         matches!(self, Self::Semicolon | Self::Tab)
     }
 
-    /// The cells of a line without surrounding blanks and quotation marks; `None` if a quotation stays open.
+    /// Splits a line into cells without surrounding blanks and quotation marks.
+    ///
+    /// `None` if a quotation mark is not closed.
     fn split<'a>(self, line: &'a str) -> Option<Vec<Cow<'a, str>>> {
         let separates = |c: char| match self {
             Self::Comma => c == ',',
@@ -67,23 +75,32 @@ impl Separator {
     }
 }
 
-/// A line cut into cells.
+/// Line of a text, split into cells.
 #[derive(Debug)]
 pub(super) struct Row<'a> {
+    /// Number of the line, from 1.
     pub line: usize,
+    /// Whole text of the line.
     pub text: &'a str,
+    /// Cells without surrounding blanks and quotation marks.
     pub cells: Vec<Cow<'a, str>>,
 }
 
-/// The rows of a text that hold anything, all with the cells of the first, and how numbers are written in them.
+/// Rows of a text that are not empty, all with as many cells as the first, and their separator.
 pub(super) struct Table<'a> {
+    /// Rows in the order of the text, the header included.
     pub rows: Vec<Row<'a>>,
     separator: Separator,
 }
 
 impl<'a> Table<'a> {
+    /// Splits a text into rows of cells; `expected` is what errors say should be there.
+    ///
+    /// Empty cells at the end of a row that is longer than the first are dropped.
+    ///
     /// # Errors
-    /// If the text says nothing, a row has more or fewer cells than the first, or a quotation stays open.
+    /// If the text has no content, a row has more or fewer cells than the first, or a quotation
+    /// mark is not closed.
     pub fn new(text: &'a str, expected: &'static str) -> Result<Self, Located> {
         let (_, first) = content_lines(text).next().ok_or(ReadFault::Empty { expected })?;
         let separator = Separator::of(first);
@@ -91,7 +108,7 @@ impl<'a> Table<'a> {
         for (line, text) in content_lines(text) {
             let open = || Located::line(line, ReadFault::OpenQuote { line: shortened(text) });
             let mut cells = separator.split(text).ok_or_else(open)?;
-            // Spreadsheets write rows of nothing but separators below a table.
+            // Spreadsheets export empty rows below a table as rows of nothing but separators.
             if cells.iter().all(|cell| cell.is_empty()) {
                 continue;
             }
@@ -112,12 +129,15 @@ impl<'a> Table<'a> {
         Ok(Self { rows, separator })
     }
 
-    /// Whether a cell reads as a number, finite or not.
+    /// Returns whether a cell can be read as a number, finite or not.
     pub fn is_number(&self, cell: &str) -> bool {
         self.parse(cell).is_some()
     }
 
-    /// The number in cell `index` of a row, called `column` in the message if it is none.
+    /// Returns the number in cell `index` of a row.
+    ///
+    /// # Errors
+    /// If the cell has no finite number; the message calls it `column`.
     pub fn number(&self, row: &Row, index: usize, column: &str) -> Result<f64, Located> {
         let cell = row.cells.get(index).map_or("", |cell| cell.as_ref());
         let fault = match self.parse(cell) {
@@ -136,7 +156,9 @@ impl<'a> Table<'a> {
         Err(Located::line(row.line, fault))
     }
 
-    /// `1,5 2,5` is cut in the wrong places.
+    /// Returns whether a cell that is not a number looks like one with a decimal comma.
+    ///
+    /// A line such as `1,5 2,5` is split at its commas, so that the cell `5 2` contains a blank.
     fn may_be_decimal_comma(&self, cell: &str) -> bool {
         match self.separator {
             Separator::Comma => cell.contains(char::is_whitespace),

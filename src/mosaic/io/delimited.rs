@@ -4,8 +4,10 @@ use super::header::Columns;
 use super::{Dataset, Dialect, Origin, RawFile};
 use crate::geometry::Point;
 
-/// Text in columns: with or without header, one point a row. WebPlotDigitizer's CSV of one dataset and ImageJ's
-/// results are of this kind.
+/// Reads text in columns, with or without a header, with one point per row.
+///
+/// WebPlotDigitizer's CSV of one dataset and ImageJ's results are of this kind; the CSV of all
+/// datasets is recognised by its header.
 pub(super) fn read(text: &str) -> Result<RawFile, Located> {
     let table = Table::new(text, "two columns of numbers, x and y")?;
     if let Some(names) = all_datasets_header(&table) {
@@ -30,7 +32,9 @@ pub(super) fn read(text: &str) -> Result<RawFile, Located> {
     })
 }
 
-/// Corners of rings, each ring a dataset: a blank line, or another value in a column `ring`, begins the next.
+/// Reads the corners of rings, each ring as one dataset.
+///
+/// A blank line, or another value in a column `ring`, begins the next ring.
 pub(super) fn read_rings(text: &str) -> Result<RawFile, Located> {
     let table = Table::new(text, "two columns of numbers, x and y")?;
     if let Some(names) = all_datasets_header(&table) {
@@ -59,7 +63,7 @@ pub(super) fn read_rings(text: &str) -> Result<RawFile, Located> {
     Ok(RawFile { dialect, unit, y_may_point_up: true, datasets, scores: None })
 }
 
-/// Which columns hold what, and the rows below the header, if there is one.
+/// Returns the indices of the columns, and the rows below the header, if there is one.
 fn columns_of<'t, 'a>(table: &'t Table<'a>) -> Result<(Columns, &'t [Row<'a>]), Located> {
     match table.rows.split_first() {
         Some((first, rest)) if !first.cells.iter().any(|cell| table.is_number(cell)) => {
@@ -73,8 +77,10 @@ fn columns_of<'t, 'a>(table: &'t Table<'a>) -> Result<(Columns, &'t [Row<'a>]), 
     }
 }
 
-/// The names of the datasets, if the table is WebPlotDigitizer's export of all of them: a row with each name
-/// above its first column and nothing above its second, then a row `X,Y,X,Y,…`.
+/// Returns the names of the datasets, if the table is WebPlotDigitizer's export of all of them.
+///
+/// Such a table begins with a row that has each name above the first column of its dataset and
+/// nothing above the second, followed by a row `X,Y,X,Y,…`.
 fn all_datasets_header<'a>(table: &'a Table) -> Option<Vec<&'a str>> {
     let [names, axes, ..] = table.rows.as_slice() else { return None };
     let pairs = |row: &'a Row, agree: fn(&str, &str) -> bool| {
@@ -86,7 +92,9 @@ fn all_datasets_header<'a>(table: &'a Table) -> Option<Vec<&'a str>> {
     is_header.then(|| names.cells.iter().step_by(2).map(|name| name.as_ref()).collect())
 }
 
-/// Short datasets are padded with empty cells.
+/// Reads all datasets of a WebPlotDigitizer export, two columns per dataset.
+///
+/// Datasets shorter than the longest are padded with empty cells, which are skipped.
 fn read_all_datasets(table: &Table, names: Vec<&str>) -> Result<RawFile, Located> {
     let mut datasets: Vec<Dataset> = names
         .into_iter()

@@ -3,7 +3,7 @@ use std::io;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Where in a file something is wrong.
+/// Place in a file where something is wrong.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A line of text, counted from 1.
@@ -12,14 +12,14 @@ pub enum Place {
     Member(String),
 }
 
-/// A coordinate file or a table of scales or groups that cannot be read: which file, where in it, and why.
+/// Error for a coordinate file or a table that cannot be read: the file, the place and the fault.
 #[derive(Debug)]
 pub struct ReadError {
-    /// The file as it was given.
+    /// Path of the file, as given.
     pub file: String,
-    /// Where in it, if the fault has a place.
+    /// Place in the file; `None` if the fault has none.
     pub place: Option<Place>,
-    /// What is wrong there.
+    /// Fault that was found there.
     pub fault: ReadFault,
 }
 
@@ -44,286 +44,293 @@ impl std::error::Error for ReadError {
     }
 }
 
-/// What is wrong with a coordinate file or a scale table: what was expected, what was found, what to do.
+/// Fault of a coordinate file or a table.
+///
+/// The message says what was expected, what was found and what to do.
 #[derive(Debug, Error)]
 pub enum ReadFault {
-    /// The operating system refuses.
+    /// The operating system refuses to read the file.
     #[error("cannot be read ({0}): check the path and that it may be read")]
     Io(io::Error),
-    /// More than a coordinate file can sensibly hold.
+    /// The file is larger than a coordinate file can sensibly be.
     #[error("is larger than {limit_mib} MiB, too large for coordinates: give a file of point coordinates")]
     TooLarge {
-        /// The most that is read, in MiB.
+        /// Size of the largest file that is read, in MiB.
         limit_mib: u64,
     },
-    /// Nothing but blanks and comments.
+    /// The file has nothing but blanks and comments.
     #[error(
         "expected {expected}, found an empty file: export it again (a header alone would mean no points)"
     )]
     Empty {
-        /// What belongs there.
+        /// Content that was expected.
         expected: &'static str,
     },
-    /// Neither text nor any of the known binary dialects.
+    /// The file is neither text nor any of the known binary dialects.
     #[error(
         "expected coordinates as text, a WebPlotDigitizer project or ImageJ ROIs, found {found}: export the \
          coordinates as CSV"
     )]
     NotCoordinates {
-        /// What it seems to be.
+        /// Kind of file that it seems to be.
         found: String,
     },
-    /// Text that is not a number where one belongs.
+    /// A cell that should be a number has other text.
     #[error("expected a number for {column}, found {found}: {remedy}")]
     NotANumber {
-        /// The column.
+        /// Name of the column.
         column: String,
-        /// The text, shortened.
+        /// Text of the cell, shortened.
         found: String,
-        /// What to do.
+        /// Advice on what to do.
         remedy: &'static str,
     },
-    /// NaN, infinite, or too large for a floating-point number.
+    /// A number is NaN, infinite, or too large for a floating-point number.
     #[error("expected a finite number for {column}, found {found}: leave out points without a position")]
     NotFinite {
-        /// The column.
+        /// Name of the column.
         column: String,
-        /// The text, shortened.
+        /// Text of the cell, shortened.
         found: String,
     },
-    /// A single column.
+    /// The file has a single column.
     #[error(
         "expected two columns, x and y, separated by comma, semicolon, tab or blanks, found one: {found}; \
          export both"
     )]
     OneColumn {
-        /// The line, shortened.
+        /// Text of the first line, shortened.
         found: String,
     },
-    /// A row with more or fewer cells than the first one.
+    /// A row has more or fewer cells than the first one.
     #[error("expected {expected} cells as in the first row, found {found} in {line}: mend the row")]
     Ragged {
-        /// Cells of the first row.
+        /// Number of cells in the first row.
         expected: usize,
-        /// Cells of this row.
+        /// Number of cells in this row.
         found: usize,
-        /// The row, shortened.
+        /// Text of the row, shortened.
         line: String,
     },
-    /// A quotation mark that opens and does not close on its line.
+    /// A quotation mark is not closed on its line.
     #[error("expected a closing quotation mark on the same line, found none in {line}: mend the row")]
     OpenQuote {
-        /// The line, shortened.
+        /// Text of the line, shortened.
         line: String,
     },
-    /// A header without the columns sought.
+    /// The header lacks the expected columns.
     #[error(
         "expected a header that names {expected}, found {found}: rename the columns or leave out the header"
     )]
     Header {
-        /// The columns sought.
+        /// Columns that were expected.
         expected: &'static str,
-        /// The header, shortened.
+        /// Text of the header, shortened.
         found: String,
     },
-    /// Two columns of equal rights.
+    /// Two columns have the same name.
     #[error("expected one column named {column}, found two of them in {header}: keep the one that is meant")]
     TwoColumns {
-        /// The column.
+        /// Name of the column.
         column: String,
-        /// The header, shortened.
+        /// Text of the header, shortened.
         header: String,
     },
-    /// JSON that is broken, or not a project.
+    /// The JSON is broken, or not a WebPlotDigitizer project.
     #[error(
         "expected a WebPlotDigitizer project (version 3 or 4), found other or broken JSON ({detail}): save the project again"
     )]
     Json {
-        /// Why.
+        /// Message of the JSON parser.
         detail: String,
     },
-    /// An archive that is broken.
+    /// The archive is broken.
     #[error("expected {expected}, found a broken archive ({detail}): save it again")]
     Archive {
-        /// What it should be.
+        /// Kind of archive that was expected.
         expected: &'static str,
-        /// Why.
+        /// Message of the archive reader.
         detail: String,
     },
-    /// An archive without what is sought in it.
+    /// The archive lacks the expected file.
     #[error("expected {expected} in the archive, found {found}: {remedy}")]
     NotInArchive {
-        /// What is sought.
+        /// File that was expected.
         expected: &'static str,
-        /// What is there, shortened.
+        /// Files in the archive, shortened.
         found: String,
-        /// What to do.
+        /// Advice on what to do.
         remedy: &'static str,
     },
-    /// An archive, and this build reads none.
+    /// The file is an archive, and this build cannot read archives.
     #[cfg(not(feature = "archives"))]
     #[error(
         "expected a file that is not packed, found {found}, which this build cannot open: unpack it, or build conemosaic \
          with the feature `archives`"
     )]
     WithoutArchives {
-        /// The kind of archive.
+        /// Kind of archive that was found.
         found: &'static str,
     },
-    /// An ImageJ ROI that ends too early or does not start like one.
+    /// The ImageJ ROI ends too early or does not start like one.
     #[error(
         "expected an ImageJ ROI of at least {expected} bytes that begins with “Iout”, found {found}: save the ROI again"
     )]
     BrokenRoi {
-        /// Bytes that its header promises.
+        /// Number of bytes that the header announces.
         expected: u64,
-        /// What is there.
+        /// Description of what was found.
         found: String,
     },
-    /// An ImageJ ROI of another kind.
+    /// The ImageJ ROI is not a set of points.
     #[error(
         "expected an ImageJ point or multi-point ROI, found {found}: mark cones with the multi-point tool"
     )]
     NotAPointRoi {
-        /// The kind found.
+        /// Kind of ROI that was found.
         found: String,
     },
-    /// An ImageJ ROI that encloses no window.
+    /// The ImageJ ROI is of a kind that encloses no window.
     #[error(
         "expected an ImageJ polygon, freehand, traced or rectangular ROI, found {found}: draw the window with one of \
          these tools"
     )]
     NotAnOutlineRoi {
-        /// The kind found.
+        /// Kind of ROI that was found.
         found: String,
     },
-    /// Rings that enclose no window.
+    /// The rings enclose no window.
     #[error("{0}")]
     Outline(crate::geometry::PolygonError),
-    /// A dataset asked for that is not in the file.
+    /// The file lacks the dataset that was asked for.
     #[error("expected a dataset named {wanted}, found {found}: choose one of these")]
     NoSuchDataset {
-        /// The name asked for.
+        /// Name that was asked for.
         wanted: String,
-        /// The names in the file, shortened.
+        /// Names in the file, shortened.
         found: String,
     },
-    /// A pixel origin for coordinates that are not pixels.
+    /// The options give a pixel origin for coordinates that are not pixels.
     #[error(
         "expected pixels, since the origin is {origin}, found coordinates in {unit}: leave out the origin"
     )]
     OriginWithoutPixels {
-        /// The origin asked for.
+        /// Origin that was asked for.
         origin: super::Origin,
-        /// Symbol of the unit in the header.
+        /// Symbol of the unit that the header names.
         unit: &'static str,
     },
-    /// An option out of its range.
+    /// An option is out of its range.
     #[error("the option {option} is {found}: it must be {expected}")]
     Option {
-        /// The option.
+        /// Name of the option.
         option: &'static str,
-        /// Its value.
+        /// Value of the option.
         found: String,
-        /// Its range.
+        /// Range of the option.
         expected: &'static str,
     },
-    /// A scale that is not a positive number.
+    /// The scale is not a positive number.
     #[error("{0}: mend the row")]
     Scale(#[from] crate::mosaic::ScaleError),
-    /// The same identifier with two scales.
+    /// Two rows give the same identifier different scales.
     #[error(
         "expected one scale for {identifier}, found another one on line {first_line}: keep the right one"
     )]
     TwoScales {
-        /// The identifier, shortened.
+        /// Identifier of both rows, shortened.
         identifier: String,
-        /// The line that gave the first scale.
+        /// Number of the line that gave the first scale.
         first_line: usize,
     },
-    /// The same name with two groups.
+    /// Two rows give the same name different groups.
     #[error("expected one group for {name}, found another one on line {first_line}: keep the right one")]
     TwoGroups {
-        /// The name, shortened.
+        /// Name that occurs twice, shortened.
         name: String,
-        /// The line that gave the first group.
+        /// Number of the line that gave the first group.
         first_line: usize,
     },
-    /// A row of a table of groups that lacks one of the two.
+    /// A row of a table of groups lacks the name or the group.
     #[error("expected a name and its group, found {line}: give both, separated by a comma")]
     NoGroup {
-        /// The row, shortened.
+        /// Text of the row, shortened.
         line: String,
     },
-    /// The same identifier with two rows of a manifest.
+    /// Two different rows of a manifest have the same identifier.
     #[error("expected one row for {identifier}, found another one on line {first_line}: keep the right one")]
     TwoRows {
-        /// The identifier, shortened.
+        /// Identifier of both rows, shortened.
         identifier: String,
-        /// The line of the first row.
+        /// Number of the line of the first row.
         first_line: usize,
     },
-    /// A distance from the fovea that is none.
+    /// The distance from the fovea is negative.
     #[error(
         "expected {column} to be a distance, 0 or more, found {value}: give its size, and the direction as meridian"
     )]
     Eccentricity {
-        /// The column.
+        /// Name of the column.
         column: &'static str,
-        /// What it says.
+        /// Number in the cell.
         value: f64,
     },
-    /// A direction from the fovea that is none.
+    /// The direction from the fovea is not one of the four meridians.
     #[error(
         "expected the meridian nasal, temporal, superior or inferior (of the retina), found {found}: name one, or leave it empty"
     )]
     Meridian {
-        /// What it says, shortened.
+        /// Text of the cell, shortened.
         found: String,
     },
-    /// A box without area.
+    /// The box has no area.
     #[error("expected a box with an area (x0 < x1 and y0 < y1), found {line}: mend the row")]
     NoBox {
-        /// The row, shortened.
+        /// Text of the row, shortened.
         line: String,
     },
-    /// The same name for two boxes.
+    /// Two boxes of one file have the same name.
     #[error(
         "expected one box named {name} a file, found another one on line {first_line}: rename one of them"
     )]
     TwoBoxes {
-        /// The name, shortened.
+        /// Name that occurs twice, shortened.
         name: String,
-        /// The line that gave the first box.
+        /// Number of the line that gave the first box.
         first_line: usize,
     },
-    /// A row of a scale table without identifier.
+    /// A row of a table of scales or of a manifest has no identifier.
     #[error(
         "expected an identifier in the first column, found none in {line}: give the start of the file name"
     )]
     NoIdentifier {
-        /// The row, shortened.
+        /// Text of the row, shortened.
         line: String,
     },
 }
 
-/// A fault and where it is, before the file is known.
+/// Fault with its place, before the path of the file is added.
 #[derive(Debug)]
 pub(super) struct Located {
+    /// Place in the file; `None` if the fault has none.
     pub place: Option<Place>,
+    /// Fault that was found there.
     pub fault: ReadFault,
 }
 
 impl Located {
+    /// Places a fault on a line, counted from 1.
     pub fn line(line: usize, fault: ReadFault) -> Self {
         Self { place: Some(Place::Line(line)), fault }
     }
 
+    /// Places a fault in a member of an archive.
     #[cfg(feature = "archives")]
     pub fn member(name: &str, fault: ReadFault) -> Self {
         Self { place: Some(Place::Member(name.to_owned())), fault }
     }
 
+    /// Completes the error by the path of the file.
     pub fn in_file(self, file: &str) -> ReadError {
         ReadError { file: file.to_owned(), place: self.place, fault: self.fault }
     }
@@ -335,46 +342,48 @@ impl From<ReadFault> for Located {
     }
 }
 
-/// A file that cannot be written.
+/// Error for a coordinate file that cannot be written.
 #[derive(Debug, Error)]
 pub enum WriteError {
-    /// The operating system refuses.
+    /// The operating system refuses to write the file.
     #[error("{} cannot be written ({source}): check that the folder exists, may be written and has room", .file.display())]
     Io {
-        /// The file.
+        /// Path of the file.
         file: PathBuf,
-        /// Why.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// A coordinate or score that no reader would take.
+    /// A coordinate or score is not finite, so that no reader would accept it.
     #[error("{}: point {index} has a coordinate or score that is not a finite number", .file.display())]
     NotFinite {
-        /// The file.
+        /// Path of the file.
         file: PathBuf,
         /// 0-based index of the point.
         index: usize,
     },
-    /// Not one score a point.
+    /// The scores are not one per point.
     #[error("{}: {points} points but {scores} scores: give one score a point", .file.display())]
     Scores {
-        /// The file.
+        /// Path of the file.
         file: PathBuf,
-        /// Number of points.
+        /// Number of points given.
         points: usize,
-        /// Number of scores.
+        /// Number of scores given.
         scores: usize,
     },
 }
 
-/// Longest quotation from a file in a message, in characters.
+/// Length of the longest quotation from a file in a message, in characters.
 const QUOTED: usize = 48;
 
-/// Text from a file as it may stand in a one-line message: shortened, quoted, nothing that moves a cursor.
+/// Returns text from a file in a form that is safe in a one-line message.
+///
+/// The text is shortened, put in quotation marks, and freed of characters that move a cursor.
 pub(super) fn shortened(text: &str) -> String {
     format!("“{}”", clipped(text.trim(), QUOTED))
 }
 
-/// The first `length` characters, made printable.
+/// Returns the first `length` characters, made printable, with an ellipsis if there are more.
 pub(super) fn clipped(text: &str, length: usize) -> String {
     let mut start: String = text.chars().take(length + 1).collect();
     if start.chars().count() > length {
@@ -384,7 +393,7 @@ pub(super) fn clipped(text: &str, length: usize) -> String {
     printable(&start)
 }
 
-/// Names in one line: the first few, and how many more there are.
+/// Lists names in one line: the first eight, and how many more there are.
 pub(super) fn listed<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
     const SHOWN: usize = 8;
     let more = names.len().saturating_sub(SHOWN);
@@ -399,7 +408,7 @@ pub(super) fn listed<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> Strin
 }
 
 fn printable(text: &str) -> String {
-    // Besides control characters: marks that reorder or hide text on a terminal.
+    // Beside control characters, some marks reorder or hide text on a terminal.
     let invisible = |c: char| {
         c.is_control()
             || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')

@@ -5,7 +5,9 @@ use super::{ReadError, text};
 use std::collections::HashMap;
 use std::path::Path;
 
-/// Which images belong together: CSV of `name,group`, with or without that header; further columns are not looked at.
+/// Groups of images, read from a CSV table with the columns `name,group`.
+///
+/// The table may have that header or none; further columns are ignored.
 #[derive(Clone, Debug)]
 pub struct GroupTable {
     file: String,
@@ -13,22 +15,25 @@ pub struct GroupTable {
 }
 
 impl GroupTable {
-    /// Reads a table.
+    /// Reads a table of groups.
     ///
     /// # Errors
-    /// If the file cannot be read, a row lacks its name or group, or two rows give one name different groups.
+    /// If the file cannot be read, a row lacks its name or group, or two rows give the same name
+    /// different groups.
     pub fn read(path: &Path) -> Result<Self, ReadError> {
         let file = path.display().to_string();
         let entries = read_file(path).map_err(Located::from).and_then(|bytes| entries(&bytes));
         entries.map(|entries| Self { file: file.clone(), entries }).map_err(|located| located.in_file(&file))
     }
 
-    /// The file, as given.
+    /// Returns the path of the table, as given.
     pub fn file(&self) -> &str {
         &self.file
     }
 
-    /// The group of the image of this name: that of the longest name in the table which it begins with.
+    /// Returns the group of the image of this name; `None` if no row fits.
+    ///
+    /// A row fits if the name of the image begins with the name in the row; the longest one wins.
     pub fn group_of(&self, name: &str) -> Option<&str> {
         let fits = self.entries.iter().filter(|(start, _)| name.starts_with(start.as_str()));
         fits.max_by_key(|(start, _)| start.len()).map(|(_, group)| group.as_str())

@@ -2,32 +2,42 @@ use super::cells::Row;
 use super::error::{Located, ReadFault, shortened};
 use crate::mosaic::LengthUnit;
 
-/// Which columns of a table hold what.
+/// Indices, from 0, of the columns of a coordinate table.
 #[derive(Debug, PartialEq)]
 pub(super) struct Columns {
+    /// Index of the column of x.
     pub x: usize,
+    /// Index of the column of y.
     pub y: usize,
+    /// Index of the column of scores, if there is one.
     pub score: Option<usize>,
-    /// The unit that the header names.
+    /// Unit that the header names.
     pub unit: Option<LengthUnit>,
 }
 
-/// Names of the abscissa, each with its ordinate, the preferred first: where both stand in a file, `XM` and `YM`
-/// are ImageJ's centre of mass, which equals X and Y for points.
+/// Names of the abscissa, each with its ordinate, in order of preference.
+///
+/// `XM` and `YM` are ImageJ's centre of mass; for points they equal X and Y, which are preferred in
+/// a file that has all four.
 const STEMS: [(&str, &str); 2] = [("x", "y"), ("xm", "ym")];
 
-/// Units, the preferred first: pixels need no scale, and a file that names them means them.
+/// Units in order of preference; `None` is a column that names no unit.
+///
+/// Pixels come first as they need no scale, and a file that names them is explicit about them.
 const UNITS: [Option<LengthUnit>; 4] =
     [Some(LengthUnit::Pixel), None, Some(LengthUnit::Micrometre), Some(LengthUnit::Unit)];
 
-/// What programs call how sure they are of a point, the preferred name first.
+/// Names that programs use for the score of a point, in order of preference.
 const SCORES: [&str; 3] = ["score", "confidence", "probability"];
 
 impl Columns {
-    /// The first two columns, of a file without header.
+    /// The first two columns, which hold x and y in a file without a header.
     pub const FIRST_TWO: Self = Self { x: 0, y: 1, score: None, unit: None };
 
-    /// The columns that a header names; `x`, `X`, `x_px`, `x (px)`, `X [µm]` and the like.
+    /// Finds the columns in a header: `x`, `X`, `x_px`, `x (px)`, `X [µm]` and the like.
+    ///
+    /// # Errors
+    /// If a column is missing or named twice.
     pub fn named_in(header: &Row) -> Result<Self, Located> {
         let names: Vec<_> = header.cells.iter().map(|cell| Name::parse(cell)).collect();
         let find = |stem: &str, unit: Option<LengthUnit>| {
@@ -65,19 +75,25 @@ impl Columns {
     }
 }
 
+/// Unit at the end of a column's name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Unit {
+    /// A known unit, or `None` if the name ends without one.
     Is(Option<LengthUnit>),
+    /// Words that are no known unit.
     Unknown,
 }
 
-/// A column's name, taken apart: `x_px` is `x` in pixels.
+/// Name of a column, split into its stem and its unit: `x_px` is `x` in pixels.
 pub(super) struct Name {
+    /// First word of the name, in lower case.
     pub(super) stem: String,
+    /// Unit that the rest of the name states.
     pub(super) unit: Unit,
 }
 
 impl Name {
+    /// Splits a cell of a header at blanks, underscores, hyphens, brackets and slashes.
     pub(super) fn parse(cell: &str) -> Self {
         let lower = cell.to_lowercase();
         let mut words =
@@ -87,7 +103,7 @@ impl Name {
             (None, _) => Unit::Is(None),
             (Some(word), None) => match word {
                 "px" | "pixel" | "pixels" => Unit::Is(Some(LengthUnit::Pixel)),
-                // µ is U+00B5, μ is the Greek letter U+03BC.
+                // The two signs differ: µ is the micro sign U+00B5, μ the Greek letter U+03BC.
                 "um" | "µm" | "μm" | "micron" | "microns" | "micrometre" | "micrometres" | "micrometer"
                 | "micrometers" => Unit::Is(Some(LengthUnit::Micrometre)),
                 "unit" => Unit::Is(Some(LengthUnit::Unit)),

@@ -1,12 +1,14 @@
-//! Which row of a table belongs to a file: one rule for scales, manifests and regions.
+//! The rule by which scales, manifests and regions find the row of a table that belongs to a file.
 
-/// A file name without the folders before it.
+/// Returns a file name without the folders before it.
 pub(super) fn without_folder(file_name: &str) -> &str {
     file_name.rsplit(['/', '\\']).next().unwrap_or(file_name)
 }
 
-/// The rows whose identifier is the longest part of a name; of equally long ones, those that the name begins with. Several, where they
-/// fit equally well.
+/// Returns the rows whose identifier fits a name best.
+///
+/// An identifier fits if it is part of the name. The longest one wins; of equally long ones, the
+/// one with which the name begins. Several rows are returned if they fit equally well.
 pub(super) fn best_fits<'a, T>(rows: &'a [T], name: &str, identifier: impl Fn(&T) -> &str) -> Vec<&'a T> {
     let rank = |row: &T| (identifier(row).len(), name.starts_with(identifier(row)));
     let fitting: Vec<&T> = rows.iter().filter(|row| name.contains(identifier(row))).collect();

@@ -1,35 +1,43 @@
+//! ImageJ ROIs, in the binary format that ImageJ's class `ij.io.RoiDecoder` reads.
+
 use super::error::{Located, ReadFault, clipped};
 use super::{Dataset, Dialect, Origin, RawFile};
 use crate::geometry::Point;
 use crate::mosaic::LengthUnit;
 
-/// Bytes of the header; coordinates follow.
+/// Number of bytes in the header, after which the coordinates follow.
 const HEADER: usize = 64;
+/// Bit of the options at byte 50 that marks sub-pixel coordinates.
 const SUB_PIXEL: u16 = 128;
-/// The format's version that can hold sub-pixel coordinates.
+/// First version of the format that can hold sub-pixel coordinates.
 const FIRST_SUB_PIXEL: u16 = 222;
-/// The format's version of ImageJ 1.52t (2020), which moved the origin of point selections from the corner of
-/// the first pixel to its centre (class `ij.gui.Roi`: "Line and Point Rois: Integer coordinates refer to the
-/// center of a pixel").
+/// First version of the format whose point selections count from the centre of the first pixel.
+///
+/// ImageJ 1.52t (2020) introduced it; before, they counted from the corner of that pixel. The class
+/// `ij.gui.Roi` says: "Line and Point Rois: Integer coordinates refer to the center of a pixel".
 const FIRST_CENTRED: u16 = 228;
+/// Kind of ROI: a rectangle.
 const RECTANGLE: u8 = 1;
+/// Kind of ROI: one or several points.
 const POINT: u8 = 10;
-/// Polygon, freehand outline, traced outline.
+/// Kinds of ROI that are lists of corners: polygon, freehand outline, traced outline.
 const OUTLINES: [u8; 3] = [0, 7, 8];
 
-/// What a ROI is to hold.
+/// Content that is expected of a ROI.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Wanted {
+    /// Points that mark cones.
     Points,
+    /// Outline of a window.
     Outline,
 }
 
-/// One `.roi` file.
+/// Reads a single `.roi` file.
 pub(super) fn read_roi(name: &str, bytes: &[u8], wanted: Wanted) -> Result<RawFile, Located> {
     Ok(file(vec![parse(name, bytes, wanted)?]))
 }
 
-/// The ROIs of a file.
+/// Returns the ROIs of one file as a file in pixels.
 pub(super) fn file(datasets: Vec<Dataset>) -> RawFile {
     RawFile {
         dialect: Dialect::ImageJRoi,
@@ -40,8 +48,11 @@ pub(super) fn file(datasets: Vec<Dataset>) -> RawFile {
     }
 }
 
-/// A point or multi-point ROI, or an outline: big-endian header, then all x and all y as 16-bit offsets from the bounding box,
-/// then, if sub-pixel, all x and all y as absolute 32-bit floats (format of ImageJ's `ij.io.RoiDecoder`).
+/// Reads a point or multi-point ROI, or an outline.
+///
+/// After the big-endian header come all x and then all y as 16-bit offsets from the upper left
+/// corner of the bounding box. If the ROI is sub-pixel, all x and all y follow as absolute 32-bit
+/// floats. The name of the dataset is `name` without folder and extension.
 pub(super) fn parse(name: &str, bytes: &[u8], wanted: Wanted) -> Result<Dataset, ReadFault> {
     let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let name = name.strip_suffix(".roi").unwrap_or(name).to_owned();
@@ -70,7 +81,7 @@ pub(super) fn parse(name: &str, bytes: &[u8], wanted: Wanted) -> Result<Dataset,
     }
     let version = roi.u16(4);
     let sub_pixel = version >= FIRST_SUB_PIXEL && roi.u16(50) & SUB_PIXEL != 0;
-    // Beyond 65,535 points the count does not fit its old place.
+    // A count beyond 65,535 does not fit the old 16-bit field and is in a 32-bit field instead.
     let n = match roi.u16(16) {
         0 => u64::from(roi.u32(18)),
         n => u64::from(n),
@@ -80,7 +91,7 @@ pub(super) fn parse(name: &str, bytes: &[u8], wanted: Wanted) -> Result<Dataset,
         let found = format!("{} bytes for {n} points", bytes.len());
         return Err(ReadFault::BrokenRoi { expected, found });
     }
-    // It fits in `bytes`, so it fits in usize.
+    // The points fit in `bytes`, so their number fits in a usize.
     let n = n as usize;
     let point = |i: usize| {
         if sub_pixel {
@@ -95,13 +106,13 @@ pub(super) fn parse(name: &str, bytes: &[u8], wanted: Wanted) -> Result<Dataset,
     if let Some(p) = points.iter().find(|p| !p.is_finite()) {
         return Err(ReadFault::NotFinite { column: "a point".into(), found: format!("({}, {})", p.x, p.y) });
     }
-    // outlines run along the edges of pixels
+    // Outlines run along the edges of pixels, so their integer coordinates are corners of pixels.
     let from_corner = wanted == Wanted::Outline || (sub_pixel && version < FIRST_CENTRED);
     let origin = if from_corner { Origin::Half } else { Origin::Zero };
     Ok(Dataset { name, origin, points })
 }
 
-/// Big-endian fields by offset; 0 past the end.
+/// Big-endian fields, read by their offset in bytes; fields past the end are 0.
 struct Fields<'a>(&'a [u8]);
 
 impl Fields<'_> {
@@ -117,7 +128,9 @@ impl Fields<'_> {
     fn f32(&self, at: usize) -> f64 {
         f64::from(f32::from_be_bytes(self.bytes(at)))
     }
-    /// Signed, but what would lie below −5000 is taken as unsigned, as ImageJ does for images beyond 32,767 px.
+    /// Returns a signed 16-bit field, except that values below −5000 are taken as unsigned.
+    ///
+    /// ImageJ does the same, for images wider or higher than 32,767 px.
     fn i16(&self, at: usize) -> f64 {
         let signed = i16::from_be_bytes(self.bytes(at));
         if signed < -5000 { f64::from(self.u16(at)) } else { f64::from(signed) }

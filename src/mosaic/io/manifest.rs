@@ -8,9 +8,12 @@ use std::collections::HashMap;
 use std::path::Path;
 use thiserror::Error;
 
-/// What is known of the images of a study: CSV whose header names an identifier (a part of the file name) and any further
-/// columns, as subject, eye or diagnosis. `eccentricity_mm` or `eccentricity_deg` (distance from the fovea) and `meridian` (nasal,
-/// temporal, superior, inferior, of the retina) say where on the retina an image lies; their cells may be empty.
+/// Table of what is known about the images of a study, read from a CSV file with a header.
+///
+/// The first column is an identifier, a part of the file name of an image. All further columns are
+/// free, for example subject, eye or diagnosis. Three names have a meaning: `eccentricity_mm` or
+/// `eccentricity_deg` (distance from the fovea) and `meridian` (nasal, temporal, superior or
+/// inferior, of the retina) state the place of an image on the retina; their cells may be empty.
 #[derive(Clone, Debug)]
 pub struct Manifest {
     file: String,
@@ -18,11 +21,11 @@ pub struct Manifest {
     rows: Vec<ManifestRow>,
 }
 
-/// What a manifest says of an image.
+/// Row of a manifest, which describes one image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ManifestRow {
     identifier: String,
-    /// Its cells, in the order of [`Manifest::columns`].
+    /// Cells after the identifier, in the order of [`Manifest::columns`].
     pub labels: Vec<String>,
     eccentricity: Option<Eccentricity>,
     meridian: Option<Meridian>,
@@ -34,7 +37,7 @@ enum Eccentricity {
     Degrees(f64),
 }
 
-/// Several rows of a manifest fit one image equally well.
+/// Error for an image that several rows of a manifest fit equally well.
 #[derive(Debug, Error, PartialEq)]
 #[error(
     "{manifest}: expected one row for {file_name}, found several that fit equally well ({candidates}): give one a longer identifier"
@@ -46,7 +49,10 @@ pub struct AmbiguousRow {
 }
 
 impl ManifestRow {
-    /// Where on the retina it lies, if the manifest says so.
+    /// Returns the place of the image on the retina; `None` if the manifest does not state it.
+    ///
+    /// An eccentricity in degrees is converted by `um_per_degree`, micrometres of retina per
+    /// degree.
     pub fn place(&self, um_per_degree: f64) -> Option<RetinalPlace> {
         let eccentricity_mm = match self.eccentricity? {
             Eccentricity::Millimetres(mm) => mm,
@@ -60,8 +66,9 @@ impl Manifest {
     /// Reads a manifest.
     ///
     /// # Errors
-    /// If the file cannot be read, has no header of two columns or more, a column twice, a row without identifier, an
-    /// eccentricity that is no number from 0 on or a meridian that is none, or two rows that say different things of one identifier.
+    /// If the file cannot be read; if its header has fewer than two columns, or one of them twice;
+    /// if a row has no identifier, an eccentricity that is not a number of at least 0, or an
+    /// unknown meridian; or if two rows with the same identifier differ.
     pub fn read(path: &Path) -> Result<Self, ReadError> {
         let file = path.display().to_string();
         let found = read_file(path).map_err(Located::from).and_then(|bytes| parse(&bytes));
@@ -70,21 +77,23 @@ impl Manifest {
             .map_err(|located| located.in_file(&file))
     }
 
-    /// The file, as given.
+    /// Returns the path of the manifest, as given.
     pub fn file(&self) -> &str {
         &self.file
     }
 
-    /// Names of the columns behind the identifier.
+    /// Returns the names of the columns after the identifier.
     pub fn columns(&self) -> &[String] {
         &self.columns
     }
 
-    /// The row of the image of this name: that whose identifier is the longest part of it; of two equally long ones, the one the
-    /// name begins with. `None`: there is none.
+    /// Returns the row of the image with this file name; `None` if no row fits.
+    ///
+    /// A row fits if its identifier is part of the file name, folders not included. The longest
+    /// identifier wins; of two equally long ones, the one with which the name begins.
     ///
     /// # Errors
-    /// If several fit equally well.
+    /// If several rows fit equally well.
     pub fn row_of(&self, file_name: &str) -> Result<Option<&ManifestRow>, AmbiguousRow> {
         let name = without_folder(file_name);
         let winners = best_fits(&self.rows, name, |e| &e.identifier);
@@ -100,7 +109,7 @@ impl Manifest {
     }
 }
 
-/// Where the columns with a meaning are.
+/// Indices, from 0, of the columns whose names have a meaning.
 struct Meanings {
     millimetres: Option<usize>,
     degrees: Option<usize>,

@@ -1,6 +1,8 @@
-//! Reading and writing coordinate files in every dialect a lab has, and tables of scales and groups, manifests.
+//! Readers and writers of coordinate files, of tables of scales, groups and regions, and of
+//! manifests.
 //!
-//! Whatever a file counts from, [`read_coordinates`] gives pixels from 0 at the centre of the top-left pixel.
+//! Whatever a file calls the first pixel, [`read_coordinates`] returns pixels that count from 0 at
+//! the centre of the top-left pixel.
 //!
 //! # Examples
 //! ```

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 use strum::{Display, VariantArray};
 
-/// What a file calls the centre of the top-left pixel, along both axes.
+/// Coordinate that a file gives to the centre of the top-left pixel, the same for x and y.
 #[derive(
     Clone,
     Copy,
@@ -19,23 +19,25 @@ use strum::{Display, VariantArray};
     strum::VariantNames,
 )]
 pub enum Origin {
-    /// (0, 0): this crate, NumPy, OpenCV, integer ROIs and, since 1.52t, all point ROIs of ImageJ.
+    /// Centre at (0, 0), as in this crate, NumPy, OpenCV and ImageJ.
+    ///
+    /// In ImageJ this holds for integer ROIs and, since version 1.52t, for all point ROIs.
     #[default]
     #[serde(rename = "0")]
     #[strum(serialize = "0")]
     Zero,
-    /// (0.5, 0.5): distances from the top-left corner, as WebPlotDigitizer counts.
+    /// Centre at (0.5, 0.5): distances from the top-left corner, as in WebPlotDigitizer.
     #[serde(rename = "0.5")]
     #[strum(serialize = "0.5")]
     Half,
-    /// (1, 1): MATLAB.
+    /// Centre at (1, 1), as in MATLAB.
     #[serde(rename = "1")]
     #[strum(serialize = "1")]
     One,
 }
 
 impl Origin {
-    /// The coordinate of the centre of the first pixel: 0, 0.5 or 1.
+    /// Returns the coordinate of the centre of the first pixel: 0, 0.5 or 1.
     pub const fn value(self) -> f64 {
         match self {
             Self::Zero => 0.,
@@ -44,7 +46,7 @@ impl Origin {
         }
     }
 
-    /// A point of such a file, counted from 0 at the centre of the top-left pixel.
+    /// Returns a point of such a file, counted from 0 at the centre of the top-left pixel.
     pub const fn to_zero_based(self, p: Point) -> Point {
         Point::new(p.x - self.value(), p.y - self.value())
     }
@@ -53,7 +55,10 @@ impl Origin {
 impl FromStr for Origin {
     type Err = UnknownChoice;
 
-    /// Reads it as a number: 1.0 is 1.
+    /// Reads an origin from its number, so that `1.0` is the same as `1`.
+    ///
+    /// # Errors
+    /// If the text is no such number.
     fn from_str(text: &str) -> Result<Self, UnknownChoice> {
         let value: Option<f64> = text.parse().ok();
         let fits = |o: &Self| value == Some(o.value());

@@ -5,22 +5,30 @@ use crate::geometry::{Ring, Window};
 use crate::mosaic::LengthUnit;
 use std::path::Path;
 
-/// A window drawn by hand.
+/// Window that a person drew by hand.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutlineFile {
-    /// The area that its rings enclose. Pixels count from 0 at the centre of the top-left pixel.
+    /// Area that the rings enclose. Pixels count from 0 at the centre of the top-left pixel.
     pub window: Window,
-    /// The unit, if the file says so.
+    /// Unit of the window; `None` if the file does not name one.
     pub unit: Option<LengthUnit>,
 }
 
-/// The window in a file of corners: text in columns x and y (a blank line, or another value in a column `ring`, begins
-/// the next ring), a WebPlotDigitizer project or CSV (each dataset a ring), or polygonal, freehand, traced and rectangular
-/// ROIs of ImageJ, whose corners count from the corner of the first pixel. Rings within rings are holes.
+/// Reads a window from a file that lists the corners of one or more rings.
+///
+/// The dialect is recognised by the content of the file:
+///
+/// - text in columns x and y; a blank line or another value in a column `ring` begins the next
+///   ring;
+/// - a WebPlotDigitizer project or CSV, where each dataset is a ring;
+/// - polygonal, freehand, traced and rectangular ROIs of ImageJ, whose corners count from the
+///   corner of the first pixel.
+///
+/// Rings inside rings are holes.
 ///
 /// # Errors
-/// If the file cannot be read or understood, or its rings enclose no area or cross: the error names file, line, what was
-/// expected and found, and a remedy.
+/// If the file cannot be read or understood, or its rings enclose no area or cross. The error names
+/// the file, the line, what was expected and found, and a remedy.
 pub fn read_outline(path: &Path, options: &ReadOptions) -> Result<OutlineFile, ReadError> {
     let name = path.display().to_string();
     let read = || -> Result<OutlineFile, Located> {
@@ -81,7 +89,9 @@ mod tests {
         assert_eq!(outline("w.csv", bare, &one).unwrap().window.bounds().x0(), -1.);
     }
 
-    /// A polygon ROI of ImageJ: corners count from the corner of the first pixel.
+    /// Returns the bytes of an ImageJ ROI of this kind with three corners.
+    ///
+    /// Corners count from the corner of the first pixel.
     fn roi(kind: u8) -> Vec<u8> {
         let mut bytes = vec![0; 64];
         bytes[..4].copy_from_slice(b"Iout");

@@ -7,23 +7,31 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// Most that is read from one file.
+/// Size of the largest file that is read, in bytes (1 GiB).
 const LARGEST_FILE: u64 = 1 << 30;
 
-/// How to understand a coordinate file where it does not say so itself.
+/// Interpretation of a coordinate file where the file does not state it itself.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ReadOptions {
-    /// What the file calls the centre of the top-left pixel. Default: what is known of its dialect (0.5 for
-    /// WebPlotDigitizer projects and for sub-pixel ROIs of ImageJ before 1.52t), otherwise 0.
+    /// Coordinate that the file gives to the centre of the top-left pixel.
+    ///
+    /// By default that of the dialect: 0.5 for WebPlotDigitizer projects and for sub-pixel ROIs of
+    /// ImageJ before 1.52t, otherwise 0.
     pub origin: Option<Origin>,
-    /// y points up: the height of the image, in the unit of the file (px: the number of rows). Default: y points
-    /// down. Counts for text only; in projects and ROIs y always points down.
+    /// Height of the image, in the unit of the file (for px: the number of rows), if y points up.
+    ///
+    /// By default y points down. The option applies to text only; in projects and ROIs y always
+    /// points down.
     pub flip_y: Option<f64>,
-    /// Take only the dataset (WebPlotDigitizer) or ROI of this name. Default: all of them, one after another.
+    /// Name of the only dataset (WebPlotDigitizer) or ROI to take.
+    ///
+    /// By default all of them are taken, one after another.
     pub dataset: Option<String>,
 }
 
 impl ReadOptions {
+    /// Checks that every option is within its range.
+    ///
     /// # Errors
     /// If the height is not a positive number.
     pub fn validate(&self) -> Result<(), ReadFault> {
@@ -38,77 +46,89 @@ impl ReadOptions {
     }
 }
 
-/// The kinds of coordinate file.
+/// Dialect of a coordinate file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Dialect {
-    /// Text in columns: CSV and its relatives, ImageJ results, WebPlotDigitizer's CSV of one dataset.
+    /// Text in columns: CSV and the like, ImageJ results, WebPlotDigitizer's CSV of one dataset.
     Delimited,
     /// WebPlotDigitizer's CSV of all datasets.
     WebPlotDigitizerCsv,
-    /// A WebPlotDigitizer project, JSON or `.tar`.
+    /// A WebPlotDigitizer project as JSON or `.tar`.
     WebPlotDigitizerProject,
-    /// An ImageJ `.roi` or a `.zip` of them.
+    /// An ImageJ `.roi` file or a `.zip` of several.
     ImageJRoi,
 }
 
-/// A named run of points of a file: a dataset of WebPlotDigitizer, a ROI of ImageJ.
+/// Named run of points in a file: a dataset of WebPlotDigitizer or a ROI of ImageJ.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Series {
-    /// Its name; empty for plain columns.
+    /// Name of the dataset; empty for plain columns.
     pub name: String,
-    /// How many points it has.
+    /// Number of points in it.
     pub len: usize,
 }
 
-/// What a coordinate file holds.
+/// Contents of a coordinate file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoordinateFile {
-    /// The points, x right and y down. Pixels count from 0 at the centre of the top-left pixel; micrometres and
-    /// unit squares stand as in the file.
+    /// Points, with x to the right and y down.
+    ///
+    /// Pixels count from 0 at the centre of the top-left pixel; micrometres and coordinates in the
+    /// unit square keep the origin of the file.
     pub points: Vec<Point>,
-    /// Column `score`, `confidence` or `probability`, one a point.
+    /// Values of the column `score`, `confidence` or `probability`, one per point.
     pub scores: Option<Vec<f64>>,
-    /// The unit, if the file says so.
+    /// Unit of the points; `None` if the file does not name one.
     pub unit: Option<LengthUnit>,
-    /// The kind of file.
+    /// Dialect of the file.
     pub dialect: Dialect,
-    /// The datasets that the points came from, in the order of the points.
+    /// Datasets that the points came from, in the order of the points.
     pub series: Vec<Series>,
 }
 
-/// Coordinates as they stand in a file.
+/// Coordinates as the file states them, before origin and direction of y are taken into account.
 pub(super) struct RawFile {
+    /// Dialect of the file.
     pub dialect: Dialect,
+    /// Unit of the coordinates; `None` if the file does not name one.
     pub unit: Option<LengthUnit>,
+    /// True if the option [`ReadOptions::flip_y`] applies to this dialect.
     pub y_may_point_up: bool,
+    /// Datasets in the order of the file.
     pub datasets: Vec<Dataset>,
-    /// Only files of one dataset have scores.
+    /// Scores, one per point; only files of one dataset have them.
     pub scores: Option<Vec<f64>>,
 }
 
-/// A named run of points and the origin that its dialect counts from.
+/// Named run of points and the origin from which its dialect counts.
 pub(super) struct Dataset {
+    /// Name of the dataset; empty if it has none.
     pub name: String,
+    /// Coordinate that the dialect gives to the centre of the top-left pixel.
     pub origin: Origin,
+    /// Points as the file states them.
     pub points: Vec<Point>,
 }
 
-/// The coordinates in a file of any dialect, which is recognised by its content: text in columns, WebPlotDigitizer
-/// project (JSON, `.tar`), ImageJ ROI (`.roi`, `.zip`).
+/// Reads the coordinates in a file of any dialect.
+///
+/// The dialect is recognised by the content of the file: text in columns, a WebPlotDigitizer
+/// project (JSON, `.tar`) or ImageJ ROIs (`.roi`, `.zip`).
 ///
 /// # Errors
-/// If the file cannot be read or understood: the error names file, line, what was expected and found, and a remedy.
+/// If the file cannot be read or understood. The error names the file, the line, what was expected
+/// and found, and a remedy.
 pub fn read_coordinates(path: &Path, options: &ReadOptions) -> Result<CoordinateFile, ReadError> {
     let name = path.display().to_string();
     let bytes = read_file(path).map_err(|fault| Located::from(fault).in_file(&name))?;
     read_from(&name, &bytes, options)
 }
 
-/// The coordinates in the bytes of a file; `name` is what errors call it.
+/// Reads the coordinates in the bytes of a file, which errors call `name`.
 ///
 /// # Errors
-/// As [`read_coordinates`].
+/// If the bytes cannot be understood; see [`read_coordinates`].
 pub fn read_from(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<CoordinateFile, ReadError> {
     let read = || {
         options.validate()?;
@@ -117,7 +137,7 @@ pub fn read_from(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<Coor
     read().map_err(|located| located.in_file(name))
 }
 
-/// The bytes of a file that is not unreasonably large.
+/// Returns the bytes of a file, unless it is unreasonably large for coordinates.
 pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, ReadFault> {
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(ReadFault::Io)?;
@@ -147,13 +167,16 @@ fn raw(name: &str, bytes: &[u8]) -> Result<RawFile, Located> {
     }
 }
 
-/// By its content, or if that is too short to tell by its name.
+/// Returns whether a file that is not empty is a `.tar` archive.
+///
+/// The mark `ustar` at byte 257 is proof. Without it the extension `.tar` decides, as a file may be
+/// too short to carry the mark.
 pub(super) fn is_tar(name: &str, bytes: &[u8]) -> bool {
     let named = || name.to_ascii_lowercase().ends_with(".tar");
     !bytes.is_empty() && (bytes.get(257..262) == Some(b"ustar") || named())
 }
 
-/// Files that are often given by mistake.
+/// Returns the kind of file that was given by mistake, recognised by its first bytes.
 pub(super) fn foreign(bytes: &[u8]) -> Option<&'static str> {
     [
         (&b"\x89PNG"[..], "a PNG image"),
@@ -172,6 +195,7 @@ pub(super) fn foreign(bytes: &[u8]) -> Option<&'static str> {
 }
 
 impl RawFile {
+    /// Applies the options: chooses the dataset, moves the origin and turns y downwards.
     pub(super) fn understand(mut self, options: &ReadOptions) -> Result<CoordinateFile, Located> {
         if let Some(wanted) = &options.dataset {
             if !self.datasets.iter().any(|d| &d.name == wanted) {
@@ -194,7 +218,8 @@ impl RawFile {
                 return Point::new(p.x, height.map_or(p.y, |h| h - p.y));
             }
             let p = origin.to_zero_based(p);
-            // The centre of the bottom row is 0 when y points up; that of the top row when it points down.
+            // The coordinate 0 is the centre of the bottom row if y points up, and that of the top
+            // row if y points down; the two are h − 1 pixels apart.
             Point::new(p.x, height.map_or(p.y, |h| h - 1. - p.y))
         };
         let mut points = Vec::with_capacity(self.datasets.iter().map(|d| d.points.len()).sum());

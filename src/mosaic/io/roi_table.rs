@@ -10,23 +10,24 @@ use std::collections::HashMap;
 use std::path::Path;
 use thiserror::Error;
 
+/// Columns that a header should name, for messages.
 const EXPECTED: &str = "columns x0, y0, x1, y1 or x, y, width, height (with or without _px or _um; name and file as well if \
     there are such)";
 
-/// Boxes that a table does not give.
+/// Error for boxes that cannot be looked up in a table.
 #[derive(Debug, Error)]
 pub enum RoiTableError {
-    /// No row is for the file.
+    /// No row of the table is for the file.
     #[error(
         "{table}: expected rows whose column file is part of {file_name}, found none among {candidates}: add rows, or \
          leave the cell empty for boxes of every file"
     )]
     Missing {
-        /// The table.
+        /// Path of the table.
         table: String,
-        /// The coordinate file, shortened.
+        /// Name of the coordinate file, shortened.
         file_name: String,
-        /// What stands in the column.
+        /// Cells of the column `file`.
         candidates: String,
     },
     /// Several identifiers fit equally well.
@@ -35,27 +36,30 @@ pub enum RoiTableError {
          a longer name"
     )]
     Ambiguous {
-        /// The table.
+        /// Path of the table.
         table: String,
-        /// The coordinate file, shortened.
+        /// Name of the coordinate file, shortened.
         file_name: String,
-        /// The identifiers that fit.
+        /// Identifiers that fit equally well.
         candidates: String,
     },
 }
 
-/// A box and its name.
+/// Rectangular region of interest with its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Roi {
-    /// As the table calls it; otherwise its number in the table, from 1.
+    /// Name in the table; without one, the number of the row, from 1.
     pub name: String,
-    /// Its edges, in the unit of the table. Pixels count from 0 at the centre of the top-left pixel.
+    /// Edges in the unit of the table. Pixels count from 0 at the centre of the top-left pixel.
     pub frame: Rectangle,
 }
 
-/// Regions of interest: CSV with a header that names columns `x0,y0,x1,y1` (edges) or `x,y,width,height` (upper left
-/// corner and sides), in the unit of the coordinates or, with `_px` or `_um` behind them, in that one. A column `name` (or
-/// `roi`) names boxes; a column `file` says which file a box is for, an empty cell in it: every file.
+/// Rectangular regions of interest, read from a CSV table with a header.
+///
+/// The columns are `x0,y0,x1,y1` (edges) or `x,y,width,height` (upper left corner and sides). They
+/// are in the unit of the coordinates or, if they end in `_px` or `_um`, in that unit. A column
+/// `name` (or `roi`) names the boxes. A column `file` says to which file a box belongs; where its
+/// cell is empty, the box applies to every file.
 #[derive(Clone, Debug)]
 pub struct RoiTable {
     file: String,
@@ -65,17 +69,18 @@ pub struct RoiTable {
 
 #[derive(Clone, Debug)]
 struct Entry {
-    /// Empty: every file.
+    /// Part of the names of the files to which the box applies; empty for every file.
     identifier: String,
     roi: Roi,
 }
 
 impl RoiTable {
-    /// Reads a table; `options` say what it counts from, as for coordinates.
+    /// Reads a table of regions; `options` give its origin and the direction of y, as for
+    /// coordinates.
     ///
     /// # Errors
-    /// If the file cannot be read, lacks a header or rows, a row has no box or a box has no area, or two boxes of a file
-    /// have one name.
+    /// If the file cannot be read, lacks a header or rows, a row has no box or a box has no area,
+    /// or two boxes of one file have the same name.
     pub fn read(path: &Path, options: &ReadOptions) -> Result<Self, ReadError> {
         let file = path.display().to_string();
         let read = || -> Result<Self, Located> {
@@ -86,22 +91,24 @@ impl RoiTable {
         read().map_err(|located| located.in_file(&file))
     }
 
-    /// The file, as given.
+    /// Returns the path of the table, as given.
     pub fn file(&self) -> &str {
         &self.file
     }
 
-    /// The unit that its header names.
+    /// Returns the unit that the header names, or `None` if it names none.
     pub const fn unit(&self) -> Option<LengthUnit> {
         self.unit
     }
 
-    /// The boxes of the file of this name, in the order of the table: those for every file, and those whose column `file`
-    /// is the longest part of the name; of two equally long ones, the one the name begins with. A folder before the name
-    /// does not count.
+    /// Returns the boxes of the file of this name, in the order of the table.
+    ///
+    /// These are the boxes for every file, and those whose cell in the column `file` fits best: it
+    /// is part of the file name, folders not included, and the longest such part. Of two equally
+    /// long ones, the one with which the name begins wins.
     ///
     /// # Errors
-    /// If no row fits, or several identifiers do equally well.
+    /// If no row fits, or several identifiers fit equally well.
     pub fn boxes_of(&self, file_name: &str) -> Result<Vec<&Roi>, RoiTableError> {
         let name = without_folder(file_name);
         let fitting = best_fits(&self.entries, name, |e| &e.identifier);
@@ -134,11 +141,11 @@ impl RoiTable {
     }
 }
 
-/// Which columns hold what.
+/// Indices, from 0, of the columns of a table of regions.
 struct Columns {
     numbers: [usize; 4],
     labels: [&'static str; 4],
-    /// Third and fourth are sides, not edges.
+    /// True if the third and fourth number are sides and not edges.
     sides: bool,
     name: Option<usize>,
     file: Option<usize>,
@@ -190,7 +197,8 @@ fn entries(bytes: &[u8], options: &ReadOptions) -> Result<(Option<LengthUnit>, V
         return Err(ReadFault::OriginWithoutPixels { origin, unit: unit.symbol() }.into());
     }
     let from = if pixels { options.origin.unwrap_or_default().value() } else { 0. };
-    // the centre of the bottom row is 0 when y points up, as for coordinates
+    // If y points up, 0 is the centre of the bottom row of pixels, which is at height − 1 when y
+    // points down; the same holds for coordinates.
     let top = if pixels { 1. } else { 0. };
     let mut seen: HashMap<(String, String), usize> = HashMap::new();
     let mut entries = Vec::with_capacity(rows.len());

@@ -8,21 +8,21 @@ use std::collections::HashMap;
 use std::path::Path;
 use thiserror::Error;
 
-/// A scale that a table does not give.
+/// Error for a scale that cannot be looked up in a table.
 #[derive(Debug, Error)]
 pub enum ScaleTableError {
     /// The table cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// No identifier is part of the file name.
+    /// No identifier of the table is part of the file name.
     #[error(
         "{table}: expected a row whose identifier is part of {file_name}, found none among {candidates}: add a row, \
          or let files without a row stay in pixels"
     )]
     Missing {
-        /// The table.
+        /// Path of the table.
         table: String,
-        /// The image, shortened.
+        /// File name of the image, shortened.
         file_name: String,
         /// Identifiers of the table.
         candidates: String,
@@ -33,18 +33,20 @@ pub enum ScaleTableError {
          longer identifier"
     )]
     Ambiguous {
-        /// The table.
+        /// Path of the table.
         table: String,
-        /// The image, shortened.
+        /// File name of the image, shortened.
         file_name: String,
-        /// The identifiers that fit.
+        /// Identifiers that fit equally well.
         candidates: String,
     },
 }
 
-/// The scales of a folder of images: CSV of `identifier,um_per_px` or
-/// `identifier,axial_length_mm,pixels_per_degree`, with or without header. With a header, `identifier` comes first,
-/// the other columns are found by name, and `pixels_per_degree` may stand without an axial length (average eye).
+/// Scales of a folder of images, read from a CSV table.
+///
+/// The columns are `identifier,um_per_px` or `identifier,axial_length_mm,pixels_per_degree`, with
+/// or without a header. With a header, the identifier is still the first column, the other columns
+/// are found by name, and `axial_length_mm` may be missing (average eye).
 #[derive(Clone, Debug)]
 pub struct ScaleTable {
     file: String,
@@ -57,7 +59,7 @@ struct Entry {
     scale: Scale,
 }
 
-/// Where a row says how large a pixel is.
+/// Columns, counted from 0, from which the scale of a row is computed.
 #[derive(Clone, Copy)]
 enum Quantity {
     MicrometresPerPixel(usize),
@@ -65,22 +67,26 @@ enum Quantity {
 }
 
 impl ScaleTable {
-    /// Reads a table. `um_per_degree` holds for rows without an axial length; others use their own.
+    /// Reads a table of scales.
+    ///
+    /// `um_per_degree` applies to rows without an axial length; the other rows use their own.
     ///
     /// # Errors
-    /// If the file cannot be read, a row lacks its identifier or a positive number, or two rows give one
-    /// identifier different scales.
+    /// If the file cannot be read, a row lacks its identifier or a positive number, or two rows
+    /// give the same identifier different scales.
     pub fn read(path: &Path, um_per_degree: f64) -> Result<Self, ReadError> {
         let file = path.display().to_string();
         let entries = read_file(path).map_err(Located::from).and_then(|bytes| entries(&bytes, um_per_degree));
         entries.map(|entries| Self { file: file.clone(), entries }).map_err(|located| located.in_file(&file))
     }
 
-    /// The scale of the image of this name. The row whose identifier is the longest part of the name wins; of two
-    /// equally long ones, the one the name begins with. A folder before the name does not count.
+    /// Returns the scale of the image with this file name.
+    ///
+    /// A row fits if its identifier is part of the file name, folders not included. The longest
+    /// identifier wins; of two equally long ones, the one with which the name begins.
     ///
     /// # Errors
-    /// If no row fits, or several do equally well.
+    /// If no row fits, or several fit equally well.
     pub fn scale_for(&self, file_name: &str) -> Result<Scale, ScaleTableError> {
         let name = without_folder(file_name);
         let winners = best_fits(&self.entries, name, |e| &e.identifier);
@@ -99,12 +105,12 @@ impl ScaleTable {
         }
     }
 
-    /// Number of identifiers.
+    /// Returns the number of identifiers.
     pub fn len(&self) -> usize {
         self.entries.len()
     }
 
-    /// Whether there is no identifier.
+    /// Returns whether the table has no identifiers.
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()
     }

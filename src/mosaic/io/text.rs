@@ -1,7 +1,12 @@
 use super::error::ReadFault;
 
-/// The text of a file: UTF-8 with or without a byte order mark, UTF-16 with one, otherwise Latin-1 (old
-/// spreadsheets write `µ` so); every kind of line end becomes `\n`. Control characters mean it is no text.
+/// Decodes the text of a file and turns every kind of line end into `\n`.
+///
+/// The text is UTF-8 with or without a byte order mark, UTF-16 with one, or otherwise Latin-1 (old
+/// spreadsheets write `µ` in it).
+///
+/// # Errors
+/// If the file contains control characters or broken UTF-16, and so is not text.
 pub(super) fn decode(bytes: &[u8]) -> Result<String, ReadFault> {
     let text = match bytes {
         [0xef, 0xbb, 0xbf, rest @ ..] => utf8_or_latin1(rest),
@@ -9,7 +14,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<String, ReadFault> {
         [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes).ok_or_else(|| binary(bytes))?,
         _ => utf8_or_latin1(bytes),
     };
-    // DOS editors end a text with Ctrl-Z.
+    // Old DOS editors end a text with Ctrl-Z.
     let text = text.strip_suffix('\u{1a}').unwrap_or(&text);
     if text.chars().any(|c| c.is_ascii_control() && !matches!(c, '\t' | '\n' | '\r' | '\u{c}')) {
         return Err(binary(bytes));
@@ -17,7 +22,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<String, ReadFault> {
     Ok(if text.contains('\r') { text.replace("\r\n", "\n").replace('\r', "\n") } else { text.to_owned() })
 }
 
-/// The lines that say something, with their numbers from 1: neither blank nor starting with `#`.
+/// Returns the lines that are neither blank nor start with `#`, with their numbers from 1.
 pub(super) fn content_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     text.split('\n').enumerate().map(|(i, line)| (i + 1, line)).filter(|(_, line)| {
         let line = line.trim();

@@ -4,8 +4,11 @@ use crate::geometry::Point;
 use crate::mosaic::LengthUnit;
 use serde::Deserialize;
 
-/// A project: version 4 holds its datasets at the top, version 3 inside `wpd`. Other keys do not matter here:
-/// `x` and `y` are the places clicked, in pixels from the top-left corner, whatever the axes.
+/// WebPlotDigitizer project of version 3 or 4.
+///
+/// Version 4 has its datasets at the top level, version 3 inside `wpd`. The axes and all other keys
+/// are ignored: `x` and `y` are the places clicked, in pixels from the top-left corner, whatever
+/// the axes.
 #[derive(Deserialize)]
 struct Project {
     #[serde(rename = "datasetColl")]
@@ -32,7 +35,7 @@ struct Mark {
     y: f64,
 }
 
-/// A project as JSON, `wpd.json`.
+/// Reads a project from its JSON text (`wpd.json`).
 pub(super) fn read_json(text: &str) -> Result<RawFile, Located> {
     let broken = |e: serde_json::Error| ReadFault::Json { detail: clipped(&e.to_string(), 120) };
     let project: Project = serde_json::from_str(text.trim()).map_err(broken)?;

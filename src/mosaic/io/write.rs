@@ -6,11 +6,13 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
 
-/// Writes points in pixels as CSV, whole or not at all: `x_px,y_px`, then `score` if there are scores, then
-/// `x_um,y_um` if the scale is known. Numbers are the shortest that read back as the same.
+/// Writes points in pixels as CSV; the file appears whole or not at all.
+///
+/// The columns are `x_px,y_px`, then `score` if there are scores, then `x_um,y_um` if the scale is
+/// known. Each number has the fewest digits from which the same value is read back.
 ///
 /// # Errors
-/// If a number is not finite, there is not one score a point, or the file cannot be written.
+/// If a number is not finite, the scores are not one per point, or the file cannot be written.
 pub fn write_points(
     path: &Path,
     points: &[Point],
@@ -22,7 +24,7 @@ pub fn write_points(
     write_text(path, &text)
 }
 
-/// Writes points without a unit as CSV, `x,y`, whole or not at all.
+/// Writes points without a unit as CSV with columns `x,y`; the file appears whole or not at all.
 ///
 /// # Errors
 /// If a coordinate is not finite or the file cannot be written.
@@ -37,7 +39,7 @@ fn write_text(path: &Path, text: &str) -> Result<(), WriteError> {
         .map_err(|source| WriteError::Io { file: path.to_owned(), source })
 }
 
-/// The text that [`write_points`] writes. Missing scores are left out.
+/// Returns the text that [`write_points`] writes; missing scores become empty cells.
 pub fn format_points(points: &[Point], scores: Option<&[f64]>, scale: Option<Scale>) -> String {
     let um_per_px = scale.map(|s| s.micrometres_per_pixel());
     let mut text = String::with_capacity(32 + points.len() * 64);
@@ -61,7 +63,7 @@ pub fn format_points(points: &[Point], scores: Option<&[f64]>, scale: Option<Sca
     text
 }
 
-/// The text that [`write_plain_points`] writes.
+/// Returns the text that [`write_plain_points`] writes.
 pub fn format_plain_points(points: &[Point]) -> String {
     let mut text = String::with_capacity(8 + points.len() * 40);
     text.push_str("x,y\n");

@@ -3,12 +3,18 @@ use super::Quantity::Plain;
 use super::{Metric, metric};
 use crate::report::tables::{Part, column};
 
+/// Metrics about the file, its scale and its warnings.
 pub(super) const FILE: &[Metric] = &[
-    metric(About, Plain, column("file", "text", "The file, as given.").of(|s| s.file().into())),
     metric(
         About,
         Plain,
-        column("name", "text", "Name under which its results stand.").of(|s| s.name().into()),
+        column("file", "text", "Path of the image or coordinate file, as given.").of(|s| s.file().into()),
+    ),
+    metric(
+        About,
+        Plain,
+        column("name", "text", "Name under which the results of this file are stored.")
+            .of(|s| s.name().into()),
     ),
     metric(
         About,
@@ -27,8 +33,12 @@ pub(super) const FILE: &[Metric] = &[
     metric(
         About,
         Plain,
-        column("um_per_px", "µm/px", "Micrometres of retina per pixel of the image; empty if not known.")
-            .of(|s| s.mosaic().um_per_px().into()),
+        column(
+            "um_per_px",
+            "µm/px",
+            "Scale in micrometres of retina per pixel of the image; empty if unknown.",
+        )
+        .of(|s| s.mosaic().um_per_px().into()),
     ),
     metric(
         About,
@@ -36,16 +46,21 @@ pub(super) const FILE: &[Metric] = &[
         column(
             "unit",
             "text",
-            "Unit of the coordinates (px, um, unit), and of all lengths whose column names none.",
+            "Unit of the coordinates: px, um (micrometres) or unit (the side of the unit square). \
+                Lengths whose column name does not end in a unit are in this unit.",
         )
         .of(|s| s.mosaic().unit.symbol().into()),
     ),
     metric(
         About,
         Plain,
-        column("um_per_unit", "µm", "Micrometres of retina per unit of the coordinates; empty if not known.")
-            .only(Part::Coordinates)
-            .of(|s| s.mosaic().um_per_unit.into()),
+        column(
+            "um_per_unit",
+            "µm",
+            "Scale in micrometres of retina per unit of the coordinates; empty if unknown.",
+        )
+        .only(Part::Coordinates)
+        .of(|s| s.mosaic().um_per_unit.into()),
     ),
     metric(
         About,
@@ -53,8 +68,9 @@ pub(super) const FILE: &[Metric] = &[
         column(
             "um_per_degree",
             "µm/degree",
-            "Micrometres of retina per degree of visual angle: 288, or 291 × axial length / 24 mm, \
-                or as given.",
+            "Micrometres of retina per degree of visual angle: 288 by default, 291 × axial length \
+                / 24 mm where the axial length is given, or the value that was given directly; empty \
+                without a scale.",
         )
         .source("Drasdo & Fowler 1974")
         .of(|s| s.mosaic().um_per_degree.into()),
@@ -62,19 +78,28 @@ pub(super) const FILE: &[Metric] = &[
     metric(
         About,
         Plain,
-        column("modality", "text", "Modality that the image was taken for: confocal, split or histology.")
-            .only(Part::Images)
-            .of(|s| s.detection().map(|d| d.modality.name()).into()),
+        column(
+            "modality",
+            "text",
+            "Imaging modality that the detection assumed: confocal, split (split detector) or \
+                histology.",
+        )
+        .only(Part::Images)
+        .of(|s| s.detection().map(|d| d.modality.name()).into()),
     ),
-    metric(About, Plain, column("n", "count", "Cones (points) in the window.").of(|s| s.mosaic().n.into())),
+    metric(
+        About,
+        Plain,
+        column("n", "count", "Number of cones (points) in the window.").of(|s| s.mosaic().n.into()),
+    ),
     metric(
         About,
         Plain,
         column(
             "outside_window",
             "count",
-            "Points of the file outside the window, which are left out; not those that a crop \
-                leaves out.",
+            "Number of points in the file that lie outside the window and are left out. Points \
+                removed by a crop are not counted here.",
         )
         .only(Part::Coordinates)
         .of(|s| s.coordinates().map(|r| r.outside).into()),
@@ -82,7 +107,7 @@ pub(super) const FILE: &[Metric] = &[
     metric(
         About,
         Plain,
-        column("warnings", "text", "Remarks that a reader of the numbers needs, separated by semicolons.")
+        column("warnings", "text", "Warnings about the numbers in this row, separated by semicolons.")
             .of(|s| s.warnings().join("; ").as_str().into()),
     ),
 ];

@@ -3,27 +3,37 @@ use super::{Metric, Quantity, metric};
 use crate::report::tables::EdgeRule::{All, Bound};
 use crate::report::tables::{Part, column};
 
+/// Metrics of density and of the spacing that follows from it.
 pub(super) const DENSITY: &[Metric] = &[
     metric(
         Density,
         Quantity::Density,
-        column("density", "", "Cones in the window over its area.")
+        column("density", "", "Number of cones in the window divided by the area of the window.")
             .edge(All)
             .of(|s| s.stats().density.into()),
     ),
     metric(
         Density,
         Quantity::Density,
-        column("density_bound", "", "Bound Voronoi cells over their total area; empty without bound cells.")
-            .edge(Bound)
-            .source("Cooper et al. 2016")
-            .of(|s| s.stats().voronoi.density.into()),
+        column(
+            "density_bound",
+            "",
+            "Number of bound Voronoi cells divided by their total area; empty if no cell is \
+                bound.",
+        )
+        .edge(Bound)
+        .source("Cooper et al. 2016")
+        .of(|s| s.stats().voronoi.density.into()),
     ),
     metric(
         Density,
         Quantity::Area,
-        column("window_area", "", "Area in which cones could have been seen.")
-            .of(|s| s.mosaic().window_area.into()),
+        column(
+            "window_area",
+            "",
+            "Area of the window, that is, of the region in which cones could have been seen.",
+        )
+        .of(|s| s.mosaic().window_area.into()),
     ),
     metric(
         Density,
@@ -31,7 +41,8 @@ pub(super) const DENSITY: &[Metric] = &[
         column(
             "spacing_ring",
             "",
-            "Spacing of rows of cones by Yellott's ring in the spectrum of the image, × 2/√3.",
+            "Spacing of neighbouring cones according to Yellott's ring in the power spectrum of \
+                the image: 2/√3 × the spacing of the rows of cones.",
         )
         .source("Yellott 1983")
         .only(Part::Images)
@@ -43,8 +54,8 @@ pub(super) const DENSITY: &[Metric] = &[
         column(
             "spacing_density",
             "",
-            "Distance of neighbours in the triangular lattice of the same density, √(2/(√3 \
-                density)); empty without points.",
+            "Spacing of neighbouring points in the triangular lattice of the same density, \
+                √(2/(√3 density)); empty if there are no points.",
         )
         .edge(All)
         .of(|s| s.stats().spacing.into()),

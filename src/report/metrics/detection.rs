@@ -3,6 +3,7 @@ use super::Quantity::Plain;
 use super::{Metric, metric};
 use crate::report::tables::{Part, column};
 
+/// Metrics of the detection, for images whose cones this program found.
 pub(super) const DETECTION: &[Metric] = &[
     metric(
         Detection,
@@ -10,8 +11,9 @@ pub(super) const DETECTION: &[Metric] = &[
         column(
             "cones_from",
             "text",
-            "Origin of the cones: detected by this program, given (marks from elsewhere), or corrected (found \
-             by this program and mended by a person). Columns about the detection are empty for the last two.",
+            "Origin of the cones: detected (by this program), given (marks from elsewhere) or \
+                corrected (detected by this program and corrected by a person). For given and \
+                corrected cones the columns about the detection are empty.",
         )
         .only(Part::Images)
         .of(|s| s.image().map(|r| r.cones_from.name()).into()),
@@ -19,34 +21,45 @@ pub(super) const DETECTION: &[Metric] = &[
     metric(
         Detection,
         Plain,
-        column("detector", "text", "Filters that found the cones: classical or learned.")
+        column(
+            "detector",
+            "text",
+            "Method that found the cones: classical (fixed filters) or learned (neural network).",
+        )
+        .only(Part::Images)
+        .of(|s| s.detection().map(|d| d.detector.name()).into()),
+    ),
+    metric(
+        Detection,
+        Plain,
+        column("modality_confidence", "0–1", "Probability that modality is correct; 1 if it was given.")
             .only(Part::Images)
-            .of(|s| s.detection().map(|d| d.detector.name()).into()),
+            .of(|s| s.detection().map(|d| d.modality_confidence).into()),
     ),
     metric(
         Detection,
         Plain,
         column(
-            "modality_confidence",
-            "0–1",
-            "Probability that the modality is the true one; 1 if it was given.",
+            "polarity",
+            "text",
+            "Sign of the contrast that the detection assumed: positive (cones brighter than their \
+                surroundings; in split-detector images dark on the left and bright on the right) or \
+                negative (the reverse).",
         )
         .only(Part::Images)
-        .of(|s| s.detection().map(|d| d.modality_confidence).into()),
+        .of(|s| s.detection().map(|d| d.polarity.name()).into()),
     ),
     metric(
         Detection,
         Plain,
-        column("polarity", "text", "Sign of the contrast that the cones were taken to have.")
-            .only(Part::Images)
-            .of(|s| s.detection().map(|d| d.polarity.name()).into()),
-    ),
-    metric(
-        Detection,
-        Plain,
-        column("expected_false_alarms", "count", "Expected number of cones that are none: sum of 1 − score.")
-            .only(Part::Images)
-            .of(|s| s.detection().map(|d| d.expected_false_alarms).into()),
+        column(
+            "expected_false_alarms",
+            "count",
+            "Expected number of detections that are not cones: sum of 1 − score over all \
+                detections.",
+        )
+        .only(Part::Images)
+        .of(|s| s.detection().map(|d| d.expected_false_alarms).into()),
     ),
     metric(
         Detection,
@@ -54,8 +67,8 @@ pub(super) const DETECTION: &[Metric] = &[
         column(
             "expected_misses",
             "count",
-            "Expected number of cones among the candidates that were rejected: sum of their \
-                scores.",
+            "Expected number of cones among the candidates that were rejected: sum of the scores \
+                of these candidates.",
         )
         .only(Part::Images)
         .of(|s| s.detection().map(|d| d.expected_misses).into()),
@@ -66,7 +79,8 @@ pub(super) const DETECTION: &[Metric] = &[
         column(
             "expected_error_rate",
             "0–1",
-            "Sum of expected_false_alarms and expected_misses over the cones found.",
+            "Expected number of errors per detected cone: sum of expected_false_alarms and \
+                expected_misses, divided by the number of detected cones.",
         )
         .only(Part::Images)
         .of(|s| s.detection().map(|d| d.expected_error_rate()).into()),
@@ -77,7 +91,8 @@ pub(super) const DETECTION: &[Metric] = &[
         column(
             "spacing_confidence",
             "0–1",
-            "Probability that the spacing the detector worked with is within 15 % of the true one.",
+            "Probability that the spacing used by the detector is within 15 % of the true \
+                spacing.",
         )
         .only(Part::Images)
         .of(|s| s.detection().map(|d| d.spacing_confidence).into()),
@@ -85,14 +100,14 @@ pub(super) const DETECTION: &[Metric] = &[
     metric(
         Detection,
         Plain,
-        column("spacing_min_px", "px", "Closest spacing the detector worked with, from place to place.")
+        column("spacing_min_px", "px", "Smallest cone spacing that the detector used anywhere in the image.")
             .only(Part::Images)
             .of(|s| s.detection().map(|d| d.spacing_range_px[0]).into()),
     ),
     metric(
         Detection,
         Plain,
-        column("spacing_max_px", "px", "Widest spacing the detector worked with, from place to place.")
+        column("spacing_max_px", "px", "Largest cone spacing that the detector used anywhere in the image.")
             .only(Part::Images)
             .of(|s| s.detection().map(|d| d.spacing_range_px[1]).into()),
     ),

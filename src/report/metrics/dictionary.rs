@@ -5,27 +5,34 @@ use crate::report::{ReportError, table};
 
 const KINDS: [(SummaryKind, &str); 2] = [(SummaryKind::Images, "run"), (SummaryKind::Coordinates, "measure")];
 
-/// Opening of the page.
+/// Opening paragraphs of the data dictionary.
 const INTRODUCTION: &str = "\
-Columns of `summary.csv`. Lengths, areas and densities are given in several units at once, which the column's \
-name ends in; a cell is empty where its unit cannot be had: px of coordinates in µm or in the unit square, µm \
-and degrees without a scale. Columns have one name in all commands. Beside them the summary of `measure` gives \
-each of these values in the unit of the coordinates, which the column `unit` names, under the name without \
-unit. Options that take names (`--metrics`, `agree --columns`) accept the name without unit everywhere, and \
-`spacing` for `spacing_density`. A cell is empty where its value is not defined or not known: metrics of bound \
-cells where there are none (below four points at least), standard deviations below two values, and ratios over \
-one where all values are equal. Columns of a manifest follow behind.
+This part describes the columns of `summary.csv`.
 
-Edge rules: *all*: nothing is done about the border. *interior*: points at least as far from the border as \
-from their nearest neighbour. *bound*: points whose Voronoi cell is finite and has every vertex strictly inside \
-the window (Cooper et al. 2016).";
+Lengths, areas and densities are given in several units, one column per unit; the name of the column ends in \
+the unit. A cell is empty if its value cannot be converted to that unit: px need a scale if the coordinates \
+are in µm and are impossible in the unit square; µm and degrees need a scale. A column has the same name in \
+all commands. The summary of `measure` also gives each of these values in the unit of the coordinates, which \
+the column `unit` names; that column's name has no unit. Options that take names (`--metrics`, \
+`agree --columns`) accept the name without a unit in all commands, and `spacing` for `spacing_density`.
 
-/// Opening of the tables beside the summary.
+A cell is also empty if its value is not defined or not known. For example, metrics of bound cells need at \
+least one bound cell (there are none with fewer than four points), a standard deviation needs two values, and \
+a ratio to a standard deviation needs values that differ. The columns of a manifest come after all others.
+
+The edge rule says which points count, as the neighbours of a point near the border may lie outside the window. \
+*all*: all points count, without any correction. *interior*: only those points count that are at least as far \
+from the border as from their nearest neighbour. *bound*: only those points count whose Voronoi cell is finite \
+and has every vertex strictly inside the window (Cooper et al. 2016). *see definition*: the definition states the \
+column's own rule. –: the border does not affect the value.";
+
+/// Opening paragraph of the part about all other tables.
 const BESIDE: &str = "\
-Other tables. `NAME` stands for the name of an image or a file of coordinates, `SAMPLER` in a column for that \
-of each sampler; `unit` is the unit of the coordinates: px of an image.";
+This part describes all other tables. `NAME` stands for the name of an image or coordinate file, and \
+`SAMPLER` in the name of a column for the name of each sampler. The unit `unit` is the unit of the coordinates, \
+which is px for an image.";
 
-/// A column as the data dictionary tells it.
+/// Row of the data dictionary, which describes one column of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct DictionaryRow {
     table: &'static str,
@@ -42,24 +49,27 @@ impl Row for DictionaryRow {
     type Of<'a> = &'a Self;
 }
 
-/// The data dictionary itself.
+/// Columns of the data dictionary as CSV.
 static DICTIONARY: Table<DictionaryRow> = Table {
     file: "dictionary.csv",
     commands: "metrics --csv",
-    about: "One row per column of every table.",
+    about: "One row for each column of each table.",
     columns: &[
-        column("table", "text", "The file.").of(|r| r.table.into()),
-        column("column", "text", "The column.").of(|r| r.column.as_str().into()),
-        column("group", "text", "Group that it is chosen with; of the summary only.").of(|r| r.group.into()),
+        column("table", "text", "Name of the file that contains the table.").of(|r| r.table.into()),
+        column("column", "text", "Name of the column.").of(|r| r.column.as_str().into()),
+        column("group", "text", "Group of the column in --metrics; empty for tables other than summary.csv.")
+            .of(|r| r.group.into()),
         column("unit", "text", "Unit of the column.").of(|r| r.unit.into()),
-        column("edge_rule", "text", "Edge rule.").of(|r| r.edge.into()),
-        column("commands", "text", "The commands that write it.").of(|r| r.commands.as_str().into()),
+        column("edge_rule", "text", "Edge rule: which points count near the border of the window.")
+            .of(|r| r.edge.into()),
+        column("commands", "text", "Commands that write the table.").of(|r| r.commands.as_str().into()),
         column("definition", "text", "Definition of the value.").of(|r| r.definition.into()),
-        column("source", "text", "Author and year of the definition.").of(|r| r.source.into()),
+        column("source", "text", "Author and year of the publication that defines the value.")
+            .of(|r| r.source.into()),
     ],
 };
 
-/// Returns the columns of a metric, each with the commands that have it.
+/// Returns one row per column of a metric, with the commands whose summaries have it.
 fn rows_of(metric: &'static Metric) -> Vec<DictionaryRow> {
     let sampler = [String::from("SAMPLER")];
     let mut rows: Vec<DictionaryRow> = Vec::new();
@@ -83,7 +93,7 @@ fn rows_of(metric: &'static Metric) -> Vec<DictionaryRow> {
     rows
 }
 
-/// Returns all rows: columns of the summaries, then of all other tables.
+/// Returns the rows of the columns of the summaries, then of all other tables.
 fn all_rows() -> Vec<DictionaryRow> {
     let beside = TABLES.into_iter().flat_map(|t| {
         let words = t.words();
@@ -101,10 +111,11 @@ fn all_rows() -> Vec<DictionaryRow> {
     metrics().flat_map(rows_of).chain(beside).collect()
 }
 
-/// Returns the data dictionary as CSV: one row per column of the summaries, then of all other tables.
+/// Returns the data dictionary as CSV: one row per column of the summaries, then of all other
+/// tables.
 ///
 /// # Errors
-/// If it cannot be written as CSV.
+/// If the table cannot be written as CSV.
 pub fn dictionary_csv() -> Result<Vec<u8>, ReportError> {
     DICTIONARY.csv(&all_rows())
 }
@@ -131,7 +142,7 @@ pub fn dictionary_text() -> String {
     text
 }
 
-/// Returns a metric for a terminal: its columns, units and commands, then what it is.
+/// Returns a metric for a terminal: its columns, units and commands, then its definition.
 fn block(metric: &'static Metric) -> String {
     let cells = |row: DictionaryRow| vec![row.column, row.unit.to_owned(), row.commands];
     let columns: Vec<Vec<String>> = rows_of(metric).into_iter().map(cells).collect();
@@ -144,15 +155,17 @@ fn block(metric: &'static Metric) -> String {
     text
 }
 
+/// Returns the edge rule as a sentence, or nothing for values that do not depend on it.
 fn rule(edge: &str) -> String {
     if edge == "–" { String::new() } else { format!(" Edge rule: {edge}.") }
 }
 
+/// Returns the source in square brackets, or nothing if there is none.
 fn cited(source: &str) -> String {
     if source.is_empty() { String::new() } else { format!(" [{source}]") }
 }
 
-/// Returns a table beside the summary as a section in Markdown.
+/// Returns a table other than the summary as a section in Markdown.
 fn section(t: &TableWords) -> String {
     let row = |c: &ColumnWords| {
         format!("| `{}` | {} | {} | {} | {} |\n", c.name, c.unit, c.edge.name(), c.definition, c.source)
@@ -166,7 +179,7 @@ fn section(t: &TableWords) -> String {
     )
 }
 
-/// Returns a metric as a row in Markdown; its columns are lines of a cell.
+/// Returns a metric as a row in Markdown, with its columns on separate lines of a cell.
 fn line(metric: &'static Metric) -> String {
     let rows = rows_of(metric);
     let join = |cells: Vec<String>| cells.join("<br>");
@@ -186,7 +199,7 @@ fn line(metric: &'static Metric) -> String {
 /// Returns the data dictionary as a page in Markdown.
 pub fn dictionary() -> String {
     let mut page = format!(
-        "# Data dictionary\n\nMade by `conemosaic metrics --markdown`; a test holds it to the program.\n\n{INTRODUCTION}\n"
+        "# Data dictionary\n\nThis file is generated by `conemosaic metrics --markdown`, and a test checks that it is up to date.\n\n{INTRODUCTION}\n"
     );
     for group in MetricGroup::ALL {
         page.push_str(&format!("\n## {} (`--metrics {}`)\n\n", group.title(), group.name()));
@@ -195,7 +208,7 @@ pub fn dictionary() -> String {
         );
         metrics().filter(|m| m.group == group).for_each(|m| page.push_str(&line(m)));
     }
-    page.push_str(&format!("\n## Beside the summary\n\n{BESIDE}\n"));
+    page.push_str(&format!("\n## Other tables\n\n{BESIDE}\n"));
     TABLES.iter().for_each(|t| page.push_str(&section(&t.words())));
     page
 }

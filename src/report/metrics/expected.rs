@@ -4,6 +4,7 @@ use super::{Metric, metric};
 use crate::report::tables::EdgeRule::All;
 use crate::report::tables::column;
 
+/// Metrics expected at the place of the image on the retina.
 pub(super) const EXPECTED: &[Metric] = &[
     metric(
         Expected,
@@ -11,9 +12,9 @@ pub(super) const EXPECTED: &[Metric] = &[
         column(
             "eccentricity_mm",
             "mm",
-            "Distance from the fovea along the retina, from the manifest's eccentricity_mm, or its \
-                eccentricity_deg by um_per_degree (which holds near the fovea only: give mm for \
-                the periphery); empty if not given.",
+            "Distance from the fovea along the retina, from the manifest: its eccentricity_mm or \
+                else its eccentricity_deg, converted by um_per_degree. The conversion holds near the \
+                fovea only; give mm for the periphery. Empty if not given.",
         )
         .of(|s| s.mosaic().place.map(|p| p.eccentricity_mm).into()),
     ),
@@ -23,8 +24,8 @@ pub(super) const EXPECTED: &[Metric] = &[
         column(
             "meridian",
             "text",
-            "Direction from the fovea on the retina, from the manifest; empty if not given: then \
-                what is expected is the mean of the four.",
+            "Direction from the fovea on the retina, from the manifest: nasal, temporal, superior \
+                or inferior. Empty if not given; the expected density is then the mean of the four.",
         )
         .of(|s| s.mosaic().place.and_then(|p| p.meridian).map(|m| m.name()).into()),
     ),
@@ -34,9 +35,10 @@ pub(super) const EXPECTED: &[Metric] = &[
         column(
             "density_expected_per_mm2",
             "1/mm²",
-            "Cones per mm² at that place in the average eye (eight retinas of seven people of 27 \
-                to 44 years, whose foveal centres have 100 000 to 324 000); empty beyond 18 mm, \
-                along a meridian 18 to 22 mm.",
+            "Cone density expected at this place in the average eye. The average is over eight \
+                retinas of seven people aged 27 to 44 years, with 100 000 to 324 000 cones per mm² \
+                at the centre of the fovea. Empty farther than 18 mm from the fovea; if the meridian \
+                is known, farther than 18 to 22 mm, depending on the meridian.",
         )
         .source("Curcio et al. 1990, read off their curves")
         .of(|s| s.mosaic().expected_cones_per_mm2().into()),
@@ -44,9 +46,14 @@ pub(super) const EXPECTED: &[Metric] = &[
     metric(
         Expected,
         Plain,
-        column("spacing_expected_um", "µm", "Spacing of the triangular lattice of that density.")
-            .source("Curcio et al. 1990, read off their curves")
-            .of(|s| s.mosaic().expected_spacing_um().into()),
+        column(
+            "spacing_expected_um",
+            "µm",
+            "Spacing of neighbouring cones in the triangular lattice of density \
+                density_expected_per_mm2.",
+        )
+        .source("Curcio et al. 1990, read off their curves")
+        .of(|s| s.mosaic().expected_spacing_um().into()),
     ),
     metric(
         Expected,
@@ -54,7 +61,8 @@ pub(super) const EXPECTED: &[Metric] = &[
         column(
             "density_of_expected_percent",
             "%",
-            "density in per cent of what is expected there; empty without scale or eccentricity.",
+            "Measured density as a percentage of density_expected_per_mm2; empty without a scale \
+                or an eccentricity.",
         )
         .edge(All)
         .source("Curcio et al. 1990, read off their curves")

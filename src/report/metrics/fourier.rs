@@ -3,6 +3,7 @@ use super::Quantity::{Length, Plain};
 use super::{Metric, metric};
 use crate::report::tables::{Part, column};
 
+/// Metrics of spacing from power spectra of the points and of the image.
 pub(super) const FOURIER: &[Metric] = &[
     metric(
         Fourier,
@@ -10,9 +11,9 @@ pub(super) const FOURIER: &[Metric] = &[
         column(
             "modal_spacing",
             "",
-            "Spacing of the triangular lattice whose ring of the power spectrum is where that of \
-                the points is, 2/(√3 frequency); empty for fewer than 20 points, in a polygon and \
-                without a ring.",
+            "Spacing of the triangular lattice whose power spectrum has its ring at the same \
+                frequency as the ring of the points, 2/(√3 frequency); empty for fewer than 20 \
+                points, in a polygonal window and if there is no ring.",
         )
         .source("Yellott 1983")
         .of(|s| s.stats().modal.map(|m| m.spacing).into()),
@@ -20,16 +21,26 @@ pub(super) const FOURIER: &[Metric] = &[
     metric(
         Fourier,
         Length,
-        column("modal_row_spacing", "", "Modal spacing: 1/frequency of that ring, from row to row.")
-            .source("Yellott 1983")
-            .of(|s| s.stats().modal.map(|m| m.row_spacing).into()),
+        column(
+            "modal_row_spacing",
+            "",
+            "Modal spacing, from row to row of that lattice: 1/frequency of the ring in the power \
+                spectrum of the points.",
+        )
+        .source("Yellott 1983")
+        .of(|s| s.stats().modal.map(|m| m.row_spacing).into()),
     ),
     metric(
         Fourier,
         Plain,
-        column("modal_power", "ratio", "Power on that ring: 1 for independent points.")
-            .source("Yellott 1983")
-            .of(|s| s.stats().modal.map(|m| m.power).into()),
+        column(
+            "modal_power",
+            "ratio",
+            "Mean power on the ring in the power spectrum of the points: 1 for independent \
+                points.",
+        )
+        .source("Yellott 1983")
+        .of(|s| s.stats().modal.map(|m| m.power).into()),
     ),
     metric(
         Fourier,
@@ -37,8 +48,9 @@ pub(super) const FOURIER: &[Metric] = &[
         column(
             "fourier_spacing",
             "",
-            "Spacing of the triangular lattice with the ring that cones leave in the spectrum of \
-                the image, in all directions, without looking for cones; empty without a ring.",
+            "Spacing of the triangular lattice that has the same ring in its power spectrum as \
+                the image, over all directions. No cones are detected for it; empty if there is no \
+                ring.",
         )
         .source("Cooper, Aguirre & Morgan 2019, with another background and fit")
         .only(Part::Images)
@@ -50,9 +62,9 @@ pub(super) const FOURIER: &[Metric] = &[
         column(
             "fourier_spacing_row",
             "",
-            "Spacing of the triangular lattice with the ring that cones leave in the spectrum of \
-                the image, of waves within 45° of the y axis, without looking for cones; empty \
-                without a ring.",
+            "Spacing of the triangular lattice that has the same ring in its power spectrum as \
+                the image, over waves within 45° of the y axis. No cones are detected for it; empty \
+                if there is no ring.",
         )
         .source("Cooper, Aguirre & Morgan 2019, with another background and fit")
         .only(Part::Images)
@@ -64,9 +76,9 @@ pub(super) const FOURIER: &[Metric] = &[
         column(
             "fourier_spacing_cell",
             "",
-            "Spacing of the triangular lattice with the ring that cones leave in the spectrum of \
-                the image, of waves within 45° of the x axis, without looking for cones; empty \
-                without a ring.",
+            "Spacing of the triangular lattice that has the same ring in its power spectrum as \
+                the image, over waves within 45° of the x axis. No cones are detected for it; empty \
+                if there is no ring.",
         )
         .source("Cooper, Aguirre & Morgan 2019, with another background and fit")
         .only(Part::Images)
@@ -78,9 +90,9 @@ pub(super) const FOURIER: &[Metric] = &[
         column(
             "fourier_confidence",
             "0–1",
-            "Share of the variance of the profile in all directions about its background that the \
-                ring explains, less what it explains of noise by three standard deviations: 0 of \
-                noise.",
+            "Share of the variance of the spectrum that the ring explains, minus what a ring of \
+                three standard deviations of noise would explain: 0 for noise. The variance is that \
+                of the spectral profile over all directions about its smooth background.",
         )
         .source("Cooper, Aguirre & Morgan 2019, with another background and fit")
         .only(Part::Images)

@@ -2,12 +2,12 @@ use crate::report::tables::{Column, Part, Row};
 use crate::report::{CoordinatesRecord, DetectionRecord, ImageRecord, MosaicRecord};
 use crate::stats;
 
-/// The record that a row of a summary is made from.
+/// Record from which a row of a summary is made.
 #[derive(Clone, Copy)]
 pub enum Subject<'a> {
     /// An image whose cones this program found.
     Image(&'a ImageRecord),
-    /// Coordinates from anywhere.
+    /// Coordinates of any origin, without an image.
     Coordinates(&'a CoordinatesRecord),
 }
 
@@ -16,11 +16,12 @@ impl Row for Subject<'static> {
 }
 
 impl<'a> Subject<'a> {
-    /// Returns the statistics of its mosaic.
+    /// Returns the statistics of the mosaic.
     pub(super) const fn stats(&self) -> &'a stats::Summary {
         &self.mosaic().stats
     }
 
+    /// Returns the path of the file, as given.
     pub(super) fn file(&self) -> &'a str {
         match self {
             Self::Image(record) => &record.file,
@@ -28,6 +29,7 @@ impl<'a> Subject<'a> {
         }
     }
 
+    /// Returns the name under which the results are stored.
     pub(super) fn name(&self) -> &'a str {
         match self {
             Self::Image(record) => &record.name,
@@ -35,6 +37,7 @@ impl<'a> Subject<'a> {
         }
     }
 
+    /// Returns the warnings about the numbers.
     pub(super) fn warnings(&self) -> &'a [String] {
         match self {
             Self::Image(record) => &record.warnings,
@@ -42,7 +45,7 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// Returns its mosaic.
+    /// Returns the record of the mosaic.
     pub const fn mosaic(&self) -> &'a MosaicRecord {
         match self {
             Self::Image(record) => &record.mosaic,
@@ -50,6 +53,7 @@ impl<'a> Subject<'a> {
         }
     }
 
+    /// Returns the record of an image; `None` for coordinates.
     pub(super) const fn image(&self) -> Option<&'a ImageRecord> {
         match self {
             Self::Image(record) => Some(record),
@@ -57,11 +61,12 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// Returns how the cones of an image were found, if this program found them.
+    /// Returns the record of the detection; `None` if this program did not find the cones.
     pub(super) fn detection(&self) -> Option<&'a DetectionRecord> {
         self.image().and_then(|record| record.detection.as_ref())
     }
 
+    /// Returns the record of coordinates; `None` for an image.
     pub(super) const fn coordinates(&self) -> Option<&'a CoordinatesRecord> {
         match self {
             Self::Image(_) => None,
@@ -70,7 +75,7 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// Kinds of summaries.
+/// Kind of summary, which depends on the command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SummaryKind {
     /// Summaries of `run`: one row per image.
@@ -80,7 +85,7 @@ pub enum SummaryKind {
 }
 
 impl SummaryKind {
-    /// Returns the part of all columns that it has.
+    /// Returns the part of all columns that a summary of this kind has.
     pub(super) const fn part(self) -> Part {
         match self {
             Self::Images => Part::Images,
@@ -89,10 +94,10 @@ impl SummaryKind {
     }
 }
 
-/// Metrics that are chosen together.
+/// Group of metrics that can be chosen together by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MetricGroup {
-    /// The file, and what is worth knowing before its numbers.
+    /// The file, its scale, and other facts needed to read its numbers.
     About,
     /// Detection of the cones.
     Detection,
@@ -102,19 +107,19 @@ pub enum MetricGroup {
     Nearest,
     /// Voronoi cells and Delaunay neighbours.
     Voronoi,
-    /// Comparison with independent points.
+    /// Comparison with independently placed points.
     Regularity,
-    /// Distances to point samplers.
+    /// Distances between the mosaic and point samplers.
     Samplers,
     /// Density around the average cone.
     Recovery,
-    /// Directions of neighbours.
+    /// Directions of neighbours and anisotropy.
     Orientation,
-    /// Rings of spectra.
+    /// Spacing from rings in power spectra.
     Fourier,
-    /// Evenness of density.
+    /// Evenness of density across the window.
     Evenness,
-    /// Values expected at that place of the retina.
+    /// Values expected at this place on the retina.
     Expected,
 }
 
@@ -135,7 +140,7 @@ impl MetricGroup {
         Self::Expected,
     ];
 
-    /// Returns the name, as it is written in options.
+    /// Returns the name of the group, as it is written in options.
     pub const fn name(self) -> &'static str {
         match self {
             Self::About => "about",
@@ -153,7 +158,7 @@ impl MetricGroup {
         }
     }
 
-    /// Returns a heading.
+    /// Returns the heading of the group in the data dictionary.
     pub const fn title(self) -> &'static str {
         match self {
             Self::About => "About the file",
@@ -161,37 +166,39 @@ impl MetricGroup {
             Self::Density => "Density and spacing",
             Self::Nearest => "Nearest neighbours",
             Self::Voronoi => "Voronoi cells and Delaunay neighbours",
-            Self::Regularity => "Regularity against independent points",
+            Self::Regularity => "Regularity compared with independent points",
             Self::Samplers => "Distance to point samplers",
             Self::Recovery => "Density recovery profile",
             Self::Orientation => "Orientation and anisotropy",
-            Self::Fourier => "Spacing by spectra",
+            Self::Fourier => "Spacing from power spectra",
             Self::Evenness => "Evenness of density",
-            Self::Expected => "Expected at that place of the retina",
+            Self::Expected => "Values expected at this place on the retina",
         }
     }
 }
 
-/// Dimension of a value, which decides the units that it is given in.
+/// Dimension of a value, which determines the units in which the value is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// A length: in the unit of the coordinates, px, µm, degrees and minutes of visual angle.
+    /// A length, in the unit of the coordinates, px, µm, degrees and minutes of visual angle.
+    ///
+    /// An image's own unit is px and is not repeated.
     Length,
-    /// An area, likewise.
+    /// An area, in the squares of these units, with mm² in place of µm².
     Area,
-    /// Cones per area, likewise.
+    /// A number of cones per area, in the inverse of the units of an area.
     Density,
-    /// Text, or a number of the one unit that its column names.
+    /// Text, or a number that has one unit only, which its column states.
     Plain,
 }
 
-/// A column of a summary, or several that differ in nothing but their unit.
+/// Column of a summary, or several columns that differ only in their unit.
 pub struct Metric {
-    /// The group that it is chosen with.
+    /// Group with which the metric is chosen.
     pub group: MetricGroup,
-    /// Dimension; values are in the unit of the coordinates.
+    /// Dimension of the value, which is computed in the unit of the coordinates.
     pub quantity: Quantity,
-    /// Name (less the unit), definition and value.
+    /// Name (without the unit), definition and value.
     pub column: Column<Subject<'static>>,
 }
 
@@ -205,7 +212,7 @@ pub(super) const fn metric(
 }
 
 impl Metric {
-    /// Returns whether a summary of this kind has it.
+    /// Returns whether a summary of this kind has the metric.
     pub fn is_of(&self, kind: SummaryKind) -> bool {
         self.column.words.part.is_none_or(|only| only == kind.part())
     }

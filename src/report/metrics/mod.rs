@@ -1,5 +1,6 @@
-//! The columns of `summary.csv`: what each is, in which unit, by which edge rule, after whom. Headers, rows
-//! and the data dictionary all come from the lists here.
+//! The columns of `summary.csv`, each with its definition, unit, edge rule and source.
+//!
+//! Headers, rows and the data dictionary are all made from the lists in this folder.
 
 mod about;
 mod density;
@@ -29,7 +30,7 @@ pub use words::column_in_words;
 
 use metric::metric;
 
-/// Returns all metrics, in the order of the columns.
+/// Returns all metrics in the order of their columns.
 pub fn metrics() -> impl Iterator<Item = &'static Metric> {
     [
         about::FILE,

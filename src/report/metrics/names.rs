@@ -2,10 +2,11 @@ use super::unit::Unit;
 use super::{Metric, Quantity, metrics};
 use std::borrow::Cow;
 
-/// Metrics whose names were others in earlier versions: the old name and the present one.
+/// Metrics that had another name in earlier versions: the old name and the present one.
 const RENAMED: [(&str, &str); 1] = [("spacing", "spacing_density")];
 
-/// Returns the present name of a metric or column that may be called as in an earlier version.
+/// Returns the present name of a metric or column, which may be given by its name in an earlier
+/// version.
 pub(super) fn canonical(name: &str) -> Cow<'_, str> {
     for (old, present) in RENAMED {
         let Some(metric) = metrics().find(|m| m.column.words.name == present) else { continue };
@@ -18,19 +19,23 @@ pub(super) fn canonical(name: &str) -> Cow<'_, str> {
     Cow::Borrowed(name)
 }
 
-/// The names that columns of one metric and unit may have in a summary of any command or version.
+/// Names of the column of one metric and unit in the summaries of all commands and versions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ColumnNames {
-    /// The present name, which ends in the unit.
+    /// Present name of the column, which ends in the unit.
     pub name: String,
-    /// Names that say the unit, the present one first.
+    /// Names that end in the unit, the present one first.
     pub suffixed: Vec<String>,
-    /// Names without a unit that mean the same where the coordinates are in px; empty for other units.
+    /// Names without a unit, which mean the same column where the coordinates are in px.
+    ///
+    /// The list is empty for units other than px.
     pub in_pixels: Vec<&'static str>,
 }
 
-/// Returns the columns that may be meant by a name, in the order in which they should be tried: one per
-/// unit, or that of the name's own unit. Empty if no length, area or density is called so.
+/// Returns the columns that a name may mean, in the order in which they should be tried.
+///
+/// A name without a unit means one column per unit; a name with a unit means one column. The list
+/// is empty if no length, area or density has this name.
 pub fn column_names(asked: &str) -> Vec<ColumnNames> {
     let asked = canonical(asked);
     let measured = metrics().filter(|m| m.quantity != Quantity::Plain);

@@ -4,6 +4,7 @@ use super::{Metric, metric};
 use crate::report::tables::EdgeRule::{Bound, Interior, Own};
 use crate::report::tables::column;
 
+/// Metrics of the density recovery profile around the average cone.
 pub(super) const RECOVERY: &[Metric] = &[
     metric(
         Recovery,
@@ -11,10 +12,11 @@ pub(super) const RECOVERY: &[Metric] = &[
         column(
             "recovery_effective_radius",
             "",
-            "Radius of the empty disk that lacks as many cones as there are too few around the \
-                average cone, up to the first annulus above the mean density; empty if there is \
-                none, and for fewer than two points. Annuli are corrected by the share of them \
-                that lies in the window.",
+            "Effective radius of the density recovery profile: radius of an empty disk that would \
+                hold, at the mean density, as many cones as are missing around the average cone. \
+                Missing cones are counted up to the first annulus denser than the mean; empty if \
+                there is no such annulus, and for fewer than two points. Only the part of each \
+                annulus that lies in the window counts as its area.",
         )
         .edge(Own)
         .source("Rodieck 1991")
@@ -26,8 +28,8 @@ pub(super) const RECOVERY: &[Metric] = &[
         column(
             "recovery_packing",
             "ratio",
-            "Packing factor: square of the effective radius over that of the triangular lattice of \
-                the same density; 0 for independent points, 1 for the lattice.",
+            "Packing factor: squared ratio of the effective radius to that of the triangular \
+                lattice of the same density. It is 0 for independent points and 1 for the lattice.",
         )
         .edge(Own)
         .source("Rodieck 1991")
@@ -39,7 +41,8 @@ pub(super) const RECOVERY: &[Metric] = &[
         column(
             "recovery_reliability",
             "ratio",
-            "Reliability factor: density × width of the annuli × √(π area).",
+            "Reliability factor of the density recovery profile: density × width of the annuli × \
+                √(π × area of the window).",
         )
         .source("Rodieck 1991")
         .of(|s| s.stats().density_recovery.map(|r| r.reliability).into()),
@@ -47,12 +50,18 @@ pub(super) const RECOVERY: &[Metric] = &[
     metric(
         Recovery,
         Length,
-        column("recovery_bin_width", "", "Width of the annuli: such that the reliability factor is 4.")
-            .source("Rodieck 1991")
-            .of(|s| s.stats().density_recovery.map(|r| r.bin_width).into()),
+        column(
+            "recovery_bin_width",
+            "",
+            "Width of the annuli of the density recovery profile, chosen so that the reliability \
+                factor is 4.",
+        )
+        .source("Rodieck 1991")
+        .of(|s| s.stats().density_recovery.map(|r| r.bin_width).into()),
     ),
 ];
 
+/// Metrics of the directions of neighbours and of anisotropy.
 pub(super) const ORIENTATION: &[Metric] = &[
     metric(
         Orientation,
@@ -60,7 +69,8 @@ pub(super) const ORIENTATION: &[Metric] = &[
         column(
             "nn_axes",
             "count",
-            "Interior points whose nearest neighbour has a direction (does not coincide with them).",
+            "Number of interior points whose nearest neighbour lies in a defined direction, that \
+                is, does not coincide with the point.",
         )
         .edge(Interior)
         .of(|s| s.stats().orientation.axes.into()),
@@ -71,8 +81,9 @@ pub(super) const ORIENTATION: &[Metric] = &[
         column(
             "nn_axis_resultant",
             "0–1",
-            "Length of the mean of exp(2iθ), θ the directions of nearest neighbours: 0 if they are \
-                spread evenly, 1 if parallel; by chance about .9/√nn_axes.",
+            "Resultant length of the axes to the nearest neighbours: modulus of the mean of \
+                exp(2iθ) over their directions θ. It is 0 if the axes are evenly spread and 1 if \
+                they are parallel; chance alone gives about .9/√nn_axes.",
         )
         .edge(Interior)
         .source("Mardia & Jupp 2000")
@@ -84,7 +95,8 @@ pub(super) const ORIENTATION: &[Metric] = &[
         column(
             "nn_axis_deg",
             "degrees, counter-clockwise from the x axis",
-            "Mean axis of the nearest neighbours, 0–180; empty where the resultant is 0.",
+            "Mean axis of the directions to the nearest neighbours, 0–180°; empty if \
+                nn_axis_resultant is 0.",
         )
         .edge(Interior)
         .source("Mardia & Jupp 2000")
@@ -96,9 +108,9 @@ pub(super) const ORIENTATION: &[Metric] = &[
         column(
             "nn_axis_p",
             "0–1",
-            "Chance of such a resultant where all directions are alike (Rayleigh's test; points \
-                linked as nearest neighbours count as one); empty for fewer than 10 of these \
-                groups.",
+            "p-value of Rayleigh's test: probability of a resultant at least this long if all \
+                directions are equally likely. Points that are linked as nearest neighbours form a \
+                group, which counts as one; empty for fewer than 10 groups.",
         )
         .edge(Interior)
         .source("Mardia & Jupp 2000")
@@ -110,9 +122,10 @@ pub(super) const ORIENTATION: &[Metric] = &[
         column(
             "anisotropy",
             "ratio",
-            "Longer over shorter half axis of the ellipse with the second moments of the ways to \
-                Delaunay neighbours, mean over bound cells: 1 for none, the stretch of a stretched \
-                triangular lattice; empty without bound cells.",
+            "Ratio of the longer to the shorter semi-axis of the neighbour ellipse, which has the \
+                second moments of the vectors to the Delaunay neighbours, averaged over the bound \
+                cells. It is 1 without anisotropy, and the stretch factor in a stretched triangular \
+                lattice; empty if no cell is bound.",
         )
         .edge(Bound)
         .source("Curcio & Sloan 1992; Cooper et al. 2016")
@@ -124,7 +137,8 @@ pub(super) const ORIENTATION: &[Metric] = &[
         column(
             "anisotropy_axis_deg",
             "degrees, counter-clockwise from the x axis",
-            "Direction of the longer half axis of that ellipse, 0–180; empty where both are equal.",
+            "Direction of the longer semi-axis of the neighbour ellipse, 0–180°; empty if both \
+                semi-axes are equal.",
         )
         .edge(Bound)
         .source("Curcio & Sloan 1992; Cooper et al. 2016")
@@ -136,8 +150,8 @@ pub(super) const ORIENTATION: &[Metric] = &[
         column(
             "neighbour_ellipse_major",
             "",
-            "Longer half axis of that ellipse, √2 × the root mean square along it: the spacing of a triangular \
-                lattice.",
+            "Longer semi-axis of the neighbour ellipse: √2 × the root mean square component of \
+                the vectors along it. In a triangular lattice it is the spacing.",
         )
         .edge(Bound)
         .source("Curcio & Sloan 1992; Cooper et al. 2016")
@@ -146,10 +160,15 @@ pub(super) const ORIENTATION: &[Metric] = &[
     metric(
         Orientation,
         Length,
-        column("neighbour_ellipse_minor", "", "Shorter half axis of that ellipse.")
-            .edge(Bound)
-            .source("Curcio & Sloan 1992; Cooper et al. 2016")
-            .of(|s| s.stats().orientation.ellipse.map(|e| e.minor).into()),
+        column(
+            "neighbour_ellipse_minor",
+            "",
+            "Shorter semi-axis of the neighbour ellipse: √2 × the root mean square component of \
+                the vectors along it.",
+        )
+        .edge(Bound)
+        .source("Curcio & Sloan 1992; Cooper et al. 2016")
+        .of(|s| s.stats().orientation.ellipse.map(|e| e.minor).into()),
     ),
     metric(
         Orientation,
@@ -157,8 +176,9 @@ pub(super) const ORIENTATION: &[Metric] = &[
         column(
             "hexagon_axis_deg",
             "degrees, counter-clockwise from the x axis",
-            "Phase of the mean ψ6 over 6, 0–60: direction of a neighbour in a regular mosaic; \
-                psi6_global says how far the hexagons agree.",
+            "Orientation of the hexagons, 0–60°: phase of the mean ψ6 divided by 6. In a regular \
+                mosaic it is the direction of a neighbour; psi6_global says how well the hexagons \
+                agree.",
         )
         .edge(Bound)
         .source("Cooper et al. 2016")

@@ -4,6 +4,7 @@ use super::{Metric, metric};
 use crate::report::tables::EdgeRule::{All, Own};
 use crate::report::tables::column;
 
+/// Metrics that compare the mosaic with independently placed points.
 pub(super) const REGULARITY: &[Metric] = &[
     metric(
         Regularity,
@@ -11,8 +12,9 @@ pub(super) const REGULARITY: &[Metric] = &[
         column(
             "clark_evans_naive",
             "ratio",
-            "nn_mean over that of independent points of the same density, 1/(2√density): 1 for \
-                those, 2.149 for the triangular lattice; empty for fewer than two points.",
+            "Clark–Evans index: nn_mean divided by its expected value for independent points of \
+                the same density, 1/(2√density). It is 1 for independent points and 2.149 for the \
+                triangular lattice; empty for fewer than two points.",
         )
         .edge(All)
         .source("Clark & Evans 1954")
@@ -24,8 +26,8 @@ pub(super) const REGULARITY: &[Metric] = &[
         column(
             "clark_evans_donnelly",
             "ratio",
-            "Clark–Evans index with the expectation corrected for the border by its length; empty on a \
-                torus.",
+            "Clark–Evans index with an expected value that allows for the border by means of its \
+                length; empty on a torus.",
         )
         .edge(Own)
         .source("Donnelly 1978")
@@ -37,8 +39,8 @@ pub(super) const REGULARITY: &[Metric] = &[
         column(
             "clark_evans_cdf",
             "ratio",
-            "Clark–Evans index with the mean taken from the Kaplan–Meier estimate of the distribution of \
-                the distances.",
+            "Clark–Evans index with the mean distance taken from the Kaplan–Meier estimate of the \
+                distribution of nearest-neighbour distances.",
         )
         .edge(Own)
         .source("Baddeley, Rubak & Turner 2015")
@@ -46,6 +48,7 @@ pub(super) const REGULARITY: &[Metric] = &[
     ),
 ];
 
+/// Metrics of the evenness of density across the window.
 pub(super) const EVENNESS: &[Metric] = &[
     metric(
         Evenness,
@@ -53,8 +56,9 @@ pub(super) const EVENNESS: &[Metric] = &[
         column(
             "trend_p",
             "0–1",
-            "Chance of a trend this strong in a pattern whose density varies by 10 %; below .01 \
-                there is a warning; empty for fewer than 20 points.",
+            "p-value of a test for a trend in density: probability of a trend at least this \
+                strong if the density varies by 10 %. Values below .01 lead to a warning; empty for \
+                fewer than 20 points.",
         )
         .of(|s| s.stats().trend.p_value.into()),
     ),
@@ -64,23 +68,31 @@ pub(super) const EVENNESS: &[Metric] = &[
         column(
             "density_variation",
             "ratio",
-            "Size of the slow variation of density as a share of its mean: √12 times its root mean \
-                square, which of a linear gradient is the difference between opposite edges; \
-                chance is taken off.",
+            "Size of the slow variation of density across the window, as a fraction of the mean \
+                density: √12 × its root mean square, after subtraction of what chance alone \
+                produces. For a linear gradient it is the difference between opposite edges.",
         )
         .of(|s| s.stats().trend.variation.into()),
     ),
     metric(
         Evenness,
         Plain,
-        column("density_variation_low", "ratio", "Lower end of the 98 % interval of density_variation.")
-            .of(|s| s.stats().trend.variation_interval.map(|i| i.0).into()),
+        column(
+            "density_variation_low",
+            "ratio",
+            "Lower end of the 98 % confidence interval of density_variation.",
+        )
+        .of(|s| s.stats().trend.variation_interval.map(|i| i.0).into()),
     ),
     metric(
         Evenness,
         Plain,
-        column("density_variation_high", "ratio", "Upper end of that interval.")
-            .of(|s| s.stats().trend.variation_interval.map(|i| i.1).into()),
+        column(
+            "density_variation_high",
+            "ratio",
+            "Upper end of the 98 % confidence interval of density_variation.",
+        )
+        .of(|s| s.stats().trend.variation_interval.map(|i| i.1).into()),
     ),
     metric(
         Evenness,
@@ -88,8 +100,8 @@ pub(super) const EVENNESS: &[Metric] = &[
         column(
             "density_ratio",
             "ratio",
-            "Greatest over least density in the window by a quadratic fit, at most 100; above 1 by \
-                chance alone.",
+            "Ratio of the largest to the smallest density in the window, both from a quadratic \
+                fit; at most 100. Chance alone makes it larger than 1.",
         )
         .of(|s| s.stats().trend.density_ratio.into()),
     ),

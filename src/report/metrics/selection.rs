@@ -4,18 +4,19 @@ use super::{Metric, MetricGroup, SummaryKind, metrics};
 use crate::sample::samplers;
 use std::str::FromStr;
 
-/// Metrics that a summary has: all, or those of some groups or names. The file, the number of cones and
-/// the warnings are always there.
+/// Selection of the metrics of a summary: all, or those of some groups or names.
+///
+/// The file, the unit, the number of cones and the warnings are always included.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct MetricSelection {
-    /// Groups, metrics or columns by their present names; empty: all.
+    /// Present names of groups, metrics or columns; empty if all metrics are wanted.
     wanted: Vec<String>,
 }
 
-/// Columns that no summary is without.
+/// Columns that every summary has.
 const ALWAYS: [&str; 4] = ["file", "unit", "n", "warnings"];
 
-/// The kinds of summaries.
+/// All kinds of summaries.
 const KINDS: [SummaryKind; 2] = [SummaryKind::Images, SummaryKind::Coordinates];
 
 impl MetricSelection {
@@ -36,7 +37,7 @@ impl MetricSelection {
         self.is_all() || ALWAYS.contains(&metric.column.words.name) || self.names(metric, column)
     }
 
-    /// Returns whether a column was asked for, by its group, its metric or its own name.
+    /// Returns whether a column was asked for by its group, its metric or its own name.
     pub(super) fn names(&self, metric: &Metric, column: &str) -> bool {
         let names = [metric.group.name(), metric.column.words.name, column];
         self.wanted.iter().any(|w| names.contains(&w.as_str()))
@@ -48,7 +49,8 @@ impl MetricSelection {
     }
 }
 
-/// Returns whether a word names a group, a metric or a column, of any sampler too.
+/// Returns whether a word names a group, a metric or a column, including the columns of any
+/// sampler.
 fn is_known(word: &str) -> bool {
     let every: Vec<String> = samplers().iter().map(|s| s.name().to_owned()).collect();
     let names = |m: &'static Metric, kind| {
@@ -61,13 +63,17 @@ fn is_known(word: &str) -> bool {
 impl FromStr for MetricSelection {
     type Err = String;
 
-    /// Reads groups, metrics or columns, separated by commas, or `all`. Names of earlier versions count as
-    /// those that took their place.
+    /// Reads names of groups, metrics or columns, separated by commas, or the word `all`.
+    ///
+    /// Names of earlier versions are replaced by the present ones.
+    ///
+    /// # Errors
+    /// If there is no name, or one that is not known.
     fn from_str(text: &str) -> Result<Self, String> {
         let parts = text.split(',').map(str::trim).filter(|part| !part.is_empty());
         let wanted: Vec<String> = parts.map(|part| canonical(part).into_owned()).collect();
         if wanted.is_empty() {
-            return Err("no metric is named: give groups or names, separated by commas".into());
+            return Err("no metric is named: give names of groups or metrics, separated by commas".into());
         }
         if wanted.iter().any(|w| w == "all") {
             return Ok(Self::default());
@@ -77,7 +83,7 @@ impl FromStr for MetricSelection {
             Some(unknown) => {
                 let groups: Vec<&str> = MetricGroup::ALL.iter().map(|g| g.name()).collect();
                 Err(format!(
-                    "“{unknown}” is no metric: expected groups ({}) or names from `conemosaic metrics`",
+                    "“{unknown}” is not a metric: expected groups ({}) or names from `conemosaic metrics`",
                     groups.join(", ")
                 ))
             }

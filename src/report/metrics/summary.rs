@@ -3,12 +3,15 @@ use super::{Metric, MetricGroup, MetricSelection, Quantity, Subject, SummaryKind
 use crate::report::tables::{Value, sheet};
 use crate::report::{Cell, ReportError};
 
-/// A column of a summary.
+/// Column of a summary: one metric in one unit or of one sampler.
 pub(super) struct Column {
+    /// Name in the header.
     pub name: String,
+    /// Metric that the column shows.
     pub metric: &'static Metric,
+    /// Unit of the values.
     pub unit: Unit,
-    /// Empty where the column is not one per sampler.
+    /// Name of the sampler; empty if the metric is not one per sampler.
     sampler: String,
 }
 
@@ -40,12 +43,12 @@ impl Column {
         self.unit.convert(value, self.metric.quantity, subject.mosaic())
     }
 
-    /// Returns the unit in words.
+    /// Returns the unit of the column in words.
     pub fn unit_words(&self) -> &'static str {
         self.unit.words(self.metric.quantity, self.metric.column.words.unit)
     }
 
-    /// Returns its name with its unit.
+    /// Returns the heading of the column in a table to be read: its name with its unit.
     fn heading(&self) -> String {
         match (self.metric.quantity, self.unit_words()) {
             (Quantity::Plain, "text" | "count" | "ratio" | "0–1") => self.name.clone(),
@@ -55,7 +58,7 @@ impl Column {
     }
 }
 
-/// The columns of a `summary.csv`, from which its header and rows are made.
+/// Columns of a `summary.csv`, from which its header and its rows are made.
 pub struct Summary {
     kind: SummaryKind,
     selection: MetricSelection,
@@ -64,8 +67,11 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Makes a summary with the metrics chosen, the samplers compared with, and the columns of a manifest
-    /// behind them.
+    /// Makes a summary of the metrics in `selection`.
+    ///
+    /// `samplers` are those that the mosaics are compared with, and `labels` the columns of a
+    /// manifest, which come last. A label that is the name of another column becomes
+    /// `manifest_LABEL`.
     pub fn new(
         kind: SummaryKind,
         selection: &MetricSelection,
@@ -74,7 +80,7 @@ impl Summary {
     ) -> Self {
         let columns: Vec<Column> = metrics()
             .filter(|m| m.is_of(kind))
-            // where nothing was compared, nothing is closest
+            // Without samplers the column `closest_sampler` would be empty.
             .filter(|m| m.group != MetricGroup::Samplers || !samplers.is_empty())
             .flat_map(|m| columns(m, kind, samplers))
             .filter(|c| selection.has(c.metric, &c.name))
@@ -90,7 +96,7 @@ impl Summary {
         self.columns.iter().map(|c| c.name.clone()).chain(self.labels.iter().cloned()).collect()
     }
 
-    /// Returns the row of one image or file, under [`Self::header`].
+    /// Returns the row of one image or file, in the order of [`Self::header`].
     pub fn row(&self, subject: &Subject) -> Vec<Cell> {
         let labels = &subject.mosaic().labels;
         let label = |k: usize| labels.get(k).map(String::as_str).filter(|text| !text.is_empty()).into();
@@ -100,13 +106,15 @@ impl Summary {
     /// Returns `summary.csv`, one row per subject.
     ///
     /// # Errors
-    /// If it cannot be written as CSV.
+    /// If the table cannot be written as CSV.
     pub fn csv<'a>(&self, subjects: impl IntoIterator<Item = Subject<'a>>) -> Result<Vec<u8>, ReportError> {
         let rows: Vec<Vec<Cell>> = subjects.into_iter().map(|subject| self.row(&subject)).collect();
         sheet(&self.header(), &rows)
     }
 
-    /// Returns a row as a JSON object: numbers in full, `null` where there is none.
+    /// Returns a row as a JSON object with the names of the columns as keys.
+    ///
+    /// Numbers have all their digits; missing values are `null`.
     ///
     /// # Errors
     /// If a number cannot be written.
@@ -116,7 +124,10 @@ impl Summary {
         Ok(serde_json::Value::Object(pairs.collect::<Result<_, serde_json::Error>>()?))
     }
 
-    /// Returns the numbers that can be averaged over images, by column: name, unit, value of each subject.
+    /// Returns the columns of numbers, which can be averaged over images.
+    ///
+    /// Each is the name of the column, its unit and the value of each subject. Columns without any
+    /// number are left out.
     pub fn numbers(&self, subjects: &[Subject]) -> Vec<(String, &'static str, Vec<Option<f64>>)> {
         let of = |column: &Column| {
             let number = |subject: &Subject| match column.cell(subject) {
@@ -130,8 +141,10 @@ impl Summary {
         self.columns.iter().filter_map(of).collect()
     }
 
-    /// Returns the columns asked for as a table to be read: headers with units, and rows; `None` if all
-    /// columns were.
+    /// Returns the columns that were asked for as a table to be read: headings with units, and
+    /// rows.
+    ///
+    /// `None` if no selection was made, as all columns would be too many to read.
     pub fn readable(&self, subjects: &[Subject]) -> Option<(Vec<String>, Vec<Vec<String>>)> {
         if self.selection.is_all() {
             return None;
@@ -140,12 +153,12 @@ impl Summary {
             .columns
             .iter()
             .filter(|c| c.name == "file" || self.selection.names(c.metric, &c.name))
-            // beside a column in the unit of the coordinates, one in px is for files
+            // For coordinates the same value in their own unit is already in the table.
             .filter(|c| {
                 let twice = self.kind == SummaryKind::Coordinates && c.unit == Unit::Pixels;
                 !twice || self.selection.names_column(&c.name)
             })
-            // a column without any number says nothing
+            // A column without any value says nothing.
             .filter(|c| subjects.iter().any(|s| c.cell(s) != Cell::Missing))
             .collect();
         let header = asked.iter().map(|c| c.heading()).collect();

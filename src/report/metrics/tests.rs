@@ -1,5 +1,7 @@
-//! Every column of the summaries is held to the value of the record that its name says. All numbers of the
-//! record differ, so that exchanging the values of two columns cannot pass.
+//! Tests that every column of the summaries has the value of the record that its name promises.
+//!
+//! All numbers of the record differ, so that a test fails if the values of two columns are
+//! exchanged.
 
 use super::{MetricGroup, MetricSelection, Quantity, Subject, Summary, SummaryKind, metrics};
 use crate::detect::{Detector, FourierEstimate, FourierSpacing, Modality, Polarity};
@@ -13,7 +15,8 @@ use rand::{RngExt, SeedableRng};
 use serde_json::Value;
 use std::collections::{BTreeMap, HashSet};
 
-/// Columns in the unit of the image, or without a unit, and where `metrics.json` has their values.
+/// Columns in the unit of the image or without a unit, with the place of their value in
+/// `metrics.json`.
 const COLUMNS: [(&str, &str); 77] = [
     ("width_px", "/width_px"),
     ("height_px", "/height_px"),
@@ -94,7 +97,7 @@ const COLUMNS: [(&str, &str); 77] = [
     ("meridian", "/mosaic/place/meridian"),
 ];
 
-/// Gives every number of a value another one: whole numbers stay whole.
+/// Replaces every number in a value by the next unused one; whole numbers stay whole.
 fn numbered(value: &mut Value, next: &mut u64) {
     match value {
         Value::Number(number) => {
@@ -107,7 +110,7 @@ fn numbered(value: &mut Value, next: &mut u64) {
     }
 }
 
-/// A record in which no two numbers are alike, and nothing is missing.
+/// Returns a record in which all numbers differ and nothing is missing.
 fn record() -> ImageRecord {
     let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(3);
     let mut place = |k: usize| (k as f64 + rng.random_range(0.2..0.8)) * 6.;
@@ -151,12 +154,12 @@ fn record() -> ImageRecord {
     let mut json = serde_json::to_value(&record).unwrap();
     numbered(&mut json, &mut 1000);
     let mut record: ImageRecord = serde_json::from_value(json).unwrap();
-    // where cones are known to be expected
+    // A place for which an expected density is known.
     record.mosaic.place = Some(RetinalPlace { eccentricity_mm: 2., meridian: Some(Meridian::Nasal) });
     record
 }
 
-/// The expected cell of every column in the unit of the image, or without unit.
+/// Returns the expected cell of every column in the unit of the image or without a unit.
 fn expected(record: &ImageRecord) -> BTreeMap<&'static str, Cell> {
     let json = serde_json::to_value(record).unwrap();
     let cell = |pointer: &str| match json.pointer(pointer) {
@@ -239,7 +242,7 @@ fn coordinates_have_the_columns_of_images_and_each_in_their_own_unit_too() {
         let base = metric.column.words.name;
         let in_px = match metric.quantity {
             Quantity::Plain if matches!(base, "outside_window" | "um_per_unit") => continue,
-            // one column per sampler
+            // These have one column per sampler.
             Quantity::Plain if base.ends_with("_SAMPLER") => continue,
             Quantity::Plain => base.to_owned(),
             Quantity::Length => format!("{base}_px"),

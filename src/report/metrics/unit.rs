@@ -1,14 +1,18 @@
 use super::{Quantity, SummaryKind};
 use crate::report::{Cell, MosaicRecord};
 
-/// A unit that a quantity is given in.
+/// Unit in which a quantity is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unit {
-    /// That of the coordinates; columns in it have no suffix.
+    /// Unit of the coordinates; columns in this unit have no suffix.
     Coordinates,
+    /// Pixels of the image.
     Pixels,
+    /// Micrometres on the retina; areas and densities are in mm².
     Micrometres,
+    /// Degrees of visual angle.
     Degrees,
+    /// Minutes of visual angle.
     Arcminutes,
 }
 
@@ -16,8 +20,10 @@ impl Unit {
     /// The units whose columns have a suffix, in the order of the columns.
     pub const SUFFIXED: [Self; 4] = [Self::Pixels, Self::Micrometres, Self::Degrees, Self::Arcminutes];
 
-    /// Returns the units that a quantity has columns in. Those of an image are px, so that a column in the
-    /// unit of its coordinates would say nothing new.
+    /// Returns the units in which a quantity has columns.
+    ///
+    /// The coordinates of an image are always in px, so that a column in the unit of the
+    /// coordinates would repeat the column in px; it is left out.
     pub fn all(quantity: Quantity, kind: SummaryKind) -> impl Iterator<Item = Self> {
         let plain = quantity == Quantity::Plain;
         let own = (plain || kind == SummaryKind::Coordinates).then_some(Self::Coordinates);
@@ -25,7 +31,7 @@ impl Unit {
         own.into_iter().chain(suffixed.iter().copied())
     }
 
-    /// Returns the end of a column's name.
+    /// Returns the end of the name of a column in this unit.
     pub const fn suffix(self, quantity: Quantity) -> &'static str {
         match (quantity, self) {
             (Quantity::Plain, _) | (_, Self::Coordinates) => "",
@@ -44,7 +50,7 @@ impl Unit {
         }
     }
 
-    /// Returns the unit in words; `plain` are those of a column whose unit is always the same.
+    /// Returns the unit in words; `plain` are the words of a column that has one unit only.
     pub const fn words(self, quantity: Quantity, plain: &'static str) -> &'static str {
         match (quantity, self) {
             (Quantity::Plain, _) => plain,
@@ -66,11 +72,14 @@ impl Unit {
         }
     }
 
-    /// Converts a value in the unit of the coordinates to this one; missing where the scale is not known.
+    /// Converts a value from the unit of the coordinates to this unit.
+    ///
+    /// The result is missing if the scale that this takes is not known.
     pub fn convert(self, value: Cell, quantity: Quantity, mosaic: &MosaicRecord) -> Cell {
         let (Cell::Number(number), false) = (&value, self == Self::Coordinates) else { return value };
         let um = mosaic.um_per_unit;
-        // lengths of this unit per unit of the coordinates
+        // The factor is that of a length and is squared below. Areas and densities are in mm², so
+        // theirs converts to mm.
         let length = match self {
             Self::Coordinates => Some(1.),
             Self::Pixels => mosaic.px_per_unit(),

@@ -4,14 +4,20 @@ use super::{Metric, metric};
 use crate::report::tables::EdgeRule::{All, Bound};
 use crate::report::tables::column;
 
+/// Metrics of Voronoi cells and Delaunay neighbours.
 pub(super) const VORONOI: &[Metric] = &[
     metric(
         Voronoi,
         Plain,
-        column("n_bound", "count", "Bound cells: finite, with every vertex strictly inside the window.")
-            .edge(Bound)
-            .source("Cooper et al. 2016")
-            .of(|s| s.stats().voronoi.bound.into()),
+        column(
+            "n_bound",
+            "count",
+            "Number of bound Voronoi cells, which are finite and have every vertex strictly \
+                inside the window.",
+        )
+        .edge(Bound)
+        .source("Cooper et al. 2016")
+        .of(|s| s.stats().voronoi.bound.into()),
     ),
     metric(
         Voronoi,
@@ -19,8 +25,8 @@ pub(super) const VORONOI: &[Metric] = &[
         column(
             "icd_bound_mean",
             "",
-            "Inter-cell distance: mean over bound cells of the mean distance to their Delaunay \
-                neighbours.",
+            "Mean inter-cell distance of the bound cells. The inter-cell distance of a cell is \
+                the mean distance to its Delaunay neighbours.",
         )
         .edge(Bound)
         .source("Cooper et al. 2016")
@@ -32,7 +38,8 @@ pub(super) const VORONOI: &[Metric] = &[
         column(
             "icd_bound_ri",
             "ratio",
-            "Mean over standard deviation (n − 1) of the inter-cell distances of bound cells.",
+            "Regularity index of the inter-cell distances of the bound cells: mean divided by \
+                standard deviation (divisor n − 1).",
         )
         .edge(Bound)
         .source("Cooper et al. 2016")
@@ -44,7 +51,7 @@ pub(super) const VORONOI: &[Metric] = &[
         column(
             "furthest_bound_mean",
             "",
-            "Mean over bound cells of the distance to their furthest Delaunay neighbour.",
+            "Mean over the bound cells of the distance to the furthest Delaunay neighbour.",
         )
         .edge(Bound)
         .source("Cooper et al. 2016")
@@ -53,10 +60,15 @@ pub(super) const VORONOI: &[Metric] = &[
     metric(
         Voronoi,
         Plain,
-        column("furthest_bound_ri", "ratio", "Mean over standard deviation (n − 1) of these distances.")
-            .edge(Bound)
-            .source("Cooper et al. 2016")
-            .of(|s| s.stats().voronoi.furthest.ri.into()),
+        column(
+            "furthest_bound_ri",
+            "ratio",
+            "Regularity index of the distances from bound cells to their furthest Delaunay \
+                neighbour: mean divided by standard deviation (divisor n − 1).",
+        )
+        .edge(Bound)
+        .source("Cooper et al. 2016")
+        .of(|s| s.stats().voronoi.furthest.ri.into()),
     ),
     metric(
         Voronoi,
@@ -64,8 +76,8 @@ pub(super) const VORONOI: &[Metric] = &[
         column(
             "icd_all_mean",
             "",
-            "Inter-cell distance of all cells. Those at the border have neighbours along the hull \
-                that are none: too large.",
+            "Mean inter-cell distance of all cells. The value is too large, because cells at the \
+                border are linked along the convex hull to cells that are not true neighbours.",
         )
         .edge(All)
         .of(|s| s.stats().voronoi.inter_cell_all.mean.into()),
@@ -76,7 +88,8 @@ pub(super) const VORONOI: &[Metric] = &[
         column(
             "furthest_all_mean",
             "",
-            "Distance to the furthest neighbour of all cells: too large, as icd_all_mean.",
+            "Mean over all cells of the distance to the furthest Delaunay neighbour. The value is \
+                too large, for the same reason as icd_all_mean.",
         )
         .edge(All)
         .of(|s| s.stats().voronoi.furthest_all.mean.into()),
@@ -84,7 +97,7 @@ pub(super) const VORONOI: &[Metric] = &[
     metric(
         Voronoi,
         Area,
-        column("voronoi_area_mean", "", "Mean area of bound cells.")
+        column("voronoi_area_mean", "", "Mean area of the bound Voronoi cells.")
             .edge(Bound)
             .source("Cooper et al. 2016")
             .of(|s| s.stats().voronoi.area.mean.into()),
@@ -95,7 +108,8 @@ pub(super) const VORONOI: &[Metric] = &[
         column(
             "voronoi_area_cv",
             "ratio",
-            "Standard deviation (n − 1) of the areas of bound cells over their mean.",
+            "Coefficient of variation of the areas of the bound Voronoi cells: standard deviation \
+                (divisor n − 1) divided by mean.",
         )
         .edge(Bound)
         .of(|s| s.stats().voronoi.area_cv.into()),
@@ -106,7 +120,8 @@ pub(super) const VORONOI: &[Metric] = &[
         column(
             "voronoi_area_ri",
             "ratio",
-            "Mean of the areas of bound cells over their standard deviation (n − 1).",
+            "Regularity index of the areas of the bound Voronoi cells: mean divided by standard \
+                deviation (divisor n − 1).",
         )
         .edge(Bound)
         .source("Cooper et al. 2016")
@@ -118,8 +133,9 @@ pub(super) const VORONOI: &[Metric] = &[
         column(
             "voronoi_sides_ri",
             "ratio",
-            "Mean number of sides of bound cells over its standard deviation (n − 1); empty if all \
-                have six.",
+            "Regularity index of the numbers of sides of the bound Voronoi cells: mean divided by \
+                standard deviation (divisor n − 1); empty if all have the same number, for example \
+                six.",
         )
         .edge(Bound)
         .source("Cooper et al. 2016")
@@ -128,7 +144,7 @@ pub(super) const VORONOI: &[Metric] = &[
     metric(
         Voronoi,
         Plain,
-        column("six_sided_percent", "%", "Share of the bound cells that have six sides.")
+        column("six_sided_percent", "%", "Percentage of the bound Voronoi cells that have six sides.")
             .edge(Bound)
             .source("Curcio & Sloan 1992; Cooper et al. 2016")
             .of(|s| s.stats().voronoi.six_sided_percent.into()),
@@ -139,8 +155,8 @@ pub(super) const VORONOI: &[Metric] = &[
         column(
             "psi6_mean",
             "0–1",
-            "Mean modulus of the bond-orientational order ψ6 of bound cells: 1 where every cell is \
-                a regular hexagon.",
+            "Mean over the bound cells of the modulus of the bond-orientational order parameter \
+                ψ6: 1 if every cell is a regular hexagon.",
         )
         .edge(Bound)
         .source("Nelson & Halperin 1979")
@@ -152,7 +168,8 @@ pub(super) const VORONOI: &[Metric] = &[
         column(
             "psi6_global",
             "0–1",
-            "Modulus of the mean ψ6 of bound cells: 1 where all hexagons have one orientation.",
+            "Modulus of the mean of ψ6 over the bound cells: 1 if all cells are regular hexagons \
+                of the same orientation.",
         )
         .edge(Bound)
         .source("Nelson & Halperin 1979")

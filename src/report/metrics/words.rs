@@ -1,7 +1,7 @@
 use super::unit::Unit;
 use super::{Metric, Quantity, SummaryKind, metrics};
 
-/// Short names of the metrics that figures show most.
+/// Short names of the metrics that figures show most often.
 const NAMES: [(&str, &str); 6] = [
     ("n", "number of cones"),
     ("density", "cone density"),
@@ -11,8 +11,10 @@ const NAMES: [(&str, &str); 6] = [
     ("spacing_density", "spacing (density)"),
 ];
 
-/// Returns what a column of a summary measures and its unit (empty without one), in words for the axis of a figure. A
-/// column that no summary of this crate has keeps its name.
+/// Returns the quantity in a column of a summary and its unit, in words for the axis of a figure.
+///
+/// The unit is empty if the quantity has none. A column that is not known keeps its name, with
+/// blanks for underscores.
 pub fn column_in_words(column: &str) -> (String, String) {
     let Some((metric, unit)) = find(column) else { return (column.replace('_', " "), String::new()) };
     let name =
@@ -20,7 +22,7 @@ pub fn column_in_words(column: &str) -> (String, String) {
     (name.replace('_', " "), unit_in_words(metric, unit).to_owned())
 }
 
-/// Returns the metric and the unit that a column belongs to.
+/// Returns the metric and the unit of a column; `None` if no summary has it.
 fn find(column: &str) -> Option<(&'static Metric, Unit)> {
     let kinds = [SummaryKind::Images, SummaryKind::Coordinates];
     kinds.into_iter().find_map(|kind| {
@@ -33,13 +35,13 @@ fn find(column: &str) -> Option<(&'static Metric, Unit)> {
     })
 }
 
+/// Returns a unit in words for the axis of a figure; empty for numbers without one.
 fn unit_in_words(metric: &Metric, unit: Unit) -> &'static str {
     match (metric.quantity, unit, metric.column.words.unit) {
         (Quantity::Plain, _, "text" | "count" | "ratio" | "0–1") => "",
         (Quantity::Length, Unit::Coordinates, _) => "in the unit of the coordinates",
-        (Quantity::Area | Quantity::Density, Unit::Coordinates, _) => {
-            "by the squared unit of the coordinates"
-        }
+        (Quantity::Area, Unit::Coordinates, _) => "in the squared unit of the coordinates",
+        (Quantity::Density, Unit::Coordinates, _) => "per squared unit of the coordinates",
         (Quantity::Density, Unit::Pixels, _) => "cones/px²",
         (Quantity::Density, Unit::Micrometres, _) => "cones/mm²",
         (Quantity::Density, Unit::Degrees, _) => "cones/degree²",

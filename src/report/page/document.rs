@@ -3,6 +3,7 @@ use crate::report::TextTable;
 use maud::{Markup, PreEscaped, html};
 use std::fmt::Write;
 
+/// Style that only this kind of page needs, added to that of all pages.
 const MORE_STYLE: &str = "
 body { max-width: 1080px; } .text { max-width: 46rem; }
 .summary { display: grid; grid-template-columns: repeat(auto-fit, minmax(15rem, 1fr)); gap: .8rem; margin: 1.4rem 0; }
@@ -13,53 +14,53 @@ figcaption { font-size: .85rem; opacity: .8; max-width: 46rem; }
 tr.no td { color: var(--warn); }
 ";
 
-/// One result in large letters.
+/// Result that is shown in large letters at the top of a document.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Headline {
-    /// “7 of 7”.
+    /// Number in large letters, such as “7 of 7”.
     pub number: String,
-    /// What that counts.
+    /// Words below the number, which say what it counts.
     pub words: String,
-    /// Whether it is as it should be.
+    /// True if the result is as expected; otherwise it is coloured as a warning.
     pub good: bool,
 }
 
-/// A part of a document: text, table, figure, in this order.
+/// Part of a document: text, then a table, more text and a figure.
 #[derive(Clone, Debug, Default)]
 pub struct Section {
-    /// Its heading.
+    /// Heading of the section.
     pub heading: String,
     /// Paragraphs above the table.
     pub before: Vec<String>,
-    /// A table; rows whose index is in `marked` do not agree.
+    /// Table of the section, if it has one.
     pub table: Option<TextTable>,
-    /// Rows that stand out.
+    /// Indices, from 0, of the rows that are coloured as a warning.
     pub marked: Vec<usize>,
     /// Paragraphs below the table.
     pub after: Vec<String>,
-    /// An SVG, the file it is also in, and its caption.
+    /// Figure as SVG text, the name of the file with the same figure, and its caption.
     pub figure: Option<(String, &'static str, String)>,
-    /// Files beside the page with the same in full precision.
+    /// Names of the files beside the page that have the same numbers in full precision.
     pub files: Vec<&'static str>,
 }
 
-/// A report to be read: as one self-contained HTML page and as Markdown.
+/// Report that can be written as one self-contained HTML page and as Markdown.
 #[derive(Clone, Debug, Default)]
 pub struct Document {
-    /// Its title.
+    /// Title of the document.
     pub title: String,
-    /// Below the title.
+    /// Paragraph below the title.
     pub lead: String,
-    /// The results in large letters.
+    /// Results in large letters.
     pub headlines: Vec<Headline>,
-    /// Its parts.
+    /// Sections in the order of the document.
     pub sections: Vec<Section>,
-    /// Below a rule at the end: how it was made.
+    /// Paragraph below a line at the end, which says how the document was made.
     pub colophon: String,
 }
 
 impl Document {
-    /// Returns one page that needs no other file; figures are in it.
+    /// Returns an HTML page that needs no other file, as it contains its figures.
     pub fn to_html(&self) -> String {
         let body = html! {
             h1 { (self.title) }
@@ -74,7 +75,7 @@ impl Document {
         skeleton(&self.title, MORE_STYLE, &body)
     }
 
-    /// Returns the same as Markdown; figures are links to their files.
+    /// Returns the document as Markdown, with links to the files of the figures.
     pub fn to_markdown(&self) -> String {
         let mut text = format!("# {}\n\n{}\n\n", self.title, self.lead);
         for h in &self.headlines {
@@ -89,6 +90,7 @@ impl Document {
 }
 
 impl Section {
+    /// Returns the section as an HTML element.
     fn to_html(&self) -> Markup {
         html! {
             section {
@@ -111,6 +113,7 @@ impl Section {
         }
     }
 
+    /// Appends the section as Markdown to `text`.
     fn write_markdown(&self, text: &mut String) {
         let _ = write!(text, "\n## {}\n\n", self.heading);
         self.before.iter().for_each(|p| text.push_str(&format!("{p}\n\n")));

@@ -1,4 +1,4 @@
-//! Pages to be read: of a run, of a validation, of the remade paper. All stand on one skeleton.
+//! HTML pages about a run, a validation and the reproduced paper, all built on one skeleton.
 
 mod document;
 mod names;

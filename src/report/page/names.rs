@@ -1,21 +1,25 @@
 use maud::{Markup, html};
 use std::collections::HashMap;
 
-/// Places in a name where a line may break.
+/// Characters in a name after which a line may break.
 const BREAKS: [char; 3] = ['_', '-', '.'];
-/// Shorter stretches are not worth an ellipsis.
+/// Length in bytes of the shortest part of a name that is replaced by an ellipsis.
 const WORTH: usize = 8;
 
-/// Names of images as a page shows them: whole and breakable where there is room; on narrow screens
-/// stretches that tell no two of them apart make way for an ellipsis. Names usually differ at their
-/// ends, so that these may not be cut.
+/// Names of images in the form in which a page shows them.
+///
+/// Names are shown in full where there is room, with places where a line may break. On narrow
+/// screens an ellipsis replaces the parts that all names with the same beginning share. The ends
+/// are never cut off, as names usually differ there.
 pub(super) struct Names<'a> {
-    /// By the beginning of a name, up to a break: how many names begin so, and the next part if all
-    /// have the same.
+    /// Continuations of the names, by their beginning up to a break.
+    ///
+    /// Each is the number of names with this beginning, and the next part if all of them share it.
     next: HashMap<&'a str, (usize, Option<&'a str>)>,
 }
 
 impl<'a> Names<'a> {
+    /// Collects all names of a page.
     pub fn new(names: impl IntoIterator<Item = &'a str>) -> Self {
         let mut next: HashMap<&str, (usize, Option<&str>)> = HashMap::new();
         for name in names {
@@ -30,7 +34,7 @@ impl<'a> Names<'a> {
         Self { next }
     }
 
-    /// Returns a name with places to break, and what narrow screens leave out of it.
+    /// Returns a name as HTML with places where lines may break and parts that narrow screens hide.
     pub fn show(&self, name: &str) -> Markup {
         let stretches = self.stretches(name);
         let parts = |text: &str| html! { @for part in text.split_inclusive(BREAKS) { (part) wbr; } };
@@ -42,8 +46,10 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// Cuts a name into stretches that others share (and that do not lead its beginning), and
-    /// others.
+    /// Splits a name into alternating parts, each with true if it may be hidden.
+    ///
+    /// A part may be hidden if it is not the beginning of the name and if all names that agree up
+    /// to it share it.
     fn stretches<'n>(&self, name: &'n str) -> Vec<(&'n str, bool)> {
         let mut stretches: Vec<(usize, bool)> = Vec::new();
         let mut at = 0;

@@ -1,25 +1,31 @@
-//! What the re-making of the paper says, in words.
+//! The page of the command `paper`, which compares reproduced values with those that Lanaro et al.
+//! (2020) print.
 
 use crate::compare::paper::{DistanceBetween, MadeRow, PAIRS, allowed, peak};
 use crate::report::paper::{PaperResults, pair};
 use crate::report::{Document, FindingRecord, Headline, Section, TextTable, significant};
 use crate::stats::Pcf;
 
-/// A curve that stays below this has no peak: the mean of ten patterns scatters by .03.
+/// Value below which the maximum of g(r) is not called a peak.
+///
+/// The mean of ten patterns scatters by .03.
 const NO_PEAK: f64 = 1.1;
 
-/// With its sign, a true minus.
+/// Returns a number with its sign, with the minus sign U+2212 in place of a hyphen.
 fn signed(value: f64, decimals: usize) -> String {
     format!("{value:+.decimals$}").replace('-', "−")
 }
 
+/// Returns a value and its deviation with so many decimals, with a dash for what is missing.
 fn plus_minus(value: Option<f64>, deviation: Option<f64>, decimals: usize) -> String {
     let number = |v: Option<f64>| v.map_or("–".into(), |v| format!("{v:.decimals$}"));
     format!("{} ± {}", number(value), number(deviation))
 }
 
 impl PaperResults {
-    /// The page. `figure` is Figure 1, as SVG, `made` how and when it was made.
+    /// Returns the page as a document.
+    ///
+    /// `figure` is Figure 1 as SVG; `made` says how and when the page was made.
     pub fn document(&self, figure: String, made: String) -> Document {
         let agree = self.rows.iter().filter(|r| r.agrees()).count();
         let holds = self.tightest.iter().filter(|t| t.room >= 0.).count();
@@ -31,19 +37,24 @@ impl PaperResults {
             good: found == of,
         };
         Document {
-            title: "Lanaro et al.: the samplers of its tables and of Figure 1, re-made".into(),
+            title: "Samplers in Lanaro et al. (2020): Tables 1 and 2 and Figure 1 reproduced".into(),
             lead: format!(
-                "Every number of ours is the mean of {} patterns with the standard deviation of a single one. The paper gives one \
-                 pattern of each sampler, so a printed number agrees if it could be one of ours: within two standard deviations.",
+                "Numbers called “ours” were computed by this program: each is the mean over {} patterns, with the standard deviation of \
+                 a single pattern. The paper gives one pattern of each sampler, so a printed number agrees with ours if it is within \
+                 two standard deviations of our mean.",
                 self.patterns
             ),
             headlines: vec![
-                headline(agree, self.rows.len(), "regularity indexes of Table 1's samplers agree"),
-                headline(within, PAIRS.len(), "distances between samplers lie where Table 2 allows them"),
+                headline(agree, self.rows.len(), "regularity indexes of the samplers in Table 1 agree"),
+                headline(
+                    within,
+                    PAIRS.len(),
+                    "distances between samplers are in the range that Table 2 allows",
+                ),
                 headline(
                     holds,
                     self.tightest.len(),
-                    "rows of Table 2 satisfy the triangle inequalities with them",
+                    "rows of Table 2 satisfy the triangle inequalities with these distances",
                 ),
             ],
             sections: vec![
@@ -57,11 +68,13 @@ impl PaperResults {
         }
     }
 
+    /// Returns whether a distance between two samplers is in the range that the printed rows allow.
     fn is_allowed(&self, columns: [usize; 2], distance: &DistanceBetween) -> bool {
         let [low, high] = allowed(&self.printed, columns);
         (low..=high).contains(&distance.l_infinity)
     }
 
+    /// Returns the section on the regularity of the samplers.
     fn table1_section(&self) -> Section {
         let header = [
             "printed as",
@@ -91,42 +104,46 @@ impl PaperResults {
         };
         let marked: Vec<usize> = (0..self.rows.len()).filter(|&k| !self.rows[k].agrees()).collect();
         let mut after = vec![if marked.is_empty() {
-            "All indexes agree.".to_owned()
+            "All printed regularity indexes agree with ours.".to_owned()
         } else {
             let names: Vec<&str> = marked.iter().map(|&k| self.rows[k].printed.name.as_str()).collect();
-            format!("Not within two standard deviations: {}.", names.join(", "))
+            format!(
+                "Printed regularity indexes that are more than two standard deviations from our mean: {}.",
+                names.join(", ")
+            )
         }];
         let other: Vec<String> = self
             .rows
             .iter()
             .filter(|r| !r.mean_agrees())
             .filter_map(|r| Some((r, r.points_by_mean_distance()?)))
-            .map(|(r, (points, _))| format!("{} fits {points:.0} points", r.printed.name))
+            .map(|(r, (points, _))| format!("{} ({points:.0} points)", r.printed.name))
             .collect();
         after.push(
-            "Mean and deviation are lengths, they go with 1/√n; the index has no unit. “Points by mean” is the number of points at \
-             which our patterns would have the printed mean distance."
+            "The mean and the standard deviation (SD) are lengths and are proportional to 1/√n; the index has no unit. “Points by \
+             mean” is the number of points at which our patterns would have the printed mean distance."
                 .into(),
         );
         if !other.is_empty() {
             after.push(format!(
-                "Printed means that one of our patterns of that many points would not have: {}. Where a set does not hold \
-                 exactly the number of points that it is called by, as the sets of noise from the tables of Ahmed et al. (2015) that \
-                 the paper used, its lengths differ and its index does not.",
+                "Printed means that differ from ours by more than two standard deviations, with the number of points that they \
+                 suggest: {}. Such a difference arises if a set does not have exactly the number of points in its name, for example \
+                 the sets of noise that the paper took from the tables of Ahmed et al. (2015). Then the lengths differ, but the \
+                 index does not.",
                 other.join(", ")
             ));
         }
         after.push(
-            "How ours are made: green and pink noise by moving points until they have the pair correlation function of such noise; \
-             BNOT (de Goes et al. 2012) stopped after 20 steps. Where it stops decides its index: run to convergence, \
-             as “conemosaic sample bnot” does, it is above 25."
+            "How our patterns are made: for green and pink noise, points are moved until they have the pair correlation function of \
+             such noise. BNOT (de Goes et al. 2012) is stopped after 20 steps. Its index depends on the number of steps: if it is run \
+             to convergence, as “conemosaic sample bnot” does, the index is above 25."
                 .into(),
         );
         Section {
             heading: "Table 1: regularity of the samplers".into(),
             before: vec![
-                "Distance of every point to its nearest neighbour in the unit square: mean, standard deviation (population) and \
-                 their ratio, the regularity index RI. All points count, those at the border too."
+                "Distance from each point to its nearest neighbour in the unit square: mean, standard deviation (population) and \
+                 their ratio, the regularity index RI. All points count, including those at the border."
                     .into(),
             ],
             table: Some(TextTable {
@@ -140,6 +157,7 @@ impl PaperResults {
         }
     }
 
+    /// Returns the section with Figure 1 and the peaks of the curves in it.
     fn figure_section(&self, figure: String) -> Section {
         let row = |(name, curve): &(String, Pcf)| {
             let (g, r) = peak(curve).unwrap_or((f64::NAN, f64::NAN));
@@ -153,9 +171,9 @@ impl PaperResults {
         Section {
             heading: "Figure 1: six samplers".into(),
             before: vec![
-                "From left to right: no order; clusters (green and pink noise); one point a cell; points that keep a distance; points \
-                 whose cells are all of one area. The more regular a sampler, the darker the middle of its spectrum and the higher \
-                 the first peak of g(r) near one spacing."
+                "From left to right: points without order; clustered points (green and pink noise); one point in each cell of a grid; \
+                 points that keep a minimum distance; points whose cells all have the same area. The more regular a sampler is, the \
+                 darker is the centre of its spectrum and the higher is the first peak of g(r), near one spacing."
                     .into(),
             ],
             table: Some(TextTable {
@@ -166,9 +184,9 @@ impl PaperResults {
                 figure,
                 "figure1.svg",
                 format!(
-                    "Above: 1024 points of each sampler. Middle: power spectrum of 4096 points on the torus; black is 0, white three \
-                     times the power of independent points, the side 5 √n. Below: mean pair correlation function of {} patterns of \
-                     1024 points (Gaussian kernel of 0.1 spacings), and the radial mean of the spectra.",
+                    "Top: 1024 points of each sampler. Middle: power spectrum of 4096 points on the torus; black is 0, white is three \
+                     times the power of independent points, and the side is 5 √n. Bottom: mean pair correlation function of {} patterns \
+                     of 1024 points (Gaussian kernel with a standard deviation of 0.1 spacings), and radial mean of the spectra.",
                     self.patterns
                 ),
             )),
@@ -177,6 +195,7 @@ impl PaperResults {
         }
     }
 
+    /// Returns the section on the distances between the samplers of Table 2.
     fn table2_section(&self) -> Section {
         let rows = PAIRS.iter().zip(&self.distances).map(|(&columns, d)| {
             let [low, high] = allowed(&self.printed, columns);
@@ -189,12 +208,12 @@ impl PaperResults {
         });
         let marked = (0..PAIRS.len()).filter(|&k| !self.is_allowed(PAIRS[k], &self.distances[k])).collect();
         Section {
-            heading: "Table 2: distances between its samplers".into(),
+            heading: "Table 2: distances between the samplers".into(),
             before: vec![
-                "l-infinity is the greatest difference of two pair correlation functions. The paper prints how far each mosaic is from \
-                 three samplers, not how far these are from each other. But for every mosaic, whichever it was, the distance \
-                 between two samplers is at least the difference and at most the sum of the mosaic's distances to them: so the \
-                 printed rows fence in three numbers that they do not show."
+                "l-infinity is the largest difference between two pair correlation functions. The paper prints the distance from each \
+                 mosaic to three samplers, but not the distances between these samplers. By the triangle inequality, however, the \
+                 distance between two samplers is at least the difference and at most the sum of the distances from any mosaic to \
+                 them. The printed rows therefore restrict the three distances between samplers to the ranges below."
                     .into(),
             ],
             table: Some(TextTable {
@@ -210,17 +229,20 @@ impl PaperResults {
         }
     }
 
+    /// Returns a paragraph on how many rows of Table 2 hold, by the bandwidth of the kernel.
     fn bandwidths_in_words(&self) -> String {
         let of = self.printed.len();
         let scan: Vec<String> =
             self.bandwidths.iter().map(|b| format!("{:.2}: {}", b.bandwidth, b.holds)).collect();
         format!(
-            "The first fence is narrow, and the distances move with the kernel's bandwidth, which the paper does not state in \
-             spacings. Rows of Table 2, of {of}, that hold at other bandwidths: {}. Details: bandwidths.csv.",
+            "The first range is narrow, and the distances depend on the bandwidth of the kernel, which the paper does not state in \
+             spacings. Number of rows of Table 2 (of {of}) that satisfy the triangle inequalities, by bandwidth in spacings: {}. \
+             For details see bandwidths.csv.",
             scan.join("; ")
         )
     }
 
+    /// Returns the section on the triangle inequalities of all rows of Table 2.
     fn triangle_section(&self) -> Section {
         let rows = self.printed.iter().zip(&self.tightest).map(|(row, t)| {
             let [b, d, j] = row.l_infinity.map(|v| format!("{v:.3}"));
@@ -228,19 +250,19 @@ impl PaperResults {
         });
         let broken: Vec<usize> = (0..self.tightest.len()).filter(|&k| self.tightest[k].room < 0.).collect();
         let after = if broken.is_empty() {
-            "Every row holds: the printed table and our samplers can be measured in one space.".to_owned()
+            "All rows satisfy the inequalities: the printed distances are compatible with our distances between the samplers.".to_owned()
         } else {
             format!(
-                "{} of {} rows are broken, by as much as their room is negative.",
+                "{} of {} rows violate an inequality; the negative room says by how much.",
                 broken.len(),
                 self.tightest.len()
             )
         };
         Section {
-            heading: "All rows of Table 2, with our samplers".into(),
+            heading: "All rows of Table 2, with our distances between the samplers".into(),
             before: vec![
-                "The printed distances of each mosaic, and the room that the tightest of its triangle inequalities leaves; negative \
-                 room is a contradiction."
+                "Printed distances from each mosaic to the samplers, and the room left in the tightest of the triangle inequalities \
+                 with our distances between the samplers. Negative room means that the inequality is violated."
                     .into(),
             ],
             table: Some(TextTable {
@@ -256,6 +278,7 @@ impl PaperResults {
         }
     }
 
+    /// Returns the section on the main finding of the paper.
     fn finding_section(&self) -> Section {
         let row = |f: &FindingRecord| {
             let number = |v: Option<f64>| v.map_or("–".into(), |v| signed(v, 2));
@@ -263,10 +286,11 @@ impl PaperResults {
             vec![f.sampler.clone(), f.mosaics.to_string(), number(f.correlation.map(|c| c.rho)), p]
         };
         Section {
-            heading: "The main finding, on the printed numbers".into(),
+            heading: "The main finding, tested on the printed numbers".into(),
             before: vec![
-                "Rank correlation (Spearman) of the regularity index of Table 1 with the distances of Table 2, for the mosaics that both \
-                 tables have, and its p-value by permutation. The same test runs on your own mosaics: conemosaic compare."
+                "Rank correlation (Spearman) between the regularity index in Table 1 and the distances in Table 2, over the mosaics \
+                 in both tables, with its p-value by permutation. The command “conemosaic compare” runs the same test on your own \
+                 mosaics."
                     .into(),
             ],
             table: Some(TextTable {
@@ -274,8 +298,8 @@ impl PaperResults {
                 rows: self.findings.iter().map(row).collect(),
             }),
             after: vec![
-                "The paper finds that the more regular a mosaic is, the more it resembles BNOT and the less dart throwing. On its own \
-                 numbers that is so if ρ is clearly negative in the first row and clearly positive in the second."
+                "The paper finds that the more regular a mosaic is, the more it resembles BNOT and the less it resembles dart throwing. \
+                 Its printed numbers support this if ρ is clearly negative in the first row and clearly positive in the second."
                     .into(),
             ],
             files: vec!["finding.csv"],

@@ -5,7 +5,7 @@ use crate::report::{
 };
 use maud::{Markup, html};
 
-/// Style of what only this page has.
+/// Style that only this page needs, added to that of all pages.
 const MORE_STYLE: &str = "
 ul.distances { display: flex; flex-wrap: wrap; gap: .2rem .5rem; list-style: none; padding: 0; margin: .4rem 0; font-size: .85rem; max-width: none; }
 ul.distances li { border: 1px solid var(--line); border-radius: 4px; padding: .05rem .5rem; font-variant-numeric: tabular-nums; }
@@ -13,11 +13,14 @@ ul.distances li:first-child { font-weight: 600; }
 details { margin: .6rem 0; } summary { cursor: pointer; }
 ";
 
-/// So many warnings stand open at the top of the page; more are folded.
+/// Largest number of warnings that are shown at the top of the page; more are folded away.
 const OPEN_WARNINGS: usize = 6;
 
-/// Returns the page of a run: a table of all images and the figure of each. Refers to the files
-/// beside it. `landmarks` are what the maps of each image say, where there are maps.
+/// Returns the HTML page of a run: a table of all images, and the figures of each image.
+///
+/// The page refers to the files beside it. `landmarks` has one entry per record, with what was read
+/// off the maps of the image, or `None` without maps. `failures` are files with the reason why they
+/// failed.
 pub fn page(
     records: &[ImageRecord],
     landmarks: &[Option<LandmarkRecord>],
@@ -31,9 +34,9 @@ pub fn page(
     let body = html! {
         h1 { "Cone mosaics" }
         p.lead {
-            (counted(cones, "cone")) " in " (counted(records.len(), "image")) ". All columns, in full precision: "
+            (counted(cones, "cone")) " in " (counted(records.len(), "image")) ". All columns in full precision: "
             a href="summary.csv" { "summary.csv" }
-            "; how they were made: " a href="run.json" { "run.json" } "."
+            "; how they were computed: " a href="run.json" { "run.json" } "."
         }
         @if !failures.is_empty() { (failed(failures)) }
         (warned(records, &names))
@@ -44,6 +47,7 @@ pub fn page(
     skeleton(&title, MORE_STYLE, &body)
 }
 
+/// Returns the list of the images that failed, with the reasons.
 fn failed(failures: &[(&str, &str)]) -> Markup {
     html! {
         h2.warning { (counted(failures.len(), "image")) " failed" }
@@ -51,7 +55,7 @@ fn failed(failures: &[(&str, &str)]) -> Markup {
     }
 }
 
-/// Returns the warnings of all images, counted.
+/// Returns the warnings of all images below their number.
 fn warned(records: &[ImageRecord], names: &Names) -> Markup {
     let order: Vec<usize> =
         by_need(records).into_iter().filter(|&k| !records[k].warnings.is_empty()).collect();
@@ -71,32 +75,35 @@ fn warned(records: &[ImageRecord], names: &Names) -> Markup {
     }
 }
 
-/// Returns what the columns mean, and what ℓ∞ says.
+/// Returns the explanation of the columns and, if samplers were compared, of ℓ∞.
 fn legend(samplers: &[String]) -> Markup {
     html! {
         p {
-            "Images that most need the eye of a person come first. Spacing (density): of a hexagonal lattice as dense as the mosaic; "
-            "spacing (ring): read off the spectrum of the image before any cone was found. NN: distance to the nearest neighbour, "
-            "mean ± standard deviation. RI: regularity index, their ratio, of all points "
-            "and of those whose neighbours cannot lie beyond the border. Expected errors: false alarms and misses that the scores of "
-            "the cones and of the rejected candidates lead to expect."
+            "The images that most need to be checked by a person come first. Spacing (density): spacing of a hexagonal lattice with the "
+            "density of the mosaic. Spacing (ring): spacing measured in the power spectrum of the image before any cone was detected. "
+            "NN: distance to the nearest neighbour, mean ± standard deviation. RI: regularity index, the ratio of this mean to this "
+            "standard deviation, for all points and for the interior points, whose nearest neighbour cannot lie beyond the border. "
+            "Expected errors: expected number of false alarms and misses, computed from the scores of the cones and of the rejected "
+            "candidates; in brackets, as a percentage of the cones."
         }
         @if !samplers.is_empty() {
             p {
                 "ℓ∞ (l-infinity): the largest difference between the pair correlation function g(r) of the mosaic and that of a sampler "
-                "(mean of several samples of as many points in the same window). 0 means the same curve; the smaller it is, the more the "
-                "mosaic is arranged like the points of that sampler. Lanaro et al. (2020) call two curves alike below about 0.1. Chance "
-                "alone puts two patterns of one and the same process about 0.15 apart at 100 points, 0.08 at 300 and 0.05 at 1000."
+                "(mean over several patterns with about as many points in a window of about the same shape). 0 means identical curves; the "
+                "smaller the value, the more the mosaic is arranged like the points of that sampler. Lanaro et al. (2020) call two curves "
+                "alike below about 0.1. By chance alone, two patterns from the same process differ by about 0.15 if they have 100 points, "
+                "0.08 if they have 300 and 0.05 if they have 1000."
             }
         }
     }
 }
 
+/// Returns a number with so many significant digits, or a dash if there is none.
 fn number(value: Option<f64>, digits: usize) -> String {
     value.map_or("–".into(), |v| significant(v, digits))
 }
 
-/// Returns a length given in px, in µm where the page has a scale, px behind it.
+/// Returns a length given in px; on a page with a scale in µm, with px in brackets.
 fn length(px: Option<f64>, um_per_px: Option<f64>, scaled: bool) -> String {
     if scaled {
         format!("{} ({})", number(px.zip(um_per_px).map(|(v, um)| v * um), 3), number(px, 3))
@@ -105,6 +112,7 @@ fn length(px: Option<f64>, um_per_px: Option<f64>, scaled: bool) -> String {
     }
 }
 
+/// Returns the table of all images.
 fn overview(records: &[ImageRecord], names: &Names, scaled: bool) -> Markup {
     let (length_unit, density_unit) = if scaled { ("µm (px)", "per mm²") } else { ("px", "per px²") };
     let compared = records.iter().any(|r| !r.mosaic.l_infinity.is_empty());
@@ -125,6 +133,7 @@ fn overview(records: &[ImageRecord], names: &Names, scaled: bool) -> Markup {
     }
 }
 
+/// Returns the row of image `k` in that table.
 fn row(k: usize, record: &ImageRecord, names: &Names, scaled: bool, compared: bool) -> Markup {
     let m = &record.mosaic;
     let um = m.um_per_unit;
@@ -154,19 +163,22 @@ fn row(k: usize, record: &ImageRecord, names: &Names, scaled: bool, compared: bo
     } }
 }
 
-/// Returns how many errors the scores lead to expect, and per hundred cones.
+/// Returns the expected number of errors in words.
+///
+/// It is the sum of the expected false alarms and misses, followed in brackets by its percentage of
+/// the cones.
 pub fn expected_errors(found: &DetectionRecord) -> String {
     let errors = found.expected_false_alarms + found.expected_misses;
     let percent = 100. * errors / found.n.max(1) as f64;
     format!("{errors:.0} ({percent:.1} %)")
 }
 
-/// Two decimals, so that distances can be compared at a glance.
+/// Returns a distance with two decimals, so that distances can be compared at a glance.
 fn two_decimals(distance: f64) -> String {
     format!("{distance:.2}")
 }
 
-/// Returns ℓ∞ of a mosaic to every sampler that it was compared with, the closest first.
+/// Returns ℓ∞ between a mosaic and every sampler that it was compared with, the closest first.
 fn distances(mosaic: &MosaicRecord) -> Markup {
     let mut rising: Vec<_> = mosaic.l_infinity.iter().collect();
     rising.sort_by(|a, b| a.l_infinity.total_cmp(&b.l_infinity));
@@ -179,17 +191,18 @@ fn distances(mosaic: &MosaicRecord) -> Markup {
     }
 }
 
-/// Files of an image, and what they are called.
+/// Files of every image, with the words of their links.
 const LINKS: [(&str, &str); 4] = [
     ("overlay.png", "cones on the image"),
     ("points.csv", "points"),
     ("pcf.csv", "g(r)"),
     ("metrics.json", "all numbers"),
 ];
-/// Behind these, where there are maps.
+/// Files that follow these if there are maps.
 const MAP_LINKS: [(&str, &str); 3] =
-    [("maps.csv", "maps"), ("profiles.csv", "profiles"), ("fourier_map.csv", "spacing by spectra")];
+    [("maps.csv", "maps"), ("profiles.csv", "profiles"), ("fourier_map.csv", "spacing from spectra")];
 
+/// Returns the section of image `k`: warnings, figures and links.
 fn one(k: usize, record: &ImageRecord, landmarks: Option<&LandmarkRecord>) -> Markup {
     let folder = format!("images/{}", in_url(&record.name));
     html! {
@@ -201,7 +214,7 @@ fn one(k: usize, record: &ImageRecord, landmarks: Option<&LandmarkRecord>) -> Ma
             figure { img loading="lazy" src=(format!("{folder}/figure.svg")) alt=(format!("Figure of {}", record.name)); }
             @if !record.mosaic.verdicts.is_empty() {
                 ul.verdicts { @for verdict in &record.mosaic.verdicts { li { (verdict.words()) } } }
-                figure { img loading="lazy" src=(format!("{folder}/verdict.svg")) alt=(format!("g(r) of {} in the envelopes of samplers", record.name)); }
+                figure { img loading="lazy" src=(format!("{folder}/verdict.svg")) alt=(format!("g(r) of {} with the envelopes of samplers", record.name)); }
             }
             @if let Some(landmarks) = landmarks {
                 p { (landmarks.words()) }
@@ -218,13 +231,13 @@ fn one(k: usize, record: &ImageRecord, landmarks: Option<&LandmarkRecord>) -> Ma
     }
 }
 
-/// Returns what a window that is not a rectangle means for the numbers.
+/// Returns a sentence on the area within which cones are counted, for a window with an outline.
 fn outlined(record: &ImageRecord) -> String {
     let area = record.mosaic.window_area;
     let percent = 100. * area / (record.width_px * record.height_px) as f64;
     let mm2 = record.mosaic.window_area_mm2().map(|mm2| format!(" ({} mm²)", significant(mm2, 3)));
     format!(
-        "Counted within the outline: {} px²{}, {percent:.0} % of the image.",
+        "Only cones within the outline are counted: {} px²{}, {percent:.0} % of the image.",
         significant(area, 4),
         mm2.unwrap_or_default()
     )

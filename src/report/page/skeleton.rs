@@ -3,8 +3,9 @@ use base64::prelude::BASE64_STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
-/// Style of all pages, for light and dark screens, wide and narrow ones, and paper. A table scrolls
-/// inside its own box while its first column stays.
+/// Style sheet of all pages, for light and dark screens, wide and narrow screens, and paper.
+///
+/// A wide table scrolls inside its own box while its first column stays in place.
 const STYLE: &str = "
 :root { color-scheme: light dark; --line: #8884; --soft: #8882; --warn: light-dark(#a03c00, #f2a65a); }
 * { box-sizing: border-box; }
@@ -30,11 +31,11 @@ nav { display: flex; flex-wrap: wrap; gap: .2rem 1rem; font-size: .9rem; }
 @media print { section { break-inside: avoid; } nav { display: none; } figure, .scroll { overflow: visible; } }
 ";
 
-/// Returns a whole page: `style` stands behind the style that all pages share.
+/// Returns a complete HTML page; `style` is appended to the style sheet of all pages.
 ///
-/// The page needs no script and nothing from elsewhere, and forbids both: its content security
-/// policy names the hash of its one style sheet, so that it can be served under a strict policy,
-/// too.
+/// The page uses neither scripts nor anything from other sites, and its content security policy
+/// forbids both. The policy allows the only style sheet by its hash, so that the page can also be
+/// served under a strict policy.
 pub(super) fn skeleton(title: &str, style: &str, body: &Markup) -> String {
     let style = format!("{STYLE}{style}");
     let hash = BASE64_STANDARD.encode(Sha256::digest(&style));
@@ -55,7 +56,7 @@ pub(super) fn skeleton(title: &str, style: &str, body: &Markup) -> String {
     .into_string()
 }
 
-/// Returns a file name as part of a URL.
+/// Returns a file name with all special characters escaped for use in a URL.
 pub(super) fn in_url(name: &str) -> String {
     name.bytes()
         .map(|b| match b {

@@ -3,57 +3,59 @@ use super::skeleton::{in_url, skeleton};
 use crate::report::{MarkKind, TextTable, counted};
 use maud::{Markup, html};
 
-/// The overlays of so many of the worst images stand on the page; the others are linked.
+/// Number of the worst images whose overlays are shown on the page; the others are linked.
 const SHOWN: usize = 12;
 
+/// Style that only this page needs, added to that of all pages.
 const MORE_STYLE: &str = "
 .overlays { display: grid; grid-template-columns: repeat(auto-fill, minmax(22rem, 1fr)); gap: 1rem; }
 .overlays img { image-rendering: auto; } figcaption { font-size: .8rem; overflow-wrap: anywhere; }
 .key { display: inline-block; width: .8em; height: .8em; border-radius: 50%; margin: 0 .3em 0 1em; vertical-align: -.05em; }
 ";
 
-/// An image on the page.
+/// Image that was scored against marks, as a row of the page.
 #[derive(Clone, Debug)]
 pub struct ScoredImage {
-    /// Its name.
+    /// Name of the image.
     pub name: String,
-    /// The cells of its row, behind the name.
+    /// Cells of the row, after the name.
     pub cells: Vec<String>,
-    /// File of its overlay, beside the page.
+    /// Name of the file of the overlay, beside the page; `None` without one.
     pub overlay: Option<String>,
 }
 
-/// All that the page of a validation shows. Files are beside it.
+/// Contents of the page of a validation; all files are in the folder of the page.
 #[derive(Clone, Debug, Default)]
 pub struct ValidationPage<'a> {
-    /// Below the title.
+    /// Paragraph below the title.
     pub lead: String,
-    /// What a reader must know, each a sentence.
+    /// Warnings that a reader must know, one sentence each.
     pub notes: &'a [String],
-    /// Tables, each under its heading.
+    /// Tables, each with its heading.
     pub tables: &'a [(&'a str, TextTable)],
-    /// Figures: file and what it shows.
+    /// Figures, each with its file name and a description.
     pub figures: &'a [(&'a str, String)],
-    /// Other files: name and what it holds.
+    /// Other files, each with its name and a description.
     pub files: &'a [(&'a str, &'a str)],
-    /// Headers of the table of images, behind that of the name.
+    /// Headers of the table of images, after that of the name.
     pub header: &'a [&'a str],
-    /// The images, worst first.
+    /// Images, the worst first.
     pub images: &'a [ScoredImage],
-    /// Files of marks that could not be scored, and why.
+    /// Files of marks that could not be scored, each with the reason.
     pub failures: &'a [(&'a str, &'a str)],
 }
 
-/// Returns the page of a validation: accuracy, agreement, curves, and the images from worst to
-/// best.
+/// Returns the HTML page of a validation.
+///
+/// It shows accuracy, agreement and curves, and then the images from the worst to the best.
 pub fn validation_page(page: &ValidationPage) -> String {
     let body = html! {
         h1 { "Validation of cone detections" }
         p.lead { (page.lead) }
-        @if !page.images.is_empty() { nav { a href="#images" { "Images, worst first" } } }
+        @if !page.images.is_empty() { nav { a href="#images" { "Images, the worst first" } } }
         @for note in page.notes { p.warning { "⚠ " (note) } }
         @if !page.failures.is_empty() {
-            h2.warning { (counted(page.failures.len(), "file")) " of marks failed" }
+            h2.warning { (counted(page.failures.len(), "file")) " of marks could not be scored" }
             ul { @for (file, reason) in page.failures { li title=(file) { (reason) } } }
         }
         @for (heading, table) in page.tables { h2 { (heading) } div.scroll { (table_of(table)) } }
@@ -72,15 +74,15 @@ pub fn validation_page(page: &ValidationPage) -> String {
     skeleton("Validation of cone detections", &style(), &body)
 }
 
-/// Marks of the key to the overlays: class and words of each.
+/// Entries of the key to the overlays: kind of mark, CSS class and words.
 const KEY: [(MarkKind, &str, &str); 4] = [
     (MarkKind::Hit, "hit", "hit (ring)"),
     (MarkKind::Miss, "miss", "miss (plus)"),
     (MarkKind::FalseAlarm, "alarm", "false alarm (cross)"),
-    (MarkKind::Uncounted, "uncounted", "in the dark border, not counted"),
+    (MarkKind::Uncounted, "uncounted", "in the dark border (not counted)"),
 ];
 
-/// Returns the style of this page, the colours of the key among it.
+/// Returns the style of this page, including the colours of the key.
 fn style() -> String {
     let colour = |(kind, class, _): &(MarkKind, &str, &str)| {
         format!(".key.{class} {{ background: {}; }}\n", hex(kind.colour()))
@@ -88,6 +90,7 @@ fn style() -> String {
     KEY.iter().fold(MORE_STYLE.to_owned(), |style, entry| style + &colour(entry))
 }
 
+/// Returns a table as HTML.
 fn table_of(table: &TextTable) -> Markup {
     html! {
         table {
@@ -97,12 +100,13 @@ fn table_of(table: &TextTable) -> Markup {
     }
 }
 
+/// Returns the overlays of the worst images, and the table of all images.
 fn images(page: &ValidationPage) -> Markup {
     let shown = page.images.iter().take(SHOWN).filter_map(|i| i.overlay.as_ref().map(|o| (i, o)));
     let shown: Vec<_> = shown.collect();
     let names = Names::new(page.images.iter().map(|i| i.name.as_str()));
     html! {
-        h2 id="images" { "Images: what needs a human first" }
+        h2 id="images" { "Images, the worst first" }
         @if !shown.is_empty() {
             p {
                 @for (_, class, words) in KEY { span class={ "key " (class) } {} (words) }
@@ -130,6 +134,7 @@ fn images(page: &ValidationPage) -> Markup {
     }
 }
 
+/// Returns a colour in the notation of CSS, `#rrggbb`.
 fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
