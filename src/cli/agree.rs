@@ -61,10 +61,12 @@ pub struct Agree {
     columns: Vec<String>,
     /// Rule that tells which images are of one subject
     ///
-    /// prefix:N: the first N parts of the file name between underscores; otherwise a regular
-    /// expression: its first group in the file name, or all that it matches if it has no group.
+    /// prefix:N        the first N parts of the file name between underscores
+    /// any other text  a regular expression: its first group in the file
+    ///                 name, or all that it matches if it has no group
+    ///
     /// [default: every image counts as independent]
-    #[arg(long, value_name = "RULE", group = "grouping")]
+    #[arg(long, verbatim_doc_comment, value_name = "RULE", group = "grouping")]
     group_by: Option<Grouping>,
     /// CSV file that tells which images are of one subject, instead of a rule
     ///

@@ -39,19 +39,19 @@ pub struct Detect {
     /// Folder for the results; it is created if it does not exist
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    #[command(flatten)]
+    #[command(flatten, next_help_heading = "Detection")]
     detect: DetectArgs,
     /// Also write each image with its cones marked
-    #[arg(long)]
+    #[arg(long, help_heading = None)]
     overlay: bool,
     /// Also write the candidates that were too faint to count as cones, with their scores
-    #[arg(long)]
+    #[arg(long, help_heading = None)]
     rejected: bool,
     /// Replace tables of cones that a person has made or corrected
     ///
     /// The replaced files are moved to .conemosaic/earlier in the folder of the results. [default:
     /// such tables are kept]
-    #[arg(long)]
+    #[arg(long, help_heading = None)]
     replace_corrections: bool,
     #[command(flatten)]
     scale: ScaleArgs,

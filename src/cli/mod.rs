@@ -31,9 +31,9 @@ use std::process::ExitCode;
 
 /// Description of the program at the top of its help.
 const ABOUT: &str = "\
-Finds cone photoreceptors in images of the human retina and measures their mosaic
+Finds cones in images of the human retina and measures their mosaic
 
-Images may be confocal or split-detector adaptive-optics ophthalmoscopy or histology. The mosaic is \
+Cones are cone photoreceptors. Images may be confocal or split-detector adaptive-optics ophthalmoscopy or histology. The mosaic is \
 measured (density, spacing, regularity) and compared with samplers, which are models of random \
 point patterns. Hand marks and the results of other programs can be measured and scored as well.";
 

@@ -8,24 +8,32 @@ use std::path::PathBuf;
 /// Options for the area of a mosaic and for reading its coordinates.
 #[derive(Args)]
 pub struct MosaicArgs {
-    /// Area in which points could have been seen; density and edge corrections depend on it
+    /// Area in which points could have been seen
     ///
-    /// auto: the imaged part, without black margins, of the image with the same name, which lies
-    /// beside the file or in --images.
+    /// Density and edge corrections depend on it.
     ///
-    /// image: all of that image.
+    /// auto         the imaged part, without black margins, of the image with
+    ///              the same name, which lies beside the file or in --images
+    /// image        all of that image
+    /// unit         the unit square
+    /// WxH          an image of W × H; in px it reaches from −0.5 to W − 0.5
+    ///              and from −0.5 to H − 0.5
+    /// X0,Y0,X1,Y1  left, upper, right and lower edge, in the unit of the
+    ///              coordinates
+    /// FILE         a file of the corners of one or more polygons, read with
+    ///              the same --origin and --flip-y as the coordinates: CSV
+    ///              with columns x,y, a WebPlotDigitizer project or CSV file,
+    ///              or an ImageJ ROI
     ///
-    /// unit: the unit square.
-    ///
-    /// WxH: an image of W × H; in px it reaches from −0.5 to W − 0.5 and from −0.5 to H − 0.5.
-    ///
-    /// X0,Y0,X1,Y1: left, upper, right and lower edge, in the unit of the coordinates.
-    ///
-    /// FILE: a file of the corners of one or more polygons, read with the same --origin and
-    /// --flip-y as the coordinates: CSV with columns x,y, a WebPlotDigitizer project or CSV file,
-    /// or an ImageJ ROI. In CSV a blank line or a new value in a column “ring” begins a new
-    /// polygon; a polygon inside another is a hole.
-    #[arg(long, value_name = "WINDOW", default_value = "auto", allow_hyphen_values = true)]
+    /// In CSV a blank line or a new value in a column “ring” begins a new
+    /// polygon. A polygon inside another is a hole.
+    #[arg(
+        long,
+        verbatim_doc_comment,
+        value_name = "WINDOW",
+        default_value = "auto",
+        allow_hyphen_values = true
+    )]
     window: Region,
     /// Rectangle to which the window is cut; points outside it are left out [default: no cut]
     ///

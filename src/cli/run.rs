@@ -61,7 +61,7 @@ To correct the cones of an image, edit its points.csv and run the command again:
 your cones are used, and everything else is computed anew from them. Ctrl-C
 stops after the images that are being worked on.";
 
-/// Finds cones, measures their mosaic and reports, for whole folders
+/// Finds cones, measures their mosaic and writes a report
 ///
 /// Takes images of the human retina. It finds the cones of each image (or takes them from files,
 /// with --cones), measures their mosaic, compares it with random point patterns (samplers) and
@@ -76,7 +76,7 @@ pub struct Run {
     /// Folder for the results; it is created if it does not exist
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Folder of coordinate files, or one file, with the cones to measure; nothing is detected then
+    /// Folder of coordinate files, or one file, of cones to measure instead of detecting them
     ///
     /// The cones may be marked by hand, corrected, or found by another program. The cones of image
     /// NAME are in NAME.csv, NAME_coords.csv or NAME/points.csv.
@@ -84,7 +84,7 @@ pub struct Run {
     cones: Option<PathBuf>,
     #[command(flatten)]
     coordinates: CoordinateArgs,
-    #[command(flatten)]
+    #[command(flatten, next_help_heading = "Detection")]
     detect: DetectArgs,
     /// Also test whether each mosaic could be drawn from each sampler, by simulation
     ///
@@ -99,33 +99,34 @@ pub struct Run {
     simulations: usize,
     /// Area of the image that is measured; cones outside it do not count
     ///
-    /// auto: all that was imaged, without black margins and the black corners between the tiles of
-    /// a montage.
+    /// auto         all that was imaged, without black margins and the black
+    ///              corners between the tiles of a montage
+    /// image        the whole image
+    /// WxH          a rectangle in the middle of the image, in px, or in µm
+    ///              with the suffix um, such as 55x55um
+    /// X0,Y0,X1,Y1  left, upper, right and lower edge, in px, or in µm with
+    ///              the suffix um
+    /// FILE         a file of the corners of one or more polygons: CSV with
+    ///              columns x,y in px or x_um,y_um in µm, a WebPlotDigitizer
+    ///              project or CSV file, or an ImageJ ROI
     ///
-    /// image: the whole image.
-    ///
-    /// WxH: a rectangle in the middle of the image, in px, or in µm with the suffix um (55x55um).
-    ///
-    /// X0,Y0,X1,Y1: left, upper, right and lower edge, in px, or in µm with the suffix um.
-    ///
-    /// FILE: a file of the corners of one or more polygons: CSV with columns x,y in px or x_um,y_um
-    /// in µm, a WebPlotDigitizer project or CSV file, or an ImageJ ROI. In CSV a blank line or a
-    /// new value in a column “ring” begins a new polygon; a polygon inside another is a hole.
-    #[arg(long, value_name = "WINDOW", default_value = "auto", allow_hyphen_values = true)]
+    /// In CSV a blank line or a new value in a column “ring” begins a new
+    /// polygon. A polygon inside another is a hole.
+    #[arg(long, verbatim_doc_comment, help_heading = None, value_name = "WINDOW", default_value = "auto", allow_hyphen_values = true)]
     window: ImageWindow,
     /// Rectangle to which the window is cut [default: no cut]
     ///
     /// WxH (in the middle of the image) or X0,Y0,X1,Y1, in px, or in µm with the suffix um, such as
     /// 55x55um.
-    #[arg(long, value_name = "RECT", allow_hyphen_values = true)]
+    #[arg(long, help_heading = None, value_name = "RECT", allow_hyphen_values = true)]
     crop: Option<Crop>,
     /// Compute everything anew instead of keeping finished results of an earlier run
-    #[arg(long)]
+    #[arg(long, help_heading = None)]
     fresh: bool,
     /// Detect cones anew even in images whose points.csv a person has corrected
     ///
     /// The corrected files are moved to .conemosaic/earlier in the folder of the results.
-    #[arg(long)]
+    #[arg(long, help_heading = None)]
     replace_corrections: bool,
     /// Keep finished results of an earlier run with the same options: the default since 0.2
     #[arg(long, hide = true, conflicts_with = "fresh")]

@@ -53,16 +53,21 @@ pub struct Sample {
     n: Option<usize>,
     /// Area in which points are drawn
     ///
-    /// unit: the unit square.
-    ///
-    /// WxH: an image of W × H px; pixel centres are whole numbers, so it reaches from −0.5 to W −
-    /// 0.5 and from −0.5 to H − 0.5, as in `conemosaic measure --window`.
-    ///
-    /// X0,Y0,X1,Y1: left, upper, right and lower edge.
-    ///
-    /// FILE: a file of the corners of one or more polygons: CSV with columns x,y, a
-    /// WebPlotDigitizer project or CSV file, or an ImageJ ROI.
-    #[arg(long, value_name = "WINDOW", default_value = "unit", allow_hyphen_values = true)]
+    /// unit         the unit square
+    /// WxH          an image of W × H px; pixel centres are whole numbers, so
+    ///              it reaches from −0.5 to W − 0.5 and from −0.5 to H − 0.5,
+    ///              as in `conemosaic measure --window`
+    /// X0,Y0,X1,Y1  left, upper, right and lower edge
+    /// FILE         a file of the corners of one or more polygons: CSV with
+    ///              columns x,y, a WebPlotDigitizer project or CSV file,
+    ///              or an ImageJ ROI
+    #[arg(
+        long,
+        verbatim_doc_comment,
+        value_name = "WINDOW",
+        default_value = "unit",
+        allow_hyphen_values = true
+    )]
     window: Region,
     /// Treat opposite edges of the window as connected (periodic boundaries); rectangles only
     ///

@@ -89,10 +89,11 @@ pub struct Validate {
     detections_origin: Origin,
     /// Rule that pairs marks with detections where several are near
     ///
-    /// nearest: every mark claims its nearest detection, and the nearest of several claims is
-    /// granted (Cunefare et al. 2017); optimal: as many pairs as possible and, among those, the
-    /// pairs of least total distance (Hungarian assignment).
-    #[arg(long, value_name = "A", default_value = "nearest", value_parser = PossibleValuesParser::new(Assignment::VARIANTS), help_heading = "Scoring")]
+    /// nearest  every mark claims its nearest detection, and of several
+    ///          claims the nearest is granted (Cunefare et al. 2017)
+    /// optimal  as many pairs as possible and, among those, the pairs of
+    ///          least total distance (Hungarian assignment)
+    #[arg(long, verbatim_doc_comment, value_name = "A", default_value = "nearest", value_parser = PossibleValuesParser::new(Assignment::VARIANTS), help_heading = "Scoring")]
     assignment: String,
     /// Width of the border in which marks and detections do not count, in px (0 or more)
     ///
@@ -107,10 +108,18 @@ pub struct Validate {
     reach: f64,
     /// Rule that tells which images are of one subject
     ///
-    /// prefix:N: the first N parts of the file name between underscores; otherwise a regular
-    /// expression: its first group in the file name, or all that it matches if it has no group.
+    /// prefix:N        the first N parts of the file name between underscores
+    /// any other text  a regular expression: its first group in the file
+    ///                 name, or all that it matches if it has no group
+    ///
     /// [default: every image counts as independent]
-    #[arg(long, value_name = "RULE", group = "grouping", help_heading = "Groups and intervals")]
+    #[arg(
+        long,
+        verbatim_doc_comment,
+        value_name = "RULE",
+        group = "grouping",
+        help_heading = "Groups and intervals"
+    )]
     group_by: Option<Grouping>,
     /// CSV file that tells which images are of one subject, instead of a rule
     ///

@@ -11,25 +11,30 @@ use strum::VariantNames;
 pub struct DetectArgs {
     /// Type of the images
     ///
-    /// confocal: confocal adaptive-optics ophthalmoscopy, cones are bright spots; split:
-    /// split-detector adaptive-optics ophthalmoscopy, inner segments have a dark and a bright side;
-    /// histology: micrographs of flat-mounted retina, inner segments are discs; auto: decided for
-    /// each image from the image itself.
-    #[arg(long, value_name = "M", default_value = "auto", value_parser = or_auto(Modality::VARIANTS))]
+    /// confocal   confocal adaptive-optics ophthalmoscopy: a cone is a bright
+    ///            spot
+    /// split      split-detector adaptive-optics ophthalmoscopy: an inner
+    ///            segment has a dark and a bright side
+    /// histology  micrographs of flat-mounted retina: an inner segment is a
+    ///            disc
+    /// auto       decided for each image from the image itself
+    #[arg(long, verbatim_doc_comment, value_name = "M", default_value = "auto", value_parser = or_auto(Modality::VARIANTS))]
     modality: String,
     /// Contrast of the cones
     ///
-    /// positive: cones are brighter than their surround, or, in split-detector images, dark on the
-    /// left and bright on the right; negative: the reverse; auto: decided for each image from the
-    /// image itself.
-    #[arg(long, value_name = "P", default_value = "auto", value_parser = or_auto(Polarity::VARIANTS))]
+    /// positive  cones are brighter than their surround; in split-detector
+    ///           images they are dark on the left and bright on the right
+    /// negative  the reverse
+    /// auto      decided for each image from the image itself
+    #[arg(long, verbatim_doc_comment, value_name = "P", default_value = "auto", value_parser = or_auto(Polarity::VARIANTS))]
     polarity: String,
     /// Method that finds the cones
     ///
-    /// classical: a band-pass filter designed for the type of image; learned: a small convolutional
-    /// network trained for it; auto: whichever of the two scored better on hand-marked images of
-    /// the type.
-    #[arg(long, value_name = "D", default_value = "auto", value_parser = PossibleValuesParser::new(Detector::VARIANTS))]
+    /// classical  a band-pass filter designed for the type of image
+    /// learned    a small convolutional network trained for it
+    /// auto       whichever of the two scored better on hand-marked images of
+    ///            the type
+    #[arg(long, verbatim_doc_comment, value_name = "D", default_value = "auto", value_parser = PossibleValuesParser::new(Detector::VARIANTS))]
     detector: String,
     /// First estimate of the distance between neighbouring cones, in px (4–160)
     ///
@@ -46,7 +51,7 @@ pub struct DetectArgs {
 
 /// Description of the files that `--model` accepts, for the end of a command's help.
 pub const MODELS: &str = "\
-A network of your own (--model FILE), for images of the modality it was made for:
+A network of your own (--model FILE), for images of the type it was made for:
   .safetensors  a file written by scripts/train-detector
   .onnx         only if the program was built with `--features onnx`.
     Input       float32, 1×1×H×W, with H and W left open: the image resampled

@@ -12,12 +12,15 @@ use strum::VariantNames;
 pub struct PcfArgs {
     /// Edge correction, for neighbours hidden beyond the border of the window
     ///
-    /// set-covariance: g(r) is divided by the isotropised set covariance of the window;
-    /// translation: each pair is weighted by the overlap of the window with its shifted copy (Ohser
-    /// & Stoyan 1981); isotropic: each pair is weighted by the part of its circle inside the window
-    /// (Ripley 1976); torus: distances go across opposite edges, which needs --torus; none: no
-    /// correction, so that g(r) falls with r.
-    #[arg(long, value_name = "E", default_value = "set-covariance", value_parser = PossibleValuesParser::new(EdgeCorrection::VARIANTS))]
+    /// set-covariance  g(r) is divided by the isotropised set covariance of
+    ///                 the window
+    /// translation     each pair is weighted by the overlap of the window
+    ///                 with its shifted copy (Ohser & Stoyan 1981)
+    /// isotropic       each pair is weighted by the part of its circle that
+    ///                 lies inside the window (Ripley 1976)
+    /// torus           distances go across opposite edges; needs --torus
+    /// none            no correction: g(r) falls with r
+    #[arg(long, verbatim_doc_comment, value_name = "E", default_value = "set-covariance", value_parser = PossibleValuesParser::new(EdgeCorrection::VARIANTS))]
     edge: String,
     /// Shape of the smoothing kernel
     ///

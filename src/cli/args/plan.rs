@@ -26,9 +26,11 @@ pub struct PlanArgs {
     samplers: Vec<String>,
     /// Definition of the standard deviation
     ///
-    /// sample: divided by n − 1; population: divided by n, as in the tables of Lanaro et al.
-    /// (2020). It also enters the regularity index, mean over standard deviation.
-    #[arg(long, value_name = "SD", default_value = "sample", value_parser = PossibleValuesParser::new(Deviation::VARIANTS))]
+    /// sample      divided by n − 1
+    /// population  divided by n, as in the tables of Lanaro et al. (2020)
+    ///
+    /// It also enters the regularity index, mean over standard deviation.
+    #[arg(long, verbatim_doc_comment, help_heading = None, value_name = "SD", default_value = "sample", value_parser = PossibleValuesParser::new(Deviation::VARIANTS))]
     sd: String,
     #[command(flatten)]
     summary: SummaryArgs,
@@ -45,13 +47,19 @@ pub struct PlanArgs {
     /// √density is √n cycles per side for n points in the unit square.
     #[arg(long, value_name = "F", default_value_t = SpectrumOptions::default().max_frequency, requires = "spectrum", help_heading = "Power spectrum")]
     max_frequency: f64,
-    /// Also write the functions G, F, J, K, L and g of each mosaic, and a table of its points
+    /// Also write functions of distance and a table of the points
     ///
-    /// G: distribution of nearest-neighbour distances; F: distribution of distances from places of
-    /// the window to the nearest point; J: (1 − G)/(1 − F); K: Ripley's K; L: √(K/π); g: pair
-    /// correlation function; each with several edge corrections. The table of points holds the
-    /// nearest neighbour, the Voronoi cell and its neighbours for each point.
-    #[arg(long, help_heading = "Functions of distance")]
+    /// G  distribution of nearest-neighbour distances
+    /// F  distribution of distances from places of the window to the nearest
+    ///    point
+    /// J  (1 − G)/(1 − F)
+    /// K  Ripley's K
+    /// L  √(K/π)
+    /// g  pair correlation function
+    ///
+    /// Each is given with several edge corrections. The table of points holds
+    /// the nearest neighbour and the Voronoi cell of each point.
+    #[arg(long, verbatim_doc_comment, help_heading = "Functions of distance")]
     functions: bool,
     /// Distance between the rows of these functions [default: 1/128 of the last distance]
     ///
@@ -65,7 +73,7 @@ pub struct PlanArgs {
     /// Formats of the figures, separated by commas: svg, pdf, png (300 dpi)
     ///
     /// SVG files are always written.
-    #[arg(long, value_name = "F,…", value_delimiter = ',', default_value = "svg")]
+    #[arg(long, value_name = "F,…", value_delimiter = ',', default_value = "svg", help_heading = "Figures")]
     figures: Vec<FigureFormat>,
     #[command(flatten)]
     scale: ScaleArgs,

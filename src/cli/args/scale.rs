@@ -28,7 +28,7 @@ pub struct ScaleArgs {
     /// longest identifier counts.
     #[arg(long, value_name = "FILE", group = "scale")]
     scale_table: Option<PathBuf>,
-    /// Measure images that the scale table lacks in pixels, instead of listing them as failed
+    /// Measure images without a row in --scale-table in pixels; without this option they fail
     #[arg(long, requires = "scale_table")]
     unscaled: bool,
     /// Micrometres on the retina per degree of visual angle [default: 288]

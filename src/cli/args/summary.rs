@@ -29,16 +29,16 @@ pub struct SummaryArgs {
     manifest: Option<PathBuf>,
     /// Rule that groups the files, for groups.csv
     ///
-    /// groups.csv holds mean, SD and number of values of every column for each group. The rule is
-    /// one of:
+    /// groups.csv holds mean, SD and number of values of every column for
+    /// each group.
     ///
-    /// column:NAME or column:NAME,NAME, or just NAME: by one or more columns of the manifest.
-    ///
-    /// prefix:N: by the first N parts of the file name between underscores.
-    ///
-    /// Otherwise a regular expression: by its first group in the file name, or by all that it
-    /// matches if it has no group.
-    #[arg(long, value_name = "RULE")]
+    /// column:NAME       by a column of the manifest; just NAME does, too
+    /// column:NAME,NAME  by several columns of the manifest
+    /// prefix:N          by the first N parts of the file name between
+    ///                   underscores
+    /// any other text    a regular expression: by its first group in the file
+    ///                   name, or by all that it matches if it has no group
+    #[arg(long, verbatim_doc_comment, value_name = "RULE")]
     group_by: Option<GroupBy>,
 }
 

@@ -63,9 +63,10 @@ pub struct Render {
     modality: Option<Modality>,
     /// Contrast of the cones: positive or negative
     ///
-    /// positive: cones are brighter than their surround, or, in split-detector images, dark on the
-    /// left and bright on the right; negative: the reverse.
-    #[arg(long, value_name = "P", default_value = "positive")]
+    /// positive  cones are brighter than their surround; in split-detector
+    ///           images they are dark on the left and bright on the right
+    /// negative  the reverse
+    #[arg(long, verbatim_doc_comment, value_name = "P", default_value = "positive")]
     polarity: Polarity,
     /// Width of the image in px (1–16384) [default: that of the preset, otherwise 150]
     #[arg(long, value_name = "PX")]

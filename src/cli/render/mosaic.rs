@@ -30,15 +30,16 @@ pub struct MosaicSource {
     gradient: Option<Draw>,
     /// Direction in which the density changes [default: linear]
     ///
-    /// linear: along x; radial: from the middle outwards, as around the fovea.
-    #[arg(long, value_name = "SHAPE", value_parser = ["linear", "radial"], conflicts_with = "points")]
+    /// linear  along x
+    /// radial  from the middle outwards, as around the fovea
+    #[arg(long, verbatim_doc_comment, value_name = "SHAPE", value_parser = ["linear", "radial"], conflicts_with = "points")]
     gradient_shape: Option<String>,
     /// Spacing along y divided by spacing along x (0.5–2) [default: 1]
     #[arg(long, value_name = "RATIO", conflicts_with = "points")]
     anisotropy: Option<Draw>,
     /// Standard deviation of a random displacement of each cone in x and y, in s (0–0.5)
     ///
-    /// [default: 0.085, which gives the regularity index of real mosaics; with --mosaic 0]
+    /// [default: 0.085, which gives the regularity index of real mosaics; with --mosaic: 0]
     #[arg(long, value_name = "S", conflicts_with = "points")]
     jitter: Option<Draw>,
     /// Sampler that places the cones, instead of the built-in model of a mosaic
