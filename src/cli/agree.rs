@@ -1,5 +1,5 @@
 use super::args::Common;
-use super::{Done, short_table};
+use super::{Done, remedies, short_table};
 use anyhow::Result;
 use clap::Args;
 use conemosaic::batch::{AgreementOptions, AgreementOutcome, Grouping, agree_files};
@@ -97,7 +97,7 @@ impl Agree {
         let options = AgreementOptions { columns, grouping, figures: self.figures };
         let outcome = agree_files(&self.tables, &options, &self.out)?;
         common.say(&words(&outcome));
-        common.say(&outcome.method());
+        common.say(&remedies::with_options(&outcome.method()));
         if !outcome.unpaired.is_empty() {
             let lacking = counted(outcome.unpaired.len(), "image");
             common.say(&format!("{lacking} without a partner: {}", self.out.join("unpaired.csv").display()));

@@ -33,9 +33,10 @@ use std::process::ExitCode;
 const ABOUT: &str = "\
 Finds cones in images of the human retina and measures their mosaic
 
-Cones are cone photoreceptors. Images may be confocal or split-detector adaptive-optics ophthalmoscopy or histology. The mosaic is \
-measured (density, spacing, regularity) and compared with samplers, which are models of random \
-point patterns. Hand marks and the results of other programs can be measured and scored as well.";
+Cones are cone photoreceptors. Images may be confocal or split-detector adaptive-optics \
+ophthalmoscopy or histology. The mosaic is measured (density, spacing, regularity) and compared \
+with samplers, which are models of random point patterns. Hand marks and the results of other \
+programs can be measured and scored as well.";
 
 /// First steps and exit codes, for the end of the help of the program.
 const AFTER: &str = "\

@@ -30,6 +30,7 @@ const PHRASES: &[(&str, &str)] = &[
         "state it with --origin (marks) or --detections-origin (detections)",
     ),
     ("group them by subject", "give --group-by or --group-table"),
+    ("say which belong together", "say which are of one subject with --group-by or --group-table"),
     ("give the modality", "give --modality"),
     ("give the spacing if you know it", "give --spacing if you know it"),
 ];

@@ -21,7 +21,8 @@ Examples, on three simulated images:
   conemosaic run images --um-per-px 0.42 --out report
   conemosaic run images --cones marks --um-per-px 0.42 --out by_hand
 
-Marks made in MATLAB count from 1: add --origin 1.
+Marks made in MATLAB count from 1: add --origin 1. Images of different scales:
+add --scale-table scales.csv instead of --um-per-px.
 
 Writes to report/ (`conemosaic metrics` explains every column of every table):
   summary.csv    one row per image
@@ -55,8 +56,8 @@ Writes to report/images/NAME/, for each image:
   spectrum.csv, spectrum.png
                  with --spectrum: power spectrum of the points
 
-Running the same command again continues: results are kept for every image
-whose file and options have not changed, unless the program itself has changed.
+Running the same command again continues: the results of an image are kept as
+long as its file, the options and the program have not changed.
 To correct the cones of an image, edit its points.csv and run the command again:
 your cones are used, and everything else is computed anew from them. Ctrl-C
 stops after the images that are being worked on.";
@@ -190,7 +191,7 @@ impl Run {
             "RI",
             "closest to",
             "l∞",
-            "errors",
+            "expected errors",
         ];
         // images that a person should look at come first, as a long table is cut
         let rows: Vec<Vec<String>> = by_need(&outcome.records)

@@ -27,8 +27,10 @@ Points as dense as an image is bright:
   conemosaic render --preset fovea --out image.png
   conemosaic sample bnot -n 2000 --density image.png --out stipples.csv
 
-Points with the pair correlation function of a measured mosaic:
-  conemosaic measure points.csv --window unit --r-max 6 --out measured
+Points with the pair correlation function of a measured mosaic, smoothed by a
+wide kernel because noise in g(r) cannot be fitted:
+  conemosaic measure points.csv --window unit --r-max 6 --r-min 0.5 \\
+    --bandwidth 0.3 --out measured
   conemosaic sample --target-pcf measured/points.pcf.csv -n 1024 --out like.csv
 
 Writes a table with columns x,y, to the terminal unless --out names a file.

@@ -69,7 +69,7 @@ pub fn fit_in_words(fit: &TargetFit) -> String {
             "g beyond the last r of the target is left to chance and disturbs the rows just before it; add rows up to 6 spacings, with g = 1 where it has settled"
         }
         false => {
-            "no point pattern may have this g, because it is noisy or comes from points of varying density; smooth it, or take a region of even density"
+            "possibly no point pattern has this g, because it is noisy or comes from points of varying density; smooth it, or measure it in a region of even density"
         }
     };
     format!("warning: {words}, more than {POOR_FIT}: {why}")
