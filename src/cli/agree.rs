@@ -8,38 +8,7 @@ use conemosaic::report::{Cell, FigureFormat, counted};
 use std::path::PathBuf;
 
 /// Examples and files written, for the end of the help.
-const HELP: &str = "\
-Examples, on three simulated images (true cones against detected ones):
-  mkdir -p images marks
-  conemosaic render --preset parafovea --count 3 \\
-    --out images/sim.png --truth marks/sim.csv
-  conemosaic detect images --out cones
-  conemosaic measure marks --window 150x150 --out one
-  conemosaic measure cones --window 150x150 --out two
-  conemosaic agree one two --out agreed
-  conemosaic agree one two --columns density,nn_mean --out agreed_two
-
-Writes to agreed/:
-  agreement.csv    one row per column and pair of graders:
-                   - means of both; mean difference (first − second) with its
-                     95 % confidence interval; SD of the differences
-                   - 95 % limits of agreement with confidence intervals
-                     (Bland & Altman 1999)
-                   - intraclass correlations with confidence intervals:
-                     ICC(2,1), absolute agreement, and ICC(3,1), consistency
-                     (McGraw & Wong 1996)
-                   - SD within an image; repeatability, 1.96 √2 times that SD;
-                     coefficient of variation
-                   With more than two graders also one row over all of them.
-                   Intervals take images as independent, unless --group-by or
-                   --group-table says which images are of one subject; limits
-                   of agreement are then those for repeated measurements
-                   (Bland & Altman 2007), with intervals by Zou (2013).
-  differences.csv  one row per image, column and pair of graders
-  unpaired.csv     images that one of the graders lacks
-  agreement.svg    Bland–Altman plots of density and nearest-neighbour
-                   distance, or else of the first two columns; with --figures
-                   also agreement.pdf and agreement.png";
+const HELP: &str = include_str!("help/agree.txt").trim_ascii_end();
 
 /// Measures how well graders, sessions or programs agree
 ///

@@ -11,45 +11,7 @@ use conemosaic::sample::Sampler;
 use std::path::PathBuf;
 
 /// Examples, the terms, and files written, for the end of the help.
-const HELP: &str = "\
-Example, on three simulated images:
-  mkdir -p images marks
-  conemosaic render --preset parafovea --count 3 \\
-    --out images/sim.png --truth marks/sim.csv
-  conemosaic compare marks --window 150x150 \\
-    --samplers jittered,dart-throwing --out compared
-
-Distance (l-infinity, l∞): the largest absolute difference between the g(r) of
-the mosaic and the mean g(r) of a sampler with as many points in the same
-window. It has no unit. Two patterns drawn from the same sampler differ too,
-and the fewer points they have, the more they differ.
-
-Verdict: each sampler is therefore simulated with as many points as the mosaic
-has, in the same window, and the g(r) of the mosaic is compared with those of
-the simulations. The verdict on the screen and in the tables reads:
-  as bridson: p = 0.31
-      The g(r) of the mosaic lies among those of the simulations: the mosaic
-      cannot be told from this sampler.
-  differs from bnot: p = 0.005, at r = 0.90–1.10 s
-      The g(r) of the mosaic leaves the 95 % envelope of the simulations at
-      these distances; s is the hexagonal spacing.
-
-Writes to compared/, besides the files of `conemosaic measure`:
-  regularity.csv     mean and standard deviation of nearest-neighbour
-                     distances, and regularity index, as in Table 1 of Lanaro
-                     et al. (2020)
-  l_infinity.csv     one row per file, one column per sampler, as in their
-                     Table 2: distance to the mean g(r) of the sampler for
-                     mosaics of about this size
-  finding.csv        their main finding, tested on these mosaics: rank
-                     correlation between regularity index and distance to
-                     each sampler, with p-value (needs 5 mosaics or more)
-  verdicts.csv       one row per file and sampler: p-values, distances r at
-                     which the mosaic differs, the l∞ usual among simulations,
-                     and the l∞ to the mean g(r) of these simulations
-  NAME.envelope.csv  g(r) of the mosaic; mean and envelope of each sampler
-  NAME.verdict.svg   the same as a figure
-  failures.csv       files that failed, if any; the exit code is then 2";
+const HELP: &str = include_str!("help/compare.txt").trim_ascii_end();
 
 /// Compares mosaics with random point patterns (samplers)
 ///

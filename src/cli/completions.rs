@@ -4,14 +4,7 @@ use clap::Args;
 use clap_complete::{Shell, generate};
 
 /// Examples for the end of the help.
-const HELP: &str = "\
-Examples:
-  mkdir -p ~/.local/share/bash-completion/completions
-  conemosaic completions bash \\
-    > ~/.local/share/bash-completion/completions/conemosaic
-
-Open a new terminal afterwards. For other shells, see where yours looks for
-completion scripts.";
+const HELP: &str = include_str!("help/completions.txt").trim_ascii_end();
 
 /// Prints a script that completes commands and options in a shell
 ///

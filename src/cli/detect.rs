@@ -7,23 +7,7 @@ use conemosaic::report::counted;
 use std::path::PathBuf;
 
 /// Examples and files written, for the end of the help.
-const HELP: &str = "\
-Examples, on three simulated images:
-  mkdir -p images
-  conemosaic render --preset parafovea --count 3 --out images/sim.png
-  conemosaic detect images --out cones --overlay
-  conemosaic detect images --um-per-px 0.42 --out cones_um
-
-Writes to cones/:
-  NAME.csv           one row per cone, the most certain first: x_px,y_px,score,
-                     and x_um,y_um if the scale is known. x and y are 0 at the
-                     centre of the top-left pixel; score is the probability
-                     (0–1) that a person would mark a cone there
-  NAME.overlay.png   with --overlay: the image with the cones marked
-  NAME.rejected.csv  with --rejected: the same columns for the candidates that
-                     were too faint to count as cones
-  failures.csv       images that failed, if any; the exit code is then 2
-";
+const HELP: &str = include_str!("help/detect.txt").trim_ascii_end();
 
 /// Finds the cones in images and writes their coordinates
 ///
@@ -31,7 +15,7 @@ Writes to cones/:
 /// image, the contrast of the cones and their spacing are estimated from each image, unless options
 /// give them. `conemosaic run` does the same and also measures the mosaic.
 #[derive(Args)]
-#[command(after_help = format!("{HELP}\n{MODELS}"))]
+#[command(after_help = format!("{HELP}\n\n{MODELS}"))]
 pub struct Detect {
     /// Images, and folders of them: PNG or TIFF, 8 or 16 bit, grey or colour
     #[arg(required = true)]

@@ -9,66 +9,7 @@ use conemosaic::report::{Cell, CoordinatesRecord, Subject, SummaryKind, counted}
 use std::path::{Path, PathBuf};
 
 /// Examples and files written, for the end of the help.
-const HELP: &str = "\
-Examples, on the cones of three simulated images:
-  mkdir -p images marks
-  conemosaic render --preset parafovea --count 3 \\
-    --out images/sim.png --truth marks/sim.csv
-  conemosaic measure marks --window 150x150 --um-per-px 0.42 --out measured
-  conemosaic measure marks --images images --um-per-px 0.42 \\
-    --crop 40x40um --out middle
-  conemosaic measure marks --window 150x150 --um-per-px 0.42 \\
-    --maps --map-cells 20 --out maps
-  conemosaic measure marks --window 150x150 --um-per-px 0.42 \\
-    --roi-side 20um --roi-cells 10 --out regions
-
-Marks made in MATLAB count from 1: add --origin 1.
-
-Writes to measured/ (`conemosaic metrics` explains every column of every table):
-  summary.csv, summary.json
-                 one row per file
-  NAME.pcf.csv   pair correlation function: r in hexagonal spacings, and g
-  groups.csv     with --group-by: mean, SD and number of values of every column
-                 for each group
-  verdicts.csv, NAME.envelope.csv, NAME.verdict.svg
-                 with --verdict: see `conemosaic compare --help`
-  NAME.functions.csv
-                 with --functions: G, F, J, K, L and g by distance, named after
-                 the edge corrections as in spatstat; lengths in the unit of
-                 the coordinates
-  NAME.points.csv
-                 with --functions, one row per point: nearest neighbour (its
-                 row, counted from 1), distance to the border, Voronoi cell
-                 (dirichlet_area is its area inside the window), number of
-                 sides, whether it is bound, inter-cell distance, |ψ6|,
-                 direction to the nearest neighbour (0–180°) and of the hexagon
-                 of neighbours (0–60°)
-  NAME.density_recovery.csv
-                 with --functions: density by distance from the average point
-                 (Rodieck 1991)
-  NAME.spectrum.csv
-                 with --spectrum: mean power (1 for independent points) and
-                 anisotropy (dB; 0 if there is no preferred direction) by
-                 frequency, in units of √density
-  NAME.spectrum.png
-                 with --spectrum: power by frequency along x and y
-  NAME.maps.csv  with --maps, one row per cone: side of its window, bound cells
-                 in it, the local values, and a flag (empty: none; edge: the
-                 window reaches beyond the mosaic; few: not enough cells)
-  NAME.maps.svg  with --maps: the maps
-  NAME.profiles.csv
-                 with --maps: density and spacing by distance from the density
-                 centroid, in rings and along the four meridians
-  landmarks.csv  with --maps, one row per file: density peak (pcd) and centroid
-                 (cdc), isodensity area, ellipse fitted to its contour
-  rois.csv       with --rois or --roi-side, one row per region: its rectangle,
-                 a flag (empty: none; edge: it reaches beyond the window and is
-                 cut; few: not enough bound cells; outside: it lies outside the
-                 window), and the columns of summary.csv for the points in it.
-                 Voronoi cells are those of these points alone and are bound by
-                 the region
-  options.json   options of this measurement
-  failures.csv   files that failed, if any; the exit code is then 2";
+const HELP: &str = include_str!("help/measure.txt").trim_ascii_end();
 
 /// Measures the mosaics of coordinate files
 ///

@@ -5,14 +5,7 @@ use clap::Args;
 use conemosaic::report::{dictionary, dictionary_csv, dictionary_text};
 
 /// Examples for the end of the help.
-const HELP: &str = "\
-Examples:
-  conemosaic metrics
-  conemosaic metrics --csv
-  conemosaic metrics --markdown
-
-The names of columns and of groups can be given to the option --metrics of
-`conemosaic run`, `measure` and `compare`.";
+const HELP: &str = include_str!("help/metrics.txt").trim_ascii_end();
 
 /// Explains every column of every table that the program writes
 ///

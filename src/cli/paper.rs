@@ -7,24 +7,7 @@ use conemosaic::report::{PaperResults, table};
 use std::path::PathBuf;
 
 /// Example and files written, for the end of the help.
-const HELP: &str = "\
-Example:
-  conemosaic paper --out paper
-
-Writes to paper/:
-  index.html            everything on one page, in plain words
-  paper.md              the same in Markdown
-  figure1.svg           Figure 1: six samplers with their spectra and pair
-                        correlation functions
-  table1.csv            rows of Table 1 about samplers, as printed and as
-                        recomputed: mean, standard deviation, regularity index
-  table2_samplers.csv   distances between the samplers of Table 2, and the
-                        range that the printed rows of the table allow for them
-  bandwidths.csv        the same distances at other bandwidths of the kernel
-  triangle.csv          triangle inequalities between the printed rows and
-                        these distances
-  finding.csv           regularity against distance, for the printed numbers
-  pcf.csv, spectra.csv  curves of Figure 1";
+const HELP: &str = include_str!("help/paper.txt").trim_ascii_end();
 
 /// Repeats the computations of Lanaro et al. (2020) on samplers
 ///

@@ -13,54 +13,7 @@ use conemosaic::report::{
 use std::path::PathBuf;
 
 /// Examples, files written, and what a second run keeps, for the end of the help.
-const HELP: &str = "\
-Examples, on three simulated images:
-  mkdir -p images marks
-  conemosaic render --preset parafovea --count 3 \\
-    --out images/sim.png --truth marks/sim.csv
-  conemosaic run images --um-per-px 0.42 --out report
-  conemosaic run images --cones marks --um-per-px 0.42 --out by_hand
-
-Marks made in MATLAB count from 1: add --origin 1. Images of different scales:
-add --scale-table scales.csv instead of --um-per-px.
-
-Writes to report/ (`conemosaic metrics` explains every column of every table):
-  summary.csv    one row per image
-  index.html     the same as a page, with figures
-  groups.csv     with --group-by: mean, SD and number of values of every column
-                 for each group
-  landmarks.csv  with --maps, one row per image: peak (PCD) and centroid (CDC)
-                 of the density
-  verdicts.csv   with --verdict: one row per image and sampler
-  rois.csv       with --rois or --roi-side: one row per region
-  run.json       version, options, seed, hashes of the inputs, timings
-  failures.csv   images that failed, if any; the exit code is then 2
-
-Writes to report/images/NAME/, for each image:
-  points.csv     cone centres: x_px,y_px,score; 0,0 is the centre of the
-                 top-left pixel
-  overlay.png    the image with its cones marked
-  figure.svg     image, points, nearest-neighbour distances, g(r)
-  pcf.csv        g(r) of the mosaic and of the samplers; r in spacings
-  metrics.json   everything measured
-  maps.csv, maps.svg, profiles.csv
-                 with --maps: local values of each cone, the maps, profiles of
-                 density
-  fourier_map.csv
-                 with --maps: local spacing from the spectrum of the image
-  envelope.csv, verdict.svg
-                 with --verdict: see `conemosaic compare --help`
-  functions.csv, density_recovery.csv, cells.csv
-                 with --functions: see `conemosaic measure --help`, where
-                 cells.csv is called NAME.points.csv
-  spectrum.csv, spectrum.png
-                 with --spectrum: power spectrum of the points
-
-Running the same command again continues: the results of an image are kept as
-long as its file, the options and the program have not changed.
-To correct the cones of an image, edit its points.csv and run the command again:
-your cones are used, and everything else is computed anew from them. Ctrl-C
-stops after the images that are being worked on.";
+const HELP: &str = include_str!("help/run.txt").trim_ascii_end();
 
 /// Finds cones, measures their mosaic and writes a report
 ///

@@ -16,26 +16,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Examples and output, for the end of the help.
-const HELP: &str = "\
-Examples:
-  conemosaic sample --list
-  conemosaic sample dart-throwing -n 1024 --seed 7 --out points.csv
-  conemosaic sample bnot -n 1024 --steps 20 --torus
-  conemosaic sample deering -n 1500 --window 150x150 --set eccentricity=0.3
-
-Points as dense as an image is bright:
-  conemosaic render --preset fovea --out image.png
-  conemosaic sample bnot -n 2000 --density image.png --out stipples.csv
-
-Points with the pair correlation function of a measured mosaic, smoothed by a
-wide kernel because noise in g(r) cannot be fitted:
-  conemosaic measure points.csv --window unit --r-max 6 --r-min 0.5 \\
-    --bandwidth 0.3 --out measured
-  conemosaic sample --target-pcf measured/points.pcf.csv -n 1024 --out like.csv
-
-Writes a table with columns x,y, to the terminal unless --out names a file.
-With --target-pcf it also writes NAME.fit.json beside --out: how well g(r) of
-the points fits its target.";
+const HELP: &str = include_str!("help/sample.txt").trim_ascii_end();
 
 /// Draws a random point pattern from a sampler
 ///

@@ -12,45 +12,7 @@ use std::path::PathBuf;
 use strum::VariantNames;
 
 /// Examples, the rule of scoring, and files written, for the end of the help.
-const HELP: &str = "\
-Examples, on three simulated images whose cones are known:
-  mkdir -p images marks
-  conemosaic render --preset parafovea --count 3 \\
-    --out images/sim.png --truth marks/sim.csv
-  conemosaic validate --reference marks --images images --overlay --out scores
-  conemosaic detect images --out cones
-  conemosaic validate --reference marks --detections cones --images images \\
-    --out scores_of_files
-  conemosaic validate --reference marks --images images \\
-    --versus-detector classical --out comparison
-
-Marks made in MATLAB count from 1: add --origin 1. To treat the images of one
-subject as a group: add --group-by or --group-table.
-
-Marks are read from NAME_coords.csv or NAME.csv. A mark matches the nearest
-detection within 0.75 × the median nearest-neighbour distance of the marks.
-Marks and detections within 7 px of the border of the image do not count. This
-is the rule of Cunefare et al. (2017). Files of detections have the columns x
-and y, and may have one named score, confidence or probability.
-
-Writes to scores/ (`conemosaic metrics` explains every column of every table):
-  index.html          all results on one page, the worst images first
-  validation.csv      one row per image
-  validation.json     means over images, pooled rates, confidence intervals,
-                      and the contents of the files below
-  bland_altman.svg    agreement of the number of cones and of density
-  groups.csv          with --group-by or --group-table: one row per group
-  froc.csv, froc.svg  if detections have scores: sensitivity against false
-                      detections per image, over all thresholds of the score
-  reliability.csv, reliability.svg
-                      if scores are from 0 to 1: whether they are the
-                      probability that a detection is correct
-  comparison.csv, comparison.svg
-                      with --versus or --versus-detector: paired differences
-                      between the two sets of detections
-  NAME.overlay.png    with --overlay: hits, misses and false alarms
-  failures.csv        marks that could not be scored, if any; the exit code is
-                      then 2";
+const HELP: &str = include_str!("help/validate.txt").trim_ascii_end();
 
 /// Scores detected cones against cones marked by hand
 ///

@@ -50,26 +50,7 @@ pub struct DetectArgs {
 }
 
 /// Description of the files that `--model` accepts, for the end of a command's help.
-pub const MODELS: &str = "\
-A network of your own (--model FILE), for images of the type it was made for:
-  .safetensors  a file written by scripts/train-detector
-  .onnx         only if the program was built with `--features onnx`.
-    Input       float32, 1×1×H×W, with H and W left open: the image resampled
-                so that neighbouring cones are 8 px apart, minus its Gaussian
-                mean (σ 8 px), divided by its Gaussian contrast (σ 12 px),
-                with bright cones positive, mirrored at its borders.
-    Output      float32, 1×1×H×W: for each pixel, how likely it is that the
-                centre of a cone lies there.
-    Metadata    all optional (onnx.helper.set_model_props), with their defaults:
-      spacing      distance between cones in the input, in px [8]
-      multiple     H and W are padded to a multiple of this, in px; 1 if the
-                   network takes any size [32]
-      output       probability or logit [probability]
-      threshold    lowest probability at which a local maximum counts as a
-                   cone [0.5]
-      suppression  shortest distance between two cones, in spacings [0.5]
-      modality     confocal, split or histology [used for every image]
-";
+pub const MODELS: &str = include_str!("../help/models.txt").trim_ascii_end();
 
 /// Reads the network of a file.
 fn read_model(path: &Path) -> Result<UserModel> {

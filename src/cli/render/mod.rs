@@ -88,38 +88,12 @@ pub struct Render {
 }
 
 /// Examples and the meaning of terms, for the end of the help.
-const HELP: &str = "\
-Examples:
-  conemosaic render --modality split --spacing 16 \\
-    --out split.png --truth split.csv
-  conemosaic render --preset fovea --gradient 6 \\
-    --out fovea.png --truth fovea.csv
-  conemosaic render --width 2048 --height 2048 --spacing 6 --gradient 6 \\
-    --gradient-shape radial --montage 4 --vessels 8 \\
-    --out montage.tif --truth montage.csv
-
-A set of 20 images that differ in spacing, noise and vessels, and the score of
-the built-in detector on them:
-  mkdir -p set
-  conemosaic render --preset parafovea --count 20 --spacing 7..12 \\
-    --noise 0.005..0.05 --vessels 0..2 \\
-    --out set/sim.png --truth set/sim.csv --manifest manifest.csv
-  conemosaic validate --reference set --images set --out scores
-
-The unit s is the local spacing of the cones. Without --points and --mosaic the
-cones form a mosaic like a real one: patches of triangular lattice with defects
-between them, and a random displacement of each cone. Defaults of the
-appearance are those without a preset.
-
-In the truth, contrast is relative to that of the average cone. The class of a
-cone is cone, dim (contrast below 0.3: faint, behind a vessel, or cut near its
-tip) or missing (not drawn). Rods are not listed. Pixels that no tile of a
-montage covers are 0, and no cone is listed there.";
+const HELP: &str = include_str!("../help/render.txt").trim_ascii_end();
 
 /// Returns the presets with their descriptions, followed by the examples.
 fn help() -> String {
-    let presets: Vec<String> = PRESETS.iter().map(|p| format!("  {:<16} {}", p.name, p.about)).collect();
-    format!("Presets:\n{}\n\n{HELP}", presets.join("\n"))
+    let presets: Vec<String> = PRESETS.iter().map(|p| format!("  {}\n      {}", p.name, p.about)).collect();
+    format!("Presets (lengths in px are the spacing of the cones):\n{}\n\n{HELP}", presets.join("\n"))
 }
 
 impl Render {
