@@ -10,38 +10,33 @@ use conemosaic::report::{FindingRecord, VerdictRecord, significant};
 use conemosaic::sample::Sampler;
 use std::path::PathBuf;
 
-/// Compares mosaics with point samplers: distances of pair correlation functions, and what they are worth
+/// Examples, the terms, and files written, for the end of the help.
+const HELP: &str = include_str!("help/compare.txt").trim_ascii_end();
+
+/// Compares mosaics with random point patterns (samplers)
+///
+/// Takes coordinate files and measures them as `conemosaic measure` does. Each mosaic is then
+/// compared, by its pair correlation function g(r), with samplers: models that draw random point
+/// patterns of different regularity. The result is a distance to each sampler, and a
+/// verdict: whether the mosaic could be a pattern drawn by that sampler.
 #[derive(Args)]
-#[command(after_help = "\
-Example:
-  conemosaic compare marks --window 150x150 --samplers jittered,dart-throwing --out compared
-
-Each mosaic is compared with the mean function of samples of its own size in its own window: l-infinity is the greatest difference of g(r), \
-without unit. Two patterns of one and the same process differ too, the more the fewer their points. So every sampler is simulated at the \
-mosaic's own number of points and window, and the verdict says whether the mosaic could be one of those:
-  as bridson: p = 0.31                                 its g(r) lies among the simulations
-  differs from bnot: p = 0.005, at r = 0.90–1.10 s     it leaves their 95 % envelope there (s: hexagonal spacing)
-
-Writes to compared/, beside what `conemosaic measure` writes:
-  regularity.csv     nearest neighbours: mean, standard deviation, regularity index (as Table 1 of Lanaro et al.)
-  l_infinity.csv     one row per file, one column per sampler (as their Table 2)
-  finding.csv        their main finding on these mosaics: rank correlation of the two, with p-value (5 mosaics or more)
-  verdicts.csv       one row per file and sampler: p-values, where it differs, what is usual; its l-infinity is to the mean of
-                     those simulations, that of l_infinity.csv to the mean curve for mosaics of about this size
-  NAME.envelope.csv  g(r) of the mosaic; mean and envelope of each sampler
-  NAME.verdict.svg   the same as a figure
-  failures.csv       files that failed, if any; then the exit code is 2")]
+#[command(after_help = HELP)]
 pub struct Compare {
-    /// Coordinate files and folders of them
+    /// Coordinate files, and folders of them
+    ///
+    /// CSV and other text tables, WebPlotDigitizer projects and CSV files, ImageJ results and
+    /// regions (ROI).
     #[arg(required = true)]
     files: Vec<PathBuf>,
-    /// Folder for the results
+    /// Folder for the results; it is created if it does not exist
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Simulations of each sampler for a verdict (39–9999); the smallest p-value is 1/(N + 1)
+    /// Number of simulations of each sampler for a verdict (39–9999)
+    ///
+    /// The smallest possible p-value is 1/(N + 1).
     #[arg(long, value_name = "N", default_value_t = VerdictOptions::default().simulations)]
     simulations: usize,
-    /// Distances only, without simulations: faster
+    /// Compute distances only; faster, as nothing is simulated
     #[arg(long, conflicts_with = "simulations")]
     no_verdict: bool,
     #[command(flatten)]
@@ -51,6 +46,10 @@ pub struct Compare {
 }
 
 impl Compare {
+    /// Compares the files, writes the results and prints them.
+    ///
+    /// # Errors
+    /// If an option is wrong, there are no coordinate files, or the results cannot be written.
     pub fn execute(self, common: &Common) -> Result<Done> {
         let verdict = VerdictOptions { simulations: self.simulations, ..VerdictOptions::default() };
         let verdict = (!self.no_verdict).then_some(verdict);
@@ -73,7 +72,7 @@ impl Compare {
     }
 }
 
-/// One row a file: regularity and the distance to every sampler.
+/// Returns a table with one row per file: regularity and the distance to every sampler.
 fn distances(outcome: &CoordinatesOutcome, samplers: &[&'static dyn Sampler]) -> String {
     let headers: Vec<&str> = ["file", "points", "RI"]
         .into_iter()
@@ -98,9 +97,11 @@ fn distances(outcome: &CoordinatesOutcome, samplers: &[&'static dyn Sampler]) ->
     short_table(&headers, &rows, "l_infinity.csv") + &warned(outcome, "l_infinity.csv")
 }
 
-/// One row a file: the samplers it could be of, or how it differs from the one nearest to it.
+/// Returns a table with one row per file: the samplers that it could be drawn from, or else how it
+/// differs from the nearest one.
 fn verdicts(outcome: &CoordinatesOutcome) -> String {
-    let headers = ["file", "l∞ to simulations", "usual", "95 %", "p of l∞", "verdict by the envelope of g"];
+    let headers =
+        ["file", "l∞ to simulations", "usual l∞", "95 % below", "p of l∞", "verdict by the envelope of g(r)"];
     let rows: Vec<Vec<String>> = outcome
         .records
         .iter()
@@ -125,7 +126,7 @@ fn verdicts(outcome: &CoordinatesOutcome) -> String {
     short_table(&headers, &rows, "verdicts.csv")
 }
 
-/// A line a sampler, or one for all of them where nothing was tested.
+/// Returns one line per sampler, or the reason why nothing was tested.
 fn findings(findings: &[FindingRecord]) -> String {
     let tested = |f: &&FindingRecord| f.correlation.is_some();
     match findings.iter().find(tested) {

@@ -3,21 +3,29 @@ use anyhow::Result;
 use clap::Args;
 use clap_complete::{Shell, generate};
 
-/// Prints completions for a shell
+/// Examples for the end of the help.
+const HELP: &str = include_str!("help/completions.txt").trim_ascii_end();
+
+/// Prints a script that completes commands and options in a shell
+///
+/// The script goes to the terminal; redirect it to the file where your shell looks for completions.
+/// After that, the tabulator key completes the commands and options of conemosaic.
 #[derive(Args)]
-#[command(after_help = "\
-Example:
-  conemosaic completions bash > ~/.local/share/bash-completion/completions/conemosaic")]
+#[command(after_help = HELP)]
 pub struct Completions {
-    /// bash, zsh, fish, powershell or elvish
+    /// Shell to print the script for
     shell: Shell,
 }
 
 impl Completions {
+    /// Prints the script for `command`, the whole command line.
+    ///
+    /// # Errors
+    /// Never; the type is that of the other commands.
     pub fn execute(self, command: &mut clap::Command) -> Result<Done> {
         let mut text = Vec::new();
         generate(self.shell, command, "conemosaic", &mut text);
-        // a reader that stops listening is no error
+        // a closed pipe, as in `| head`, is not an error
         let _ = std::io::Write::write_all(&mut std::io::stdout(), &text);
         Ok(Done::Completely)
     }

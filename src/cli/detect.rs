@@ -6,44 +6,46 @@ use conemosaic::batch::{DetectionExtras, detect_files, image_files};
 use conemosaic::report::counted;
 use std::path::PathBuf;
 
-/// Finds cones: images → coordinate CSVs
+/// Examples and files written, for the end of the help.
+const HELP: &str = include_str!("help/detect.txt").trim_ascii_end();
+
+/// Finds the cones in images and writes their coordinates
+///
+/// Takes images of the human retina and writes one table of cone centres per image. The type of
+/// image, the contrast of the cones and their spacing are estimated from each image, unless options
+/// give them. `conemosaic run` does the same and also measures the mosaic.
 #[derive(Args)]
-#[command(after_help = format!("\
-Example:
-  conemosaic detect images --out cones --overlay
-
-Writes to cones/:
-  NAME.csv           x_px,y_px,score, best first (and x_um,y_um where a scale is known);
-                     px from 0 at the centre of the top-left pixel; score is the
-                     probability, 0–1, that a person would mark a cone there
-  NAME.overlay.png   with --overlay: the image with its cones marked
-  NAME.rejected.csv  with --rejected: the same for candidates that were too faint
-  failures.csv       images that failed, if any; then the exit code is 2
-
-{MODELS}"))]
+#[command(after_help = format!("{HELP}\n\n{MODELS}"))]
 pub struct Detect {
-    /// Images (PNG, TIFF; 8 or 16 bit, grey or colour) and folders of them
+    /// Images, and folders of them: PNG or TIFF, 8 or 16 bit, grey or colour
     #[arg(required = true)]
     paths: Vec<PathBuf>,
-    /// Folder for the results
+    /// Folder for the results; it is created if it does not exist
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    #[command(flatten)]
+    #[command(flatten, next_help_heading = "Detection")]
     detect: DetectArgs,
-    /// Also draw the cones on the image
-    #[arg(long)]
+    /// Also write each image with its cones marked
+    #[arg(long, help_heading = None)]
     overlay: bool,
-    /// Also write the candidates that were not taken for cones, with their scores
-    #[arg(long)]
+    /// Also write the candidates that were too faint to count as cones, with their scores
+    #[arg(long, help_heading = None)]
     rejected: bool,
-    /// Replace coordinates that a person has made or corrected; the earlier files are put away
-    #[arg(long)]
+    /// Replace tables of cones that a person has made or corrected
+    ///
+    /// The replaced files are moved to .conemosaic/earlier in the folder of the results. [default:
+    /// such tables are kept]
+    #[arg(long, help_heading = None)]
     replace_corrections: bool,
     #[command(flatten)]
     scale: ScaleArgs,
 }
 
 impl Detect {
+    /// Detects the cones in all images and writes the results.
+    ///
+    /// # Errors
+    /// If an option is wrong, there are no images, or the results cannot be written.
     pub fn execute(self, common: &Common) -> Result<Done> {
         let options = self.detect.options()?;
         let scales = self.scale.source()?;

@@ -8,56 +8,39 @@ use conemosaic::compare::VerdictOptions;
 use conemosaic::report::{Cell, CoordinatesRecord, Subject, SummaryKind, counted};
 use std::path::{Path, PathBuf};
 
-/// Measures mosaics: coordinate files from anywhere → statistics
+/// Examples and files written, for the end of the help.
+const HELP: &str = include_str!("help/measure.txt").trim_ascii_end();
+
+/// Measures the mosaics of coordinate files
+///
+/// Takes files of point coordinates, made by this program, by hand or by another program, and
+/// computes density, nearest-neighbour and Voronoi statistics, regularity and the pair
+/// correlation function of each. It needs the window in which points could have been seen: from the
+/// image of the same name, or by --window. Lengths are in the unit of the coordinates, and
+/// in µm if a scale is given.
 #[derive(Args)]
-#[command(after_help = "\
-Examples:
-  conemosaic measure marks --window 150x150 --origin 1 --um-per-px 0.42 --out measured
-  conemosaic measure marks --um-per-px 0.42 --crop 55x55um --out middle
-  conemosaic measure montage.csv --um-per-px 0.42 --maps --out maps
-  conemosaic measure montage.csv --um-per-px 0.42 --roi-side 40um --roi-cells 100 --out regions
-
-Reads CSV and its relatives, WebPlotDigitizer projects and CSVs, ImageJ results and regions.
-
-Writes to measured/:
-  summary.csv    one row per file; `conemosaic metrics` says what each column is, here and below
-  summary.json   the same
-  verdicts.csv   with --verdict: one row per file and sampler; NAME.envelope.csv, NAME.verdict.svg
-  groups.csv     with --group-by: mean, SD and number of every column by group
-  NAME.pcf.csv   pair correlation function (r in hexagonal spacings, g)
-  NAME.functions.csv, NAME.points.csv
-                 with --functions: G, F, J, K, L and g by distance, columns named as spatstat's corrections (lengths in the
-                 unit of the coordinates); per point its nearest neighbour (row, from 1), border distance, Voronoi cell
-                 (dirichlet_area: within the window), sides, bound, inter-cell distance, |ψ6|, directions of its
-                 nearest neighbour (0–180°) and of its hexagon (0–60°)
-  NAME.density_recovery.csv
-                 with --functions: density by distance from the average point (Rodieck 1991)
-  NAME.spectrum.csv, NAME.spectrum.png   with --spectrum: mean power and anisotropy (dB; 0 without direction) by frequency in
-                 √density (√n in the unit square; independent points have power 1), and the plane of wave vectors
-  NAME.maps.csv, NAME.maps.svg, NAME.profiles.csv
-                 with --maps: one row per cone with side and bound cells of its window, flag (empty; edge: reaches beyond the
-                 mosaic; few: not enough cells) and local values; the maps; density and spacing by distance from the CDC, in
-                 rings and along the four meridians
-  landmarks.csv  with --maps, one row per file: peak (pcd), centroid (cdc), isodensity area, ellipse fitted to its contour
-  rois.csv       with --rois or --roi-side, one row per region: its box, flag (edge: reaches beyond the window and is cut; few:
-                 not enough bound cells; outside: none of the window), and the columns of summary.csv for the points in it,
-                 by their own Voronoi cells, bound by the region
-  options.json   how it was measured
-  failures.csv   files that failed, if any; then the exit code is 2")]
+#[command(after_help = HELP)]
 pub struct Measure {
-    /// Coordinate files and folders of them
+    /// Coordinate files, and folders of them
+    ///
+    /// CSV and other text tables, WebPlotDigitizer projects and CSV files, ImageJ results and
+    /// regions (ROI).
     #[arg(required = true)]
     files: Vec<PathBuf>,
-    /// Folder for the results
+    /// Folder for the results; it is created if it does not exist
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     #[command(flatten)]
     mosaic: MosaicArgs,
-    /// Also simulate every sampler at each mosaic's own number of points and window: the p-value of each, and the
-    /// distances at which it differs
+    /// Also test whether each mosaic could be drawn from each sampler, by simulation
+    ///
+    /// Every sampler is simulated with as many points as the mosaic has, in the same window. The
+    /// result is a p-value for each sampler, and the distances at which the mosaic differs from it.
     #[arg(long, help_heading = "Comparison with samplers")]
     verdict: bool,
-    /// Simulations of each sampler for --verdict (39–9999)
+    /// Number of simulations of each sampler for --verdict (39–9999)
+    ///
+    /// The smallest possible p-value is 1/(N + 1).
     #[arg(long, value_name = "N", requires = "verdict", default_value_t = VerdictOptions::default().simulations, help_heading = "Comparison with samplers")]
     simulations: usize,
     #[command(flatten)]
@@ -65,6 +48,10 @@ pub struct Measure {
 }
 
 impl Measure {
+    /// Measures the files, writes the results and prints the main ones.
+    ///
+    /// # Errors
+    /// If an option is wrong, there are no coordinate files, or the results cannot be written.
     pub fn execute(self, common: &Common) -> Result<Done> {
         let verdict = VerdictOptions { simulations: self.simulations, ..VerdictOptions::default() };
         let verdict = self.verdict.then_some(verdict);
@@ -87,6 +74,7 @@ impl Measure {
     }
 }
 
+/// Prints how many files failed, if any, and where they are listed.
 pub fn say_failures(common: &Common, outcome: &CoordinatesOutcome, out: &Path) {
     if !outcome.failures.is_empty() {
         let failed = counted(outcome.failures.len(), "file");
@@ -94,6 +82,7 @@ pub fn say_failures(common: &Common, outcome: &CoordinatesOutcome, out: &Path) {
     }
 }
 
+/// Returns the table that is printed: the columns chosen by `--metrics`, or a few of all.
 fn summary(outcome: &CoordinatesOutcome, options: &CoordinatesOptions) -> String {
     let subjects: Vec<Subject> = outcome.records.iter().map(Subject::Coordinates).collect();
     if let Some((headers, rows)) = options.plan.summary(SummaryKind::Coordinates).readable(&subjects) {
@@ -124,12 +113,12 @@ fn summary(outcome: &CoordinatesOutcome, options: &CoordinatesOptions) -> String
     short_table(&headers, &rows, "summary.csv") + &warned(outcome, "summary.csv")
 }
 
-/// The file's name, marked if there is a warning.
+/// Returns the name of the file, with an exclamation mark if there are warnings about it.
 pub fn marked(record: &CoordinatesRecord) -> String {
     format!("{}{}", record.file, if record.warnings.is_empty() { "" } else { " !" })
 }
 
-/// The warnings of the files, as the end of a table.
+/// Returns the warnings about the files, to be printed below a table.
 pub fn warned(outcome: &CoordinatesOutcome, table: &str) -> String {
     let files = outcome.records.iter().map(|r| (r.file.as_str(), r.warnings.as_slice()));
     warnings_table(files, table)

@@ -1,5 +1,7 @@
-//! The command line: one file a subcommand. Arguments become options, options go into one call, its outcome becomes
-//! words and an exit code. Only here is anything printed.
+//! The command line, with one file per command.
+//!
+//! Each command turns its arguments into options, passes them to one function of the library, and
+//! turns the outcome into printed text and an exit code. Nothing is printed anywhere else.
 
 mod agree;
 mod args;
@@ -15,6 +17,8 @@ mod render;
 mod run;
 mod sample;
 mod signals;
+#[cfg(test)]
+mod tests;
 mod validate;
 
 use args::Common;
@@ -25,17 +29,32 @@ use conemosaic::report::{counted, table};
 use std::io::Write;
 use std::process::ExitCode;
 
-const ABOUT: &str =
-    "Finds the cones in images of the human retina, measures their mosaic, compares it with point samplers";
+/// Description of the program at the top of its help.
+const ABOUT: &str = "\
+Finds cones in images of the human retina and measures their mosaic
 
+Cones are cone photoreceptors. Images may be confocal or split-detector adaptive-optics \
+ophthalmoscopy or histology. The mosaic is measured (density, spacing, regularity) and compared \
+with samplers, which are models of random point patterns. Hand marks and the results of other \
+programs can be measured and scored as well.";
+
+/// First steps and exit codes, for the end of the help of the program.
 const AFTER: &str = "\
-Start with:
-  conemosaic run FOLDER --out report     the whole job, for a folder of PNG or TIFF images
-  conemosaic COMMAND --help              what a command does, with an example
+First steps:
+  conemosaic run FOLDER --out report
+      finds, measures and reports the cones of all PNG and TIFF images in FOLDER
+  conemosaic COMMAND -h
+      lists the options of a command
+  conemosaic COMMAND --help
+      explains the command and its options in full, with examples
 
-Exit codes: 0 all done; 1 nothing done (wrong arguments, no input, no place to write);
-2 some or all files failed: they are listed in failures.csv with their reasons;
-130, 143 stopped by Ctrl-C or SIGTERM: the same command goes on.";
+Exit codes:
+  0         everything was done
+  1         nothing was done: the arguments are wrong, there is no input, or
+            results cannot be written
+  2         some or all files failed; failures.csv lists them with the reasons
+  130, 143  stopped by Ctrl-C (130) or SIGTERM (143); the same command given
+            again continues";
 
 #[derive(Parser)]
 #[command(name = "conemosaic", version, about = ABOUT, after_help = AFTER, max_term_width = 110)]
@@ -61,18 +80,18 @@ enum Command {
     Completions(completions::Completions),
 }
 
-/// How a command ended.
+/// Outcome of a command that did not fail as a whole.
 enum Done {
-    /// Everything was done.
+    /// Everything that was asked for is done.
     Completely,
-    /// Some files failed and are listed.
+    /// Some files failed and are listed in the results.
     WithFailures,
-    /// A signal of this number stopped it.
+    /// A signal with this number stopped the command.
     Stopped(u8),
 }
 
 impl Done {
-    /// How a batch ended.
+    /// Returns the outcome of a batch with these failures.
     fn of<T>(failures: &[T], ending: &Ending) -> Self {
         match (ending.stopped(), signals::received()) {
             (true, Some(signal)) => Self::Stopped(signal),
@@ -82,12 +101,14 @@ impl Done {
     }
 }
 
-/// What a person should know about the end of a batch of `total` files; empty if there is nothing.
+/// Returns what the user should know about the end of a batch of `total` files.
+///
+/// Empty if all files were done and the folder of the results holds nothing from elsewhere.
 fn ending_words(ending: &Ending, total: usize) -> String {
     let mut lines = Vec::new();
     if ending.stopped() {
         let done = total - ending.left.min(total);
-        lines.push(format!("Stopped after {done} of {total} files: run the same command again to go on"));
+        lines.push(format!("Stopped after {done} of {total} files. Run the same command again to continue."));
     }
     let leftovers = &ending.leftovers;
     if !leftovers.moved.is_empty() {
@@ -99,12 +120,12 @@ fn ending_words(ending: &Ending, total: usize) -> String {
     }
     if !leftovers.foreign.is_empty() {
         let names = leftovers.foreign.join(", ");
-        lines.push(format!("Not of this run, and left where they are: {names}"));
+        lines.push(format!("Files that are not of this run, left where they are: {names}"));
     }
     lines.join("\n")
 }
 
-/// Runs the program.
+/// Runs the program and returns its exit code.
 pub fn main() -> ExitCode {
     let parsed = command().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches));
     let cli = match parsed {
@@ -136,7 +157,10 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// The arguments. A negative number after an option is its value, so that the error says which values there are.
+/// Returns the command line.
+///
+/// A negative number after an option counts as its value, so that the error names the values that
+/// are allowed instead of an unknown option.
 fn command() -> clap::Command {
     let may_be_negative = |arg: clap::Arg| {
         let takes_value = !arg.is_positional() && arg.get_action().takes_values();
@@ -145,10 +169,12 @@ fn command() -> clap::Command {
     Cli::command().mut_args(may_be_negative).mut_subcommands(|command| command.mut_args(may_be_negative))
 }
 
-/// Help as it is; what is wrong with the arguments in one line.
+/// Prints help and version as they are, and errors in the arguments as one line.
+///
+/// Returns the exit code.
 fn say_usage(message: &clap::Error) -> ExitCode {
     if !message.use_stderr() || message.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        // a broken pipe is the reader's choice
+        // a closed pipe, as in `| head`, is not an error
         let _ = message.print();
         return if message.use_stderr() { ExitCode::from(1) } else { ExitCode::SUCCESS };
     }
@@ -170,7 +196,7 @@ fn say_usage(message: &clap::Error) -> ExitCode {
     ExitCode::from(1)
 }
 
-/// The error and its causes; those that a message has already told are not told again.
+/// Returns the text of an error and its causes, without causes that the text already contains.
 fn said_once(error: &anyhow::Error) -> String {
     let mut text = String::new();
     let words = |cause: &(dyn std::error::Error + 'static)| match cause.downcast_ref::<BatchError>() {
@@ -187,20 +213,24 @@ fn said_once(error: &anyhow::Error) -> String {
     text
 }
 
+/// Prints an error as one line to standard error.
 fn complain(text: &str) {
     let _ = writeln!(std::io::stderr(), "error: {}", one_line(text));
 }
 
-/// What file names hold must neither break the line nor steer the terminal.
+/// Returns a text as one line without control characters.
+///
+/// Texts contain file names, which may hold line breaks and escape sequences that would otherwise
+/// reach the terminal.
 fn one_line(text: &str) -> String {
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     words.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }
 
-/// More rows than these are for the file.
+/// Largest number of rows of a table that is printed.
 const MOST_ROWS: usize = 24;
 
-/// The first rows of a table, and where the others are.
+/// Returns the first rows of a table, and a line that says which file holds the others.
 fn short_table(headers: &[&str], rows: &[Vec<String>], file: &str) -> String {
     let mut text = table(headers, &rows[..rows.len().min(MOST_ROWS)]);
     if rows.len() > MOST_ROWS {
@@ -209,10 +239,12 @@ fn short_table(headers: &[&str], rows: &[Vec<String>], file: &str) -> String {
     text
 }
 
-/// Files whose warnings are told on the terminal.
+/// Largest number of files whose warnings are printed.
 const MOST_WARNED: usize = 5;
 
-/// The warnings of the first files that have any, and where the others are; empty without.
+/// Returns the warnings of the first files that have any, one per line.
+///
+/// A last line says which file holds the others. Empty if there are no warnings.
 fn warnings_table<'a>(warned: impl Iterator<Item = (&'a str, &'a [String])>, file: &str) -> String {
     let warned: Vec<(&str, &[String])> = warned.filter(|(_, warnings)| !warnings.is_empty()).collect();
     let mut text = String::new();
@@ -226,7 +258,7 @@ fn warnings_table<'a>(warned: impl Iterator<Item = (&'a str, &'a [String])>, fil
     }
     if warned.len() > MOST_WARNED {
         let more = counted(warned.len() - MOST_WARNED, "file");
-        text.push_str(&format!("\n! … and {more} more with warnings: column warnings of {file}"));
+        text.push_str(&format!("\n! … and {more} more with warnings: see column warnings of {file}"));
     }
     text
 }

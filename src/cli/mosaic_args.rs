@@ -5,24 +5,49 @@ use conemosaic::batch::{CoordinatesOptions, Crop, Plan, Region};
 use conemosaic::mosaic::io::ReadOptions;
 use std::path::PathBuf;
 
-/// Where points could have been seen, and how they are measured.
+/// Options for the area of a mosaic and for reading its coordinates.
 #[derive(Args)]
 pub struct MosaicArgs {
-    /// Where points could have been seen: auto (what was imaged of the image of that name beside the file: without black
-    /// margins), image (all of it), unit (square), WxH (an image of that size) or X0,Y0,X1,Y1 in the unit of the
-    /// coordinates, or a FILE of corners, read as the coordinates are (--origin, --flip-y): CSV of x,y (a blank line or a
-    /// column “ring” parts rings, rings within rings are holes), WebPlotDigitizer project or ImageJ ROI
-    #[arg(long, value_name = "WINDOW", default_value = "auto", allow_hyphen_values = true)]
+    /// Area in which points could have been seen
+    ///
+    /// Density and edge corrections depend on it.
+    ///
+    /// auto         the imaged part, without black margins, of the image with
+    ///              the same name, which lies beside the file or in --images
+    /// image        all of that image
+    /// unit         the unit square
+    /// WxH          an image of W × H; in px it reaches from −0.5 to W − 0.5
+    ///              and from −0.5 to H − 0.5
+    /// X0,Y0,X1,Y1  left, upper, right and lower edge, in the unit of the
+    ///              coordinates
+    /// FILE         a file of the corners of one or more polygons, read with
+    ///              the same --origin and --flip-y as the coordinates: CSV
+    ///              with columns x,y, a WebPlotDigitizer project or CSV file,
+    ///              or an ImageJ ROI
+    ///
+    /// In CSV a blank line or a new value in a column “ring” begins a new
+    /// polygon. A polygon inside another is a hole.
+    #[arg(
+        long,
+        verbatim_doc_comment,
+        value_name = "WINDOW",
+        default_value = "auto",
+        allow_hyphen_values = true
+    )]
     window: Region,
-    /// Of that window only this rectangle: WxH (centred in it) or X0,Y0,X1,Y1, in the unit of the coordinates, or with px or
-    /// um behind it; points outside are left out
+    /// Rectangle to which the window is cut; points outside it are left out [default: no cut]
+    ///
+    /// WxH (centred in the window) or X0,Y0,X1,Y1, in the unit of the coordinates, or in another
+    /// unit with the suffix px or um, such as 55x55um.
     #[arg(long, value_name = "RECT", allow_hyphen_values = true, conflicts_with = "torus")]
     crop: Option<Crop>,
-    /// Folder of the images NAME.png or NAME.tif that windows and sizes are taken from, or one image [default: they lie beside
-    /// the files]
+    /// Folder of the images NAME.png or NAME.tif, or one image [default: beside the files]
+    ///
+    /// The windows auto and image, and the size of a pixel with --field-um or --field-degrees, are
+    /// taken from the images.
     #[arg(long, value_name = "PATH")]
     images: Option<PathBuf>,
-    /// Opposite edges of the window are the same place
+    /// Treat opposite edges of the window as connected (periodic boundaries); rectangles only
     #[arg(long)]
     torus: bool,
     #[command(flatten)]
@@ -30,12 +55,15 @@ pub struct MosaicArgs {
 }
 
 impl MosaicArgs {
-    /// Returns how the files are to be understood.
+    /// Returns the options for reading the files.
+    ///
+    /// # Errors
+    /// If a value is out of its range.
     pub fn read(&self) -> Result<ReadOptions> {
         self.coordinates.options()
     }
 
-    /// Returns the options of a command that reads coordinates.
+    /// Returns the options of a command that reads coordinate files.
     pub fn options(&self, plan: Plan, read: ReadOptions) -> CoordinatesOptions {
         CoordinatesOptions {
             plan,

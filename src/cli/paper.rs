@@ -6,32 +6,29 @@ use conemosaic::batch::remake_paper;
 use conemosaic::report::{PaperResults, table};
 use std::path::PathBuf;
 
-/// Re-makes what Lanaro et al. print about samplers, and says what agrees, what does not, and why
-#[derive(Args)]
-#[command(after_help = "\
-Example:
-  conemosaic paper --out paper
+/// Example and files written, for the end of the help.
+const HELP: &str = include_str!("help/paper.txt").trim_ascii_end();
 
-Needs no input. Writes to paper/:
-  index.html           everything on one page, in plain words
-  paper.md             the same as Markdown
-  figure1.svg          Figure 1: six samplers, their spectra and pair correlation functions
-  table1.csv           Table 1's sampler rows, printed and re-made: mean, standard deviation, regularity index
-  table2_samplers.csv  distances between the samplers of Table 2, and those that its printed rows allow
-  bandwidths.csv       those distances at other bandwidths of the kernel
-  triangle.csv         the triangle inequalities of all printed rows with them
-  finding.csv          regularity against distance, on the printed numbers
-  pcf.csv, spectra.csv the curves of Figure 1")]
+/// Repeats the computations of Lanaro et al. (2020) on samplers
+///
+/// Computes anew what the paper prints about point samplers, and reports what agrees, what differs,
+/// and why. It needs no files.
+#[derive(Args)]
+#[command(after_help = HELP)]
 pub struct Paper {
-    /// Folder for the results
+    /// Folder for the results; it is created if it does not exist
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Patterns of each sampler and number of points (2–1000)
+    /// Number of patterns drawn from each sampler, for each number of points (2–1000)
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u16).range(2..=1000))]
     patterns: u16,
 }
 
 impl Paper {
+    /// Computes the results, writes them and prints the main ones.
+    ///
+    /// # Errors
+    /// If a sampler fails or the results cannot be written.
     pub fn execute(self, common: &Common) -> Result<Done> {
         let results = remake_paper(usize::from(self.patterns), common.seed, &self.out, &*common.progress())?;
         common.say(&rows(&results));
@@ -44,6 +41,7 @@ impl Paper {
     }
 }
 
+/// Returns the table of regularity indices that is printed.
 fn rows(results: &PaperResults) -> String {
     let rows: Vec<Vec<String>> = results
         .rows
@@ -60,5 +58,5 @@ fn rows(results: &PaperResults) -> String {
             ]
         })
         .collect();
-    table(&["Table 1", "RI, printed", "RI, ours", "SD", "within 2 SD"], &rows)
+    table(&["Table 1", "RI, printed", "RI, recomputed", "SD", "within 2 SD"], &rows)
 }

@@ -1,44 +1,46 @@
-//! Which options help. The library says what is wrong and what helps in neutral words; here the
-//! options of this program take their place.
+//! Options that remedy an error. The library describes remedies in neutral words; here the options
+//! of this program replace them.
 
 use conemosaic::batch::BatchError;
 
-/// Neutral words of the library, and the same with options. Of two that begin alike the longer one
-/// comes first.
+/// Phrases of the library, each with its replacement that names options.
+///
+/// Of two phrases that begin alike the longer one comes first.
 const PHRASES: &[(&str, &str)] = &[
     ("choose another folder for the results", "choose another --out folder"),
     (
         "give the folder of the images, or the window itself: its size WxH, its edges X0,Y0,X1,Y1, the unit square or a \
          file of corners",
-        "give --images, or --window WxH, X0,Y0,X1,Y1, unit or a file of corners",
+        "give --images, or give --window WxH, X0,Y0,X1,Y1, unit or a file of corners",
     ),
     ("give their size, or the folder of the images", "give --size WxH or --images"),
     ("give the folder of the images", "give --images"),
     ("opposite edges can be the same place in a rectangle only, and its", "--torus needs a rectangle, its"),
     ("give a window WxH, or do without", "leave out --torus or give --window WxH"),
     ("the scale is not known: give one", "the scale is not known: give --um-per-px or --scale-table"),
-    ("no scale is known: give one", "no scale is known: give --um-per-px or another of the scale options"),
+    ("no scale is known: give one", "no scale is known: give --um-per-px or another scale option"),
     ("give a smaller side", "give a smaller --roi-side"),
     ("give up the corrections explicitly", "give --replace-corrections"),
     ("go on with the earlier run", "leave out --fresh"),
-    ("or let files without a row stay in pixels", "or work in pixels (--unscaled)"),
+    ("or let files without a row stay in pixels", "or give --unscaled to measure such files in pixels"),
     ("give a rule that fits every name", "give a --group-by that fits every name"),
     ("need a manifest: give one", "need a manifest: give --manifest FILE"),
     (
         "state the origin of the marks or of the detections",
-        "say so with --origin (marks) or --detections-origin",
+        "state it with --origin (marks) or --detections-origin (detections)",
     ),
     ("group them by subject", "give --group-by or --group-table"),
-    ("give the modality", "--modality settles it"),
-    ("give the spacing if you know it", "--spacing overrules both"),
+    ("say which belong together", "say which are of one subject with --group-by or --group-table"),
+    ("give the modality", "give --modality"),
+    ("give the spacing if you know it", "give --spacing if you know it"),
 ];
 
-/// Returns what the library says, with the options that help.
+/// Returns a text of the library with the options that help instead of neutral words.
 pub fn with_options(text: &str) -> String {
     PHRASES.iter().fold(text.to_owned(), |text, (neutral, options)| text.replace(neutral, options))
 }
 
-/// Returns an error in words, with the options that help.
+/// Returns the message of an error, with the options that help.
 pub fn words(error: &BatchError) -> String {
     with_options(&error.to_string())
 }

@@ -12,74 +12,77 @@ use conemosaic::report::{
 };
 use std::path::PathBuf;
 
-/// The main job: finds cones, measures the mosaic, compares it with samplers, reports — for files and folders
+/// Examples, files written, and what a second run keeps, for the end of the help.
+const HELP: &str = include_str!("help/run.txt").trim_ascii_end();
+
+/// Finds cones, measures their mosaic and writes a report
+///
+/// Takes images of the human retina. It finds the cones of each image (or takes them from files,
+/// with --cones), measures their mosaic, compares it with random point patterns (samplers) and
+/// writes tables, figures and a page. No option but --out is needed; with a scale, results are also
+/// given in µm, per mm² and in degrees.
 #[derive(Args)]
-#[command(after_help = "\
-Examples:
-  conemosaic run images --scale-table scales.csv --out report
-  conemosaic run images --cones marks --origin 1 --out by_hand
-
-Writes to report/:
-  summary.csv               one row per image; `conemosaic metrics` says what each column is
-  groups.csv                with --group-by: mean, SD and number of every column by group
-  index.html                the same as a page, with figures
-  images/NAME/points.csv    cone centres: x_px,y_px,score (0,0: first pixel's centre)
-  images/NAME/overlay.png   the image with its cones marked
-  images/NAME/figure.svg    picture, points, nearest neighbours, g(r)
-  images/NAME/pcf.csv       g(r) of the mosaic and the samplers (r in spacings)
-  images/NAME/metrics.json  everything measured
-  landmarks.csv             with --maps: one row per image, peak (PCD) and centroid (CDC) of density;
-                            and of each image maps.csv (one row per cone), maps.svg, profiles.csv,
-                            fourier_map.csv (spacing by the spectrum of the image, from place to place)
-  verdicts.csv              with --verdict: one row per image and sampler; and of each image
-                            envelope.csv and verdict.svg
-  rois.csv                  with --rois or --roi-side: one row per region
-  functions.csv, density_recovery.csv, cells.csv, spectrum.csv, spectrum.png
-                            in images/NAME, with --functions and --spectrum; see measure --help
-  run.json                  version, options, seed, hashes of the inputs, timings
-  failures.csv              images that failed, if any; then the exit code is 2
-
-A run into the same folder goes on: results of images, options and a program that did not change are
-kept. Cones that you have corrected in images/NAME/points.csv are used, and everything else is made
-anew from them. Ctrl-C finishes the images in hand; the same command goes on later.")]
+#[command(after_help = HELP)]
 pub struct Run {
-    /// Images (PNG, TIFF; 8 or 16 bit, grey or colour) and folders of them
+    /// Images, and folders of them: PNG or TIFF, 8 or 16 bit, grey or colour
     #[arg(required = true)]
     paths: Vec<PathBuf>,
-    /// Folder for the results
+    /// Folder for the results; it is created if it does not exist
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Take the cones from here instead of finding them: hand marks, corrected points, another program's. A folder, or
-    /// one file; NAME.csv, NAME_coords.csv or NAME/points.csv belong to the image NAME
+    /// Folder of coordinate files, or one file, of cones to measure instead of detecting them
+    ///
+    /// The cones may be marked by hand, corrected, or found by another program. The cones of image
+    /// NAME are in NAME.csv, NAME_coords.csv or NAME/points.csv.
     #[arg(long, value_name = "PATH", help_heading = "Given cones")]
     cones: Option<PathBuf>,
     #[command(flatten)]
     coordinates: CoordinateArgs,
-    #[command(flatten)]
+    #[command(flatten, next_help_heading = "Detection")]
     detect: DetectArgs,
-    /// Also simulate every sampler at each mosaic's own number of cones and window: the p-value of each, and the
-    /// distances at which it differs
+    /// Also test whether each mosaic could be drawn from each sampler, by simulation
+    ///
+    /// Every sampler is simulated with as many points as the mosaic has, in the same window. The
+    /// result is a p-value for each sampler, and the distances at which the mosaic differs from it.
     #[arg(long, help_heading = "Comparison with samplers")]
     verdict: bool,
-    /// Simulations of each sampler for --verdict (39–9999)
+    /// Number of simulations of each sampler for --verdict (39–9999)
+    ///
+    /// The smallest possible p-value is 1/(N + 1).
     #[arg(long, value_name = "N", requires = "verdict", default_value_t = VerdictOptions::default().simulations, help_heading = "Comparison with samplers")]
     simulations: usize,
-    /// The area that counts, for cones as for density: auto (all that was imaged: black margins and the corners between
-    /// tiles of a montage are left out), image (all of it), WxH (centred) or X0,Y0,X1,Y1, in px, or in µm with um behind
-    /// it, or a FILE of corners: CSV of x,y in px (x_um,y_um: in µm; a blank line or a column “ring” separates rings,
-    /// rings within rings are holes), WebPlotDigitizer project or ImageJ ROI
-    #[arg(long, value_name = "WINDOW", default_value = "auto", allow_hyphen_values = true)]
+    /// Area of the image that is measured; cones outside it do not count
+    ///
+    /// auto         all that was imaged, without black margins and the black
+    ///              corners between the tiles of a montage
+    /// image        the whole image
+    /// WxH          a rectangle in the middle of the image, in px, or in µm
+    ///              with the suffix um, such as 55x55um
+    /// X0,Y0,X1,Y1  left, upper, right and lower edge, in px, or in µm with
+    ///              the suffix um
+    /// FILE         a file of the corners of one or more polygons: CSV with
+    ///              columns x,y in px or x_um,y_um in µm, a WebPlotDigitizer
+    ///              project or CSV file, or an ImageJ ROI
+    ///
+    /// In CSV a blank line or a new value in a column “ring” begins a new
+    /// polygon. A polygon inside another is a hole.
+    #[arg(long, verbatim_doc_comment, help_heading = None, value_name = "WINDOW", default_value = "auto", allow_hyphen_values = true)]
     window: ImageWindow,
-    /// Of that area only this rectangle: WxH (centred in the image) or X0,Y0,X1,Y1, in px, or in µm with um behind it
-    #[arg(long, value_name = "RECT", allow_hyphen_values = true)]
+    /// Rectangle to which the window is cut [default: no cut]
+    ///
+    /// WxH (in the middle of the image) or X0,Y0,X1,Y1, in px, or in µm with the suffix um, such as
+    /// 55x55um.
+    #[arg(long, help_heading = None, value_name = "RECT", allow_hyphen_values = true)]
     crop: Option<Crop>,
-    /// Start anew instead of keeping what an earlier run has finished
-    #[arg(long)]
+    /// Compute everything anew instead of keeping finished results of an earlier run
+    #[arg(long, help_heading = None)]
     fresh: bool,
-    /// Find the cones anew even where a person has corrected them; the corrected files are put away
-    #[arg(long)]
+    /// Detect cones anew even in images whose points.csv a person has corrected
+    ///
+    /// The corrected files are moved to .conemosaic/earlier in the folder of the results.
+    #[arg(long, help_heading = None)]
     replace_corrections: bool,
-    /// The default since 0.2: keep what an earlier run with the same options has finished
+    /// Keep finished results of an earlier run with the same options: the default since 0.2
     #[arg(long, hide = true, conflicts_with = "fresh")]
     resume: bool,
     #[command(flatten)]
@@ -87,10 +90,14 @@ pub struct Run {
 }
 
 impl Run {
+    /// Analyses all images, writes the results and prints the main ones.
+    ///
+    /// # Errors
+    /// If an option is wrong, there are no images, or the results cannot be written.
     pub fn execute(self, common: &Common) -> Result<Done> {
         let read = self.coordinates.options()?;
         if self.cones.is_none() && read != ReadOptions::default() {
-            bail!("--origin, --flip-y and --dataset say how given cones are read: add --cones PATH");
+            bail!("--origin, --flip-y and --dataset say how the files of --cones are read: add --cones PATH");
         }
         let verdict = VerdictOptions { simulations: self.simulations, ..VerdictOptions::default() };
         let verdict = self.verdict.then_some(verdict);
@@ -115,7 +122,7 @@ impl Run {
         for (option, rectangle) in window.into_iter().chain(options.crop.iter().map(|crop| ("--crop", crop)))
         {
             if options.plan.scales.is_unknown() && rectangle.in_micrometres() {
-                bail!("{option} {rectangle} needs a scale: give --um-per-px or another of the scale options");
+                bail!("{option} {rectangle} needs a scale: give --um-per-px or another scale option");
             }
         }
         let inputs = image_files(&self.paths, Some(&self.out))?;
@@ -125,6 +132,7 @@ impl Run {
         Ok(Done::of(&outcome.failures, &outcome.ending))
     }
 
+    /// Returns the text that is printed at the end.
     fn words(&self, outcome: &RunOutcome, summary: &Summary) -> String {
         let scaled = outcome.records.iter().any(|r| r.mosaic.um_per_unit.is_some());
         let headers = [
@@ -136,9 +144,9 @@ impl Run {
             "RI",
             "closest to",
             "l∞",
-            "errors",
+            "expected errors",
         ];
-        // what needs the eye of a person comes first: a long table is cut
+        // images that a person should look at come first, as a long table is cut
         let rows: Vec<Vec<String>> = by_need(&outcome.records)
             .into_iter()
             .map(|k| {

@@ -15,49 +15,67 @@ use rand_chacha::ChaCha8Rng;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Draws points from a sampler, in the unit square or another window
-#[derive(Args)]
-#[command(after_help = "\
-Examples:
-  conemosaic sample --list
-  conemosaic sample dart-throwing -n 1024 --seed 7 --out points.csv
-  conemosaic sample bnot -n 1024 --steps 20 --torus
-  conemosaic sample deering -n 1500 --window 150x150 --set eccentricity=0.3
-  conemosaic sample bnot -n 5000 --density picture.png --out stipples.csv
-  conemosaic sample --target-pcf measured/retina.pcf.csv -n 1024 --out like_retina.csv
+/// Examples and output, for the end of the help.
+const HELP: &str = include_str!("help/sample.txt").trim_ascii_end();
 
-Writes x,y in [0, 1)² or the window, to the terminal without --out. With --target-pcf also NAME.fit.json
-beside --out: how near the points come to the curve.")]
+/// Draws a random point pattern from a sampler
+///
+/// Needs the name of a sampler (`conemosaic sample --list` shows them) and the number of points.
+/// The points fill the unit square, x and y from 0 up to but not including 1, or another --window.
+#[derive(Args)]
+#[command(after_help = HELP)]
 pub struct Sample {
-    /// Name of the sampler
+    /// Name of the sampler; `conemosaic sample --list` shows all
     #[arg(required_unless_present_any = ["list", "target_pcf", "target_spectrum"])]
     name: Option<String>,
-    /// Number of points; a lattice makes the nearest number it can
+    /// Number of points
+    ///
+    /// Lattices give the nearest number that fits the window, and a few other samplers about this
+    /// number; --list says which.
     #[arg(short, long, value_name = "N", required_unless_present = "list")]
     n: Option<usize>,
-    /// Where points are drawn: unit (square), WxH (an image of that size, whose pixels have centres at whole numbers: −0.5 to
-    /// W − 0.5, as for `measure --window`) or X0,Y0,X1,Y1, or a FILE of corners: CSV of x,y, WebPlotDigitizer project or
-    /// ImageJ ROI
-    #[arg(long, value_name = "WINDOW", default_value = "unit", allow_hyphen_values = true)]
+    /// Area in which points are drawn
+    ///
+    /// unit         the unit square
+    /// WxH          an image of W × H px; pixel centres are whole numbers, so
+    ///              it reaches from −0.5 to W − 0.5 and from −0.5 to H − 0.5,
+    ///              as in `conemosaic measure --window`
+    /// X0,Y0,X1,Y1  left, upper, right and lower edge
+    /// FILE         a file of the corners of one or more polygons: CSV with
+    ///              columns x,y, a WebPlotDigitizer project or CSV file,
+    ///              or an ImageJ ROI
+    #[arg(
+        long,
+        verbatim_doc_comment,
+        value_name = "WINDOW",
+        default_value = "unit",
+        allow_hyphen_values = true
+    )]
     window: Region,
-    /// Opposite edges are the same place: lattices close on themselves (Poisson disks always do)
+    /// Treat opposite edges of the window as connected (periodic boundaries); rectangles only
+    ///
+    /// Lattices are then stretched so that they continue across the edges. Poisson disks are always
+    /// drawn with periodic boundaries.
     #[arg(long)]
     torus: bool,
-    /// Set a parameter of the sampler; may be repeated. `--list` says which there are, their units and ranges
+    /// Parameter of the sampler and its value; may be given several times
+    ///
+    /// `conemosaic sample --list` shows the parameters with units, ranges and defaults.
     #[arg(long, value_name = "NAME=VALUE", value_parser = setting)]
     set: Vec<(String, String)>,
-    /// Steps of a relaxation: short for --set steps=K
+    /// Number of relaxation steps, the same as --set steps=K
     #[arg(long, value_name = "K")]
     steps: Option<usize>,
-    /// Points as dense as this PNG or TIFF is bright, stretched over the window [default: even density]
+    /// PNG or TIFF image, stretched over the window, whose brightness is the density of the points
     ///
-    /// Its grey values, 0 to 1, are densities relative to each other; below 1/1000 of the greatest they count as that.
+    /// Only the ratios of its grey values matter. Values below 1/1000 of the largest count as
+    /// 1/1000 of it. Some samplers only draw points of even density. [default: even density]
     #[arg(long, value_name = "FILE")]
     density: Option<PathBuf>,
-    /// File for the points
+    /// CSV file for the points [default: they are printed to the terminal]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// List the samplers
+    /// List the samplers and their parameters
     #[arg(long, conflicts_with_all = ["name", "n", "out", "target_pcf", "target_spectrum"])]
     list: bool,
     #[command(flatten)]
@@ -65,9 +83,13 @@ pub struct Sample {
 }
 
 impl Sample {
+    /// Draws the points and writes them, or lists the samplers.
+    ///
+    /// # Errors
+    /// If an option is wrong, the points cannot be drawn, or the file cannot be written.
     pub fn execute(self, common: &Common) -> Result<Done> {
         let (false, Some(n)) = (self.list, self.n) else {
-            // asked for: printed even if quiet
+            // the list is what was asked for, so --quiet does not hide it
             let _ = writeln!(std::io::stdout(), "{}", list());
             return Ok(Done::Completely);
         };
@@ -87,12 +109,13 @@ impl Sample {
         let fit = rows.and_then(|rows| target_fit(&points, &window, rows).ok());
         self.write(&points, fit.as_ref(), common)?;
         if let Some(fit) = fit.filter(|fit| !common.quiet || fit.l_infinity > POOR_FIT) {
-            // the points themselves may be going to the terminal
+            // on standard error, as the points themselves may go to standard output
             let _ = writeln!(std::io::stderr(), "{}", fit_in_words(&fit));
         }
         Ok(Done::Completely)
     }
 
+    /// Writes points and fit to their files, or the points to standard output.
     fn write(&self, points: &[Point], fit: Option<&TargetFit>, common: &Common) -> Result<()> {
         if let Some(path) = &self.out {
             write_plain_points(path, points)?;
@@ -111,23 +134,26 @@ impl Sample {
         Ok(())
     }
 
+    /// Returns the window in which points are drawn.
     fn window(&self) -> Result<Window> {
         let bounds = match &self.window {
             Region::Unit => Rectangle::new(0., 0., 1., 1.)?,
             Region::Size(w, h) => Rectangle::new(-0.5, -0.5, w - 0.5, h - 0.5)?,
             Region::Edges([x0, y0, x1, y1]) => Rectangle::new(*x0, *y0, *x1, *y1)?,
             Region::File(path) if self.torus => {
-                bail!("the polygon of {} has no opposite edges: --torus goes with rectangles", path.display())
+                bail!("the polygon of {} has no opposite edges: --torus needs a rectangle", path.display())
             }
             Region::File(path) => return Ok(read_outline(path, &ReadOptions::default())?.window),
             Region::Auto | Region::Image => {
-                bail!("there is no image here: --window needs unit, WxH, X0,Y0,X1,Y1 or a file of corners")
+                bail!(
+                    "`sample` reads no images for --window: give unit, WxH, X0,Y0,X1,Y1 or a file of corners"
+                )
             }
         };
         Ok(if self.torus { Window::Torus(bounds) } else { Window::Rectangle(bounds) })
     }
 
-    /// The sampler with what is set and the density, if anything is.
+    /// Returns the sampler with the parameters and the density of the options; `None` without any.
     fn changed(&self, default: &dyn Sampler) -> Result<Option<Box<dyn Sampler>>> {
         let steps = self.steps.map(|steps| steps.to_string());
         let set = self.set.iter().map(|(name, value)| (name.as_str(), value.as_str()));
@@ -139,12 +165,13 @@ impl Sample {
         if dense.is_none() {
             let able = samplers().iter().filter(|s| s.with_density(&density).is_some()).map(|s| s.name());
             let able = able.collect::<Vec<_>>().join(", ");
-            bail!("{} makes points of even density: --density goes with {able}", default.name());
+            bail!("{} draws points of even density only; --density works with {able}", default.name());
         }
         Ok(dense)
     }
 }
 
+/// Reads the density from an image.
 fn density(path: &Path) -> Result<Density> {
     let plane = image::read(path)?;
     let (rows, columns) = plane.dim();
@@ -152,18 +179,19 @@ fn density(path: &Path) -> Result<Density> {
     Density::new(columns, rows, &values).with_context(|| path.display().to_string())
 }
 
+/// Parses the value of `--set`.
 fn setting(text: &str) -> Result<(String, String), String> {
     let parts = text.split_once('=').filter(|(name, value)| !name.is_empty() && !value.is_empty());
     let (name, value) = parts.ok_or("expected NAME=VALUE, such as steps=20")?;
     Ok((name.to_owned(), value.to_owned()))
 }
 
-/// Every sampler, then every parameter.
+/// Returns a table of every sampler and a table of every parameter.
 fn list() -> String {
     let marked = |s: &dyn Sampler| format!("{}{}", s.name(), if s.by_default() { " *" } else { "" });
     let rows: Vec<Vec<String>> = samplers().iter().map(|s| vec![marked(*s), s.about().to_owned()]).collect();
-    let made = table(&["sampler", "what it makes"], &rows);
-    let made = format!("{made}\n* run and compare take these unless --samplers names others");
+    let made = table(&["sampler", "points that it draws"], &rows);
+    let made = format!("{made}\n* samplers that run and compare use unless --samplers names others");
     let parameters = samplers().iter().flat_map(|s| s.parameters().into_iter().map(move |p| (s.name(), p)));
     let rows: Vec<Vec<String>> = parameters
         .map(|(sampler, p)| {
@@ -175,5 +203,5 @@ fn list() -> String {
         return made;
     }
     let set = table(&["sampler", "parameter", "values", "default", "what it does"], &rows);
-    format!("{made}\n\nTo be set by --set PARAMETER=VALUE:\n{set}")
+    format!("{made}\n\nParameters, set with --set PARAMETER=VALUE:\n{set}")
 }

@@ -1,19 +1,21 @@
-//! Ctrl-C and SIGTERM: the first one asks the batch to stop after the files in hand, a second one
-//! ends the program at once.
+//! Ctrl-C and SIGTERM: the first signal asks the batch to stop after the files that are being
+//! worked on, a second one ends the program at once.
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock};
 
+/// Number of the signal that asked the program to stop; 0 if none did.
 static SIGNAL: LazyLock<Arc<AtomicUsize>> = LazyLock::new(Arc::default);
 
-/// Begins to listen.
+/// Starts to catch both signals.
 pub fn listen() {
     let asked = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
-        // in this order: the default action is armed by the flag that the first signal sets. Without
-        // them a signal ends the program as it always did, and the next run goes on from there.
+        // The order matters: the first signal sets the flag, and the flag makes the next signal do
+        // its default action. Errors are ignored: without these handlers a signal ends the program
+        // at once, and the next run continues from there.
         let _ = flag::register_conditional_default(signal, Arc::clone(&asked));
         let _ = flag::register(signal, Arc::clone(&asked));
         if let Ok(number) = usize::try_from(signal) {
@@ -22,7 +24,7 @@ pub fn listen() {
     }
 }
 
-/// The number of the signal that asked the program to stop; `None` if there was none.
+/// Returns the number of the signal that asked the program to stop; `None` if there was none.
 pub fn received() -> Option<u8> {
     match SIGNAL.load(Ordering::Relaxed) {
         0 => None,

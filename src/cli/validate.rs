@@ -11,103 +11,132 @@ use conemosaic::report::{counted, table};
 use std::path::PathBuf;
 use strum::VariantNames;
 
-/// Holds detections against hand-plotted marks: sensitivity, FDR, Dice, agreement, FROC, reliability
+/// Examples, the rule of scoring, and files written, for the end of the help.
+const HELP: &str = include_str!("help/validate.txt").trim_ascii_end();
+
+/// Scores detected cones against cones marked by hand
+///
+/// Takes a folder of hand marks, and either detections (--detections) or images, in which it
+/// detects the cones itself. It computes sensitivity, false discovery rate, Dice coefficient,
+/// localisation error and agreement of density for each image, and, from the scores of detections,
+/// FROC (sensitivity against false alarms) and reliability.
 #[derive(Args)]
-#[command(after_help = "\
-Examples:
-  conemosaic validate --reference marks --origin 1 --images marks --group-by prefix:2 --out scores
-  conemosaic validate --reference marks --detections cones --images marks --overlay --out scores
-  conemosaic validate --reference marks --images marks --versus-detector classical --out scores
-  conemosaic validate --reference grader1 --detections cones --versus grader2 --size 150x150 --out scores
-
-Marks are NAME_coords.csv or NAME.csv. A mark matches the nearest detection within 0.75 × the median nearest-neighbour distance of the marks; 7 px along the border do not count (Cunefare et al. 2017). Detections have columns x and y, and may have one called score, confidence or probability.
-
-Writes to scores/:
-  index.html          all of it as a page, the worst images first
-  validation.csv      one row per image
-  validation.json     means, pooled rates, intervals, and everything below
-  bland_altman.svg    agreement of count and density
-  groups.csv          with --group-by or --group-table: one row per group
-  froc.csv, .svg      with scores: sensitivity and false alarms over the threshold
-  reliability.csv, .svg  with scores from 0 to 1: are they the probability of a hit?
-  comparison.csv, .svg   with --versus: paired differences of two detectors or graders
-  NAME.overlay.png    with --overlay: hits, misses and false alarms
-  failures.csv        marks that could not be scored, if any; then the exit code is 2")]
+#[command(after_help = HELP)]
 pub struct Validate {
-    /// Folder of hand marks, or one file of them
+    /// Folder of hand marks NAME_coords.csv or NAME.csv, or one file of them
     #[arg(long, value_name = "PATH")]
     reference: PathBuf,
-    /// Folder of detections NAME.csv or NAME_coords.csv, of this program or another, or one file of them
+    /// Folder of detections NAME.csv or NAME_coords.csv, or one file of them
+    ///
+    /// They may come from this program or from another. [default: cones are detected in --images]
     #[arg(long, value_name = "PATH", required_unless_present = "images")]
     detections: Option<PathBuf>,
-    /// Folder of images NAME.png or NAME.tif, or one image: to detect cones in unless --detections are given, for sizes and
-    /// overlays [default: beside the marks]
+    /// Folder of images NAME.png or NAME.tif, or one image [default: beside the marks]
+    ///
+    /// Cones are detected in them unless --detections are given; overlays and the sizes of the
+    /// images are taken from them.
     #[arg(long, value_name = "PATH")]
     images: Option<PathBuf>,
-    /// Folder for the results
+    /// Folder for the results; it is created if it does not exist
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Also draw hits, misses and false alarms on the images
+    /// Also write each image with its hits, misses and false alarms marked
     #[arg(long)]
     overlay: bool,
-    /// Size of the images in px [default: from the images]
+    /// Width and height of the images in px, such as 150x150 [default: read from the images]
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(usize, usize)>,
-    /// What the detections call the centre of the top-left pixel: 0, 0.5 or 1
+    /// Coordinate that --detections give to the centre of the top-left pixel: 0, 0.5 or 1
     #[arg(long, value_name = "O", default_value = "0", value_parser = origin)]
     detections_origin: Origin,
-    /// Who gets whom where several are near: nearest (as published) or optimal (Hungarian, one to one)
-    #[arg(long, value_name = "A", default_value = "nearest", value_parser = PossibleValuesParser::new(Assignment::VARIANTS), help_heading = "Scoring")]
+    /// Rule that pairs marks with detections where several are near
+    ///
+    /// nearest  every mark claims its nearest detection, and of several
+    ///          claims the nearest is granted (Cunefare et al. 2017)
+    /// optimal  as many pairs as possible and, among those, the pairs of
+    ///          least total distance (Hungarian assignment)
+    #[arg(long, verbatim_doc_comment, value_name = "A", default_value = "nearest", value_parser = PossibleValuesParser::new(Assignment::VARIANTS), help_heading = "Scoring")]
     assignment: String,
-    /// Width in px of the border in which nothing counts
+    /// Width of the border in which marks and detections do not count, in px (0 or more)
+    ///
+    /// The default is that of Cunefare et al. (2017).
     #[arg(long, value_name = "PX", default_value_t = 7., help_heading = "Scoring")]
     border: f64,
-    /// Reach of a mark, as a fraction of the median nearest-neighbour distance of the marks
+    /// Largest distance between a mark and its detection (above 0)
+    ///
+    /// A fraction of the median nearest-neighbour distance of the marks of the image. The default
+    /// is that of Cunefare et al. (2017).
     #[arg(long, value_name = "F", default_value_t = 0.75, help_heading = "Scoring")]
     reach: f64,
-    /// Images of one subject belong together: prefix:N (the first N parts of the name between underscores) or a regular
-    /// expression whose first group is the subject
-    #[arg(long, value_name = "RULE", group = "grouping", help_heading = "Groups and intervals")]
+    /// Rule that tells which images are of one subject
+    ///
+    /// prefix:N        the first N parts of the file name between underscores
+    /// any other text  a regular expression: its first group in the file
+    ///                 name, or all that it matches if it has no group
+    ///
+    /// [default: every image counts as independent]
+    #[arg(
+        long,
+        verbatim_doc_comment,
+        value_name = "RULE",
+        group = "grouping",
+        help_heading = "Groups and intervals"
+    )]
     group_by: Option<Grouping>,
-    /// The same by a CSV of name,group; a name may be the beginning of many
+    /// CSV file that tells which images are of one subject, instead of a rule
+    ///
+    /// Columns: name,group. A name may be the beginning of several file names.
     #[arg(long, value_name = "FILE", group = "grouping", help_heading = "Groups and intervals")]
     group_table: Option<PathBuf>,
-    /// Resamples of the bootstrap (BCa, 95 %), of groups if there are any, else of images; 2000 or more
+    /// Number of bootstrap resamples for the confidence intervals (2000–1000000)
+    ///
+    /// Intervals are 95 %, bias-corrected and accelerated (BCa). Groups are resampled if there are
+    /// any, otherwise images.
     #[arg(long, value_name = "N", default_value_t = RESAMPLES as u32, value_parser = clap::value_parser!(u32).range(2000..=1_000_000), help_heading = "Groups and intervals")]
     resamples: u32,
-    /// Compare with these detections, or marks of another grader: NAME.csv or NAME_coords.csv
-    #[arg(long, value_name = "PATH", group = "second", help_heading = "Comparison of two")]
+    /// Second set of detections, or marks of another grader, to compare with
+    ///
+    /// A folder of files NAME.csv or NAME_coords.csv, or one such file.
+    #[arg(long, value_name = "PATH", group = "second", help_heading = "Comparison with other detections")]
     versus: Option<PathBuf>,
-    /// What they call the centre of the top-left pixel: 0, 0.5 or 1
-    #[arg(long, value_name = "O", default_value = "0", requires = "versus", value_parser = origin, help_heading = "Comparison of two")]
+    /// Coordinate that --versus gives to the centre of the top-left pixel: 0, 0.5 or 1
+    #[arg(long, value_name = "O", default_value = "0", requires = "versus", value_parser = origin, help_heading = "Comparison with other detections")]
     versus_origin: Origin,
-    /// Compare with this detector on the same images
-    #[arg(long, value_name = "D", group = "second", value_parser = PossibleValuesParser::new(Detector::VARIANTS), help_heading = "Comparison of two")]
+    /// Second detector to compare with, on the same images
+    ///
+    /// `--detector` explains the values.
+    #[arg(long, value_name = "D", group = "second", value_parser = PossibleValuesParser::new(Detector::VARIANTS), help_heading = "Comparison with other detections")]
     versus_detector: Option<String>,
     #[command(flatten)]
     marks: CoordinateArgs,
-    #[command(flatten, next_help_heading = "Detection, without --detections")]
+    #[command(flatten, next_help_heading = "Detection (without --detections)")]
     detect: DetectArgs,
     #[command(flatten)]
     scale: ScaleArgs,
 }
 
+/// Parses the value of `--size`, width and height in px.
 fn size(text: &str) -> Result<(usize, usize), String> {
     let parts: Option<Vec<usize>> = text.split('x').map(|p| p.parse().ok().filter(|v| *v > 0)).collect();
     match parts.as_deref() {
         Some(&[width, height]) => Ok((width, height)),
-        _ => Err(format!("“{text}” is no size: expected WxH in px")),
+        _ => Err(format!("“{text}” is not a size: expected WxH in px, such as 150x150")),
     }
 }
 
+/// Parses the value of an option for the origin of coordinates.
 fn origin(text: &str) -> Result<Origin, String> {
     text.parse().map_err(|_| "expected 0, 0.5 or 1".to_owned())
 }
 
-/// So many of the worst images are named.
+/// Number of the worst images that are printed.
 const WORST: usize = 5;
 
 impl Validate {
+    /// Scores the detections, writes the results and prints the main ones.
+    ///
+    /// # Errors
+    /// If an option is wrong, there are no marks, or the results cannot be written.
     pub fn execute(self, common: &Common) -> Result<Done> {
         let options = self.options(common.seed)?;
         let outcome = validate_files(&self.reference, &options, &self.out, &*common.progress())?;
@@ -117,6 +146,7 @@ impl Validate {
         Ok(Done::of(&outcome.failures, &outcome.ending))
     }
 
+    /// Returns the options of the validation, checked.
     fn options(&self, seed: u64) -> Result<ValidationOptions> {
         let matching = MatchOptions {
             border: self.border,
@@ -132,7 +162,10 @@ impl Validate {
         let detected = match &self.detections {
             Some(given) => files(given, self.detections_origin),
             None if self.detections_origin != Origin::Zero => {
-                bail!("--detections-origin {}: there are no --detections", self.detections_origin)
+                bail!(
+                    "--detections-origin {} needs --detections: cones that are detected here count from 0",
+                    self.detections_origin
+                )
             }
             None => Detected::Detector(detect.clone()),
         };
@@ -163,6 +196,7 @@ impl Validate {
         })
     }
 
+    /// Returns the text that is printed at the end.
     fn summary(&self, outcome: &ValidationOutcome) -> String {
         let mut text = String::new();
         for path in &outcome.ignored {
@@ -201,7 +235,7 @@ impl Validate {
             ));
             if let Some(comparison) = &analysis.comparison {
                 text.push_str(&format!(
-                    "p: paired sign-flip permutation test; Dice between the two: {:.4} (mean over images)\n",
+                    "p: paired sign-flip permutation test; Dice between the two sets of detections: {:.4} (mean over images)\n",
                     comparison.between.dice
                 ));
             }

@@ -6,6 +6,7 @@ mod cli_agree;
 mod cli_bad_input;
 mod cli_commands;
 mod cli_compare;
+mod cli_help;
 mod cli_kept;
 mod cli_maps;
 mod cli_metrics;

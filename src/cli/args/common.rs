@@ -5,25 +5,32 @@ use clap::Args;
 use conemosaic::batch::Progress;
 use std::io::{IsTerminal, Write};
 
-/// What means the same for every command.
+/// Options that mean the same in every command.
 #[derive(Args)]
 pub struct Common {
-    /// Seed of everything random: the same seed gives the same output
+    /// Seed of the random numbers
+    ///
+    /// A whole number, 0 or more. The same seed gives the same output.
     #[arg(long, global = true, value_name = "N", default_value_t = 1, help_heading = "Common options")]
     pub seed: u64,
-    /// Cores to use [default: all]; the output is the same for any number
+    /// Number of processor cores to use (1–1024) [default: all]
+    ///
+    /// The output is the same for any number.
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), help_heading = "Common options")]
     pub threads: Option<u16>,
-    /// Print errors and failed files only
+    /// Print nothing but errors and the files that failed
     #[arg(long, short, global = true, help_heading = "Common options")]
     pub quiet: bool,
-    /// Print diagnostics (-v what is done, -vv how long it takes)
+    /// Print diagnostics: -v lists the steps, -vv also their times
     #[arg(long, short, global = true, action = clap::ArgAction::Count, conflicts_with = "quiet", help_heading = "Common options")]
     pub verbose: u8,
 }
 
 impl Common {
-    /// Sets up threads and diagnostics.
+    /// Sets the number of threads and the level of diagnostics.
+    ///
+    /// # Errors
+    /// If the threads cannot be started.
     pub fn apply(&self) -> Result<()> {
         let level = match self.verbose {
             0 => tracing::Level::ERROR,
@@ -45,7 +52,8 @@ impl Common {
         Ok(())
     }
 
-    /// A bar on a terminal, lines elsewhere, failures only if quiet.
+    /// Returns how progress is shown: a bar on a terminal, one line per file elsewhere, failures
+    /// only with `--quiet`. From here on, Ctrl-C and SIGTERM stop the batch instead of the program.
     pub fn progress(&self) -> Box<dyn Progress> {
         signals::listen();
         let shown: Box<dyn Progress> = if self.quiet {
@@ -58,12 +66,14 @@ impl Common {
         Box::new(Watched(shown))
     }
 
-    /// A bar for one long task; none if quiet.
+    /// Returns a progress bar for one long task; it stays hidden with `--quiet`.
     pub fn steps(&self) -> Steps {
         if self.quiet { Steps::hidden() } else { Steps::shown() }
     }
 
-    /// Prints unless quiet. A reader that stops listening (`| head`) is no error.
+    /// Prints a text to standard output, unless it is empty or `--quiet` was given.
+    ///
+    /// A closed pipe (`| head`) is not an error.
     pub fn say(&self, text: &str) {
         if !self.quiet && !text.is_empty() {
             let _ = writeln!(std::io::stdout(), "{text}");

@@ -6,55 +6,70 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use strum::VariantNames;
 
-/// What may be fixed about detection; the defaults decide everything from the image.
+/// Options of detection; by default everything is estimated from the image.
 #[derive(Args)]
 pub struct DetectArgs {
-    /// How the images were taken
-    #[arg(long, value_name = "M", default_value = "auto", value_parser = or_auto(Modality::VARIANTS))]
+    /// Type of the images
+    ///
+    /// confocal   confocal adaptive-optics ophthalmoscopy: a cone is a bright
+    ///            spot
+    /// split      split-detector adaptive-optics ophthalmoscopy: an inner
+    ///            segment has a dark and a bright side
+    /// histology  micrographs of flat-mounted retina: an inner segment is a
+    ///            disc
+    /// auto       decided for each image from the image itself
+    #[arg(long, verbatim_doc_comment, value_name = "M", default_value = "auto", value_parser = or_auto(Modality::VARIANTS))]
     modality: String,
-    /// Contrast: positive is bright cones, in split detection dark left and bright right
-    #[arg(long, value_name = "P", default_value = "auto", value_parser = or_auto(Polarity::VARIANTS))]
+    /// Contrast of the cones
+    ///
+    /// positive  cones are brighter than their surround; in split-detector
+    ///           images they are dark on the left and bright on the right
+    /// negative  the reverse
+    /// auto      decided for each image from the image itself
+    #[arg(long, verbatim_doc_comment, value_name = "P", default_value = "auto", value_parser = or_auto(Polarity::VARIANTS))]
     polarity: String,
-    /// Filters that find the cones
-    #[arg(long, value_name = "D", default_value = "auto", value_parser = PossibleValuesParser::new(Detector::VARIANTS))]
+    /// Method that finds the cones
+    ///
+    /// classical  a band-pass filter designed for the type of image
+    /// learned    a small convolutional network trained for it
+    /// auto       whichever of the two scored better on hand-marked images of
+    ///            the type
+    #[arg(long, verbatim_doc_comment, value_name = "D", default_value = "auto", value_parser = PossibleValuesParser::new(Detector::VARIANTS))]
     detector: String,
-    /// Cone spacing in px (4–160) to start from [default: from Yellott's ring]
+    /// First estimate of the distance between neighbouring cones, in px (4–160)
+    ///
+    /// Detection refines it. [default: measured from Yellott's ring in the power spectrum of the
+    /// image]
     #[arg(long, value_name = "PX")]
     spacing: Option<f64>,
-    /// A network of your own: .safetensors or .onnx (see `conemosaic detect --help`)
+    /// Network of your own to use instead of the built-in one: .safetensors or .onnx
+    ///
+    /// The end of `conemosaic detect --help` describes both formats.
     #[arg(long, value_name = "FILE")]
     model: Option<PathBuf>,
 }
 
-/// What a user's own network must look like.
-pub const MODELS: &str = "\
-A network of your own (--model FILE), for images of the modality it was made for:
-  .safetensors  as scripts/train-detector writes it
-  .onnx         in programs built with `--features onnx`. Input: float32, 1×1×H×W, H and W left open:
-                the image resampled so that cones are 8 px apart, less its Gaussian mean (σ 8 px),
-                over its Gaussian contrast (σ 12 px), bright cones positive, mirrored at its end.
-                Output: float32, 1×1×H×W: how surely a cone's centre lies in each pixel.
-                Metadata, all optional (onnx.helper.set_model_props):
-                  spacing      px between cones in its input [8]
-                  multiple     of which H and W are one, px; 1 if any size will do [32]
-                  output       probability or logit [probability]
-                  threshold    probability from which on a maximum is a cone [0.5]
-                  suppression  shortest distance of two cones, in spacings [0.5]
-                  modality     confocal, split or histology [every image]
-";
+/// Description of the files that `--model` accepts, for the end of a command's help.
+pub const MODELS: &str = include_str!("../help/models.txt").trim_ascii_end();
 
+/// Reads the network of a file.
 fn read_model(path: &Path) -> Result<UserModel> {
     let name = path.display().to_string();
     let bytes = fs::read(path).with_context(|| format!("{name} cannot be read"))?;
     UserModel::new(&name, &bytes).context(name)
 }
 
+/// Returns a parser that accepts these names and `auto`.
 fn or_auto(names: &'static [&'static str]) -> PossibleValuesParser {
     PossibleValuesParser::new(["auto"].into_iter().chain(names.iter().copied()))
 }
 
 impl DetectArgs {
-    /// Validated options.
+    /// Returns the options of detection, checked.
+    ///
+    /// # Errors
+    /// If the spacing is out of its range, or the network cannot be read or does not fit the other
+    /// options.
     pub fn options(&self) -> Result<DetectOptions> {
         let given = |text: &str| (text != "auto").then(|| text.to_owned());
         let options = DetectOptions {

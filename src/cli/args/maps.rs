@@ -2,38 +2,53 @@ use anyhow::Result;
 use clap::Args;
 use conemosaic::batch::{Length, MapRequest, MapWindow};
 
-/// Maps of local density, spacing and regularity.
+/// Options for maps of local density, spacing and regularity.
 #[derive(Args)]
 #[command(next_help_heading = "Maps")]
 pub struct MapArgs {
-    /// Also map density, inter-cell distance, nearest neighbour, regularity, |ψ6| and six-sided share: each is taken over the
-    /// bound cells in a square window around every cone; and read off the density map: peak (PCD), centroid (CDC),
-    /// isodensity area, profiles
+    /// Also write maps of density, spacing and regularity, and landmarks of the density
+    ///
+    /// Mapped are density, inter-cell distance, nearest-neighbour distance, regularity, |ψ6| (order
+    /// of the hexagons) and the share of six-sided cells. Each is computed, for every cone, over
+    /// the bound cells in a square window around it; a cell is bound if its Voronoi polygon lies
+    /// wholly inside the window. Read off the density map are the peak (peak cone density, PCD),
+    /// the centroid (cone density centroid, CDC), the isodensity area and profiles.
     #[arg(long)]
     maps: bool,
-    /// Each window grows until it holds this many bound cells (3–100000) [default: 100]; one that reaches beyond the mosaic
-    /// first is flagged “edge”, and no landmark is read off it
+    /// Number of bound cells that each window grows to hold (3–100000) [default: 100]
+    ///
+    /// A window that reaches beyond the mosaic before it holds them is flagged “edge”, and no
+    /// landmark is taken from it.
     #[arg(long, value_name = "N", requires = "maps", conflicts_with = "map_side")]
     map_cells: Option<usize>,
-    /// Windows of this side instead: in the unit of the coordinates, or in µm with um behind it, such as 37.5um
+    /// Side of the windows, instead of a number of cells
+    ///
+    /// In the unit of the coordinates, or in µm with the suffix um, such as 37.5um.
     #[arg(long, value_name = "SIDE", requires = "maps")]
     map_side: Option<Length>,
-    /// The CDC is the density-weighted centroid of the region in which density is at least this share of the peak (0.01–0.99)
+    /// Density of the isodensity contour, as a share of the peak density (0.01–0.99)
+    ///
+    /// The CDC is the density-weighted centroid of the region in which the density reaches this
+    /// share.
     #[arg(long, value_name = "SHARE", requires = "maps", default_value_t = MapRequest::default().isodensity)]
     isodensity: f64,
-    /// Distance between rows of the profiles, in the unit of the coordinates or with um behind it [default: two hexagonal
-    /// spacings]
+    /// Distance between the rows of the profiles [default: two hexagonal spacings]
+    ///
+    /// In the unit of the coordinates, or in µm with the suffix um.
     #[arg(long, value_name = "STEP", requires = "maps")]
     profile_step: Option<Length>,
 }
 
 impl MapArgs {
-    /// Whether maps are asked for.
+    /// Returns whether `--maps` was given.
     pub const fn asked(&self) -> bool {
         self.maps
     }
 
-    /// The maps asked for, if any are.
+    /// Returns the maps to be made; `None` without `--maps`.
+    ///
+    /// # Errors
+    /// If a value is out of its range.
     pub fn request(&self) -> Result<Option<MapRequest>> {
         if !self.asked() {
             return Ok(None);

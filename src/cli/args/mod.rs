@@ -1,4 +1,4 @@
-//! Arguments that several commands share, each group turned into the options of the library.
+//! Arguments that several commands share; each group is turned into options of the library.
 
 mod common;
 mod coordinates;

@@ -14,65 +14,95 @@ use conemosaic::sample::samplers_named;
 use conemosaic::stats::{Deviation, FunctionOptions, MeasureOptions, SpectrumOptions};
 use strum::VariantNames;
 
-/// What is computed of every mosaic and written about it: the same for images and coordinate files.
+/// Options for what is computed and written for each mosaic, of an image or a coordinate file.
 #[derive(Args)]
 pub struct PlanArgs {
-    /// Samplers to compare with, separated by commas; “all” is every one, slow ones included; “none” is none
-    /// [default of run and compare: those marked * by `conemosaic sample --list`; of measure: none]
+    /// Samplers (models that draw point patterns) to compare with, separated by commas
+    ///
+    /// `conemosaic sample --list` lists them. all: every sampler, including the slow ones; none: no
+    /// comparison. [default: run and compare take the samplers marked * in that list; measure takes
+    /// none, or those marked * with --verdict]
     #[arg(long, value_name = "A,B,…", value_delimiter = ',', help_heading = "Comparison with samplers")]
     samplers: Vec<String>,
-    /// Standard deviation: sample (n − 1) or population (n, as in the tables of Lanaro et al.)
-    #[arg(long, value_name = "SD", default_value = "sample", value_parser = PossibleValuesParser::new(Deviation::VARIANTS))]
+    /// Definition of the standard deviation
+    ///
+    /// sample      divided by n − 1
+    /// population  divided by n, as in the tables of Lanaro et al. (2020)
+    ///
+    /// It also enters the regularity index, mean over standard deviation.
+    #[arg(long, verbatim_doc_comment, help_heading = None, value_name = "SD", default_value = "sample", value_parser = PossibleValuesParser::new(Deviation::VARIANTS))]
     sd: String,
     #[command(flatten)]
     summary: SummaryArgs,
     #[command(flatten)]
     pcf: PcfArgs,
-    /// Also write the power spectrum of the points; its picture linear (white: 3 times the power of independent
-    /// points) or in dB (−20 to +10): --spectrum, --spectrum=db
+    /// Also write the power spectrum of the points, as a table and as a picture
+    ///
+    /// The picture is linear (--spectrum; white is 3 times the power of independent points) or in
+    /// dB (--spectrum=db; from −20 to +10 dB).
     #[arg(long, value_name = "SCALE", num_args = 0..=1, require_equals = true, default_missing_value = "linear", value_parser = ["linear", "db"], help_heading = "Power spectrum")]
     spectrum: Option<String>,
-    /// Highest frequency of the spectrum in √density (0.1–20)
+    /// Highest frequency of the spectrum, in units of √density (0.1–20)
+    ///
+    /// √density is √n cycles per side for n points in the unit square.
     #[arg(long, value_name = "F", default_value_t = SpectrumOptions::default().max_frequency, requires = "spectrum", help_heading = "Power spectrum")]
     max_frequency: f64,
-    /// Also write G, F, J, K, L and g of every mosaic, with each edge correction, and a table of its points
-    #[arg(long, help_heading = "Functions of distance")]
+    /// Also write functions of distance and a table of the points
+    ///
+    /// G  distribution of nearest-neighbour distances
+    /// F  distribution of distances from places of the window to the nearest
+    ///    point
+    /// J  (1 − G)/(1 − F)
+    /// K  Ripley's K
+    /// L  √(K/π)
+    /// g  pair correlation function
+    ///
+    /// Each is given with several edge corrections. The table of points holds
+    /// the nearest neighbour and the Voronoi cell of each point.
+    #[arg(long, verbatim_doc_comment, help_heading = "Functions of distance")]
     functions: bool,
-    /// Distance between their rows, in the unit of the coordinates [default: 1/128 of --r-max]
+    /// Distance between the rows of these functions [default: 1/128 of the last distance]
+    ///
+    /// In the unit of the coordinates. --r-max sets the last distance.
     #[arg(long, value_name = "STEP", requires = "functions", help_heading = "Functions of distance")]
     r_step: Option<f64>,
     #[command(flatten)]
     maps: MapArgs,
     #[command(flatten)]
     rois: RoiArgs,
-    /// Formats of the figures, separated by commas: svg (always), pdf, png (300 dpi)
-    #[arg(long, value_name = "F,…", value_delimiter = ',', default_value = "svg")]
+    /// Formats of the figures, separated by commas: svg, pdf, png (300 dpi)
+    ///
+    /// SVG files are always written.
+    #[arg(long, value_name = "F,…", value_delimiter = ',', default_value = "svg", help_heading = "Figures")]
     figures: Vec<FigureFormat>,
     #[command(flatten)]
     scale: ScaleArgs,
 }
 
-/// The command's own answers where nothing is said.
+/// Settings that differ between the commands that make a plan.
 pub struct Defaults {
-    /// Compare with the default samplers.
+    /// Comparison with the default samplers if `--samplers` names none.
     pub compare: bool,
-    /// The simulations asked for, if any are.
+    /// Simulations of each sampler, if they were asked for.
     pub verdict: Option<VerdictOptions>,
-    /// Seed of everything random.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
 impl PlanArgs {
-    /// Tells whether maps are asked for.
+    /// Returns whether `--maps` was given.
     pub const fn maps_asked(&self) -> bool {
         self.maps.asked()
     }
 
-    /// Returns the plan; `read`: how the coordinates of regions are to be understood.
+    /// Returns the plan. `read` says how the coordinates of regions of interest are read.
+    ///
+    /// # Errors
+    /// If a value is out of its range, a sampler is unknown, or a table cannot be read.
     pub fn plan(&self, read: &ReadOptions, defaults: Defaults) -> Result<Plan> {
         let functions =
             self.functions.then_some(FunctionOptions { r_step: self.r_step, r_max: self.pcf.r_max });
-        // with functions, the largest distance is theirs, in the unit of the coordinates
+        // with --functions, --r-max is in the unit of the coordinates and not for g(r) in spacings
         let r_max = self.pcf.r_max.filter(|_| !self.functions);
         let deviation: Deviation = self.sd.parse()?;
         let compared = defaults.compare || defaults.verdict.is_some() || !self.samplers.is_empty();

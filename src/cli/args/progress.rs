@@ -4,7 +4,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::io::Write;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Listens to signals, and adds to errors which options help.
+/// Progress that also stops on Ctrl-C or SIGTERM and adds the options that help to errors.
 pub struct Watched(pub Box<dyn Progress>);
 
 impl Progress for Watched {
@@ -29,10 +29,11 @@ impl Progress for Watched {
     }
 }
 
-/// A progress bar; failures scroll by above it.
+/// Progress bar on a terminal, with the failures printed above it.
 pub struct Bar(ProgressBar);
 
 impl Bar {
+    /// Returns a bar that stays hidden until the batch begins.
     pub fn new() -> Self {
         Self(ProgressBar::hidden())
     }
@@ -62,13 +63,14 @@ impl Progress for Bar {
     }
 }
 
-/// One line a file, for logs.
+/// Progress as one line per file, for logs.
 pub struct Lines {
     total: AtomicUsize,
     done: AtomicUsize,
 }
 
 impl Lines {
+    /// Returns the progress of a batch that has not begun.
     pub const fn new() -> Self {
         Self { total: AtomicUsize::new(0), done: AtomicUsize::new(0) }
     }
@@ -92,7 +94,7 @@ impl Progress for Lines {
     fn end(&self) {}
 }
 
-/// Failures only.
+/// Progress that prints nothing but the files that failed.
 pub struct Failures;
 
 impl Progress for Failures {
@@ -107,11 +109,11 @@ impl Progress for Failures {
     fn end(&self) {}
 }
 
-/// A bar for the steps of one long task, on a terminal only.
+/// Progress bar for the steps of one long task, on a terminal only.
 pub struct Steps(ProgressBar);
 
 impl Steps {
-    /// Shown on standard error, if that is a terminal.
+    /// Returns a bar on standard error, hidden if that is not a terminal.
     pub fn shown() -> Self {
         let bar = ProgressBar::with_draw_target(None, indicatif::ProgressDrawTarget::stderr());
         if let Ok(style) = ProgressStyle::with_template("{bar:32} step {pos} of at most {len}  {elapsed}") {
@@ -120,15 +122,18 @@ impl Steps {
         Self(bar)
     }
 
+    /// Returns a bar that is never shown.
     pub fn hidden() -> Self {
         Self(ProgressBar::hidden())
     }
 
+    /// Moves the bar to `step` of at most `of` steps.
     pub fn at(&self, step: usize, of: usize) {
         self.0.set_length(of as u64);
         self.0.set_position(step as u64);
     }
 
+    /// Takes the bar off the terminal.
     pub fn end(&self) {
         self.0.finish_and_clear();
     }

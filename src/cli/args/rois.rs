@@ -4,30 +4,43 @@ use conemosaic::batch::{Length, RoiRequest, RoiSource};
 use conemosaic::mosaic::io::{ReadOptions, RoiTable};
 use std::path::PathBuf;
 
-/// Regions to be measured as mosaics of their own.
+/// Options for regions of interest, each measured as a mosaic of its own.
 #[derive(Args)]
 #[command(next_help_heading = "Regions of interest")]
 pub struct RoiArgs {
-    /// CSV of boxes, each measured as a mosaic of its own: a header of x0,y0,x1,y1 or x,y,width,height in the unit of the
-    /// coordinates (or x0_um,…: in µm), counted from where they are (--origin, --flip-y); a column name; and a column file,
-    /// if boxes differ from file to file: its longest part of the file name counts
+    /// CSV file of rectangles; each is measured as a mosaic of its own
+    ///
+    /// Columns: x0,y0,x1,y1 (edges) or x,y,width,height, in the unit of the coordinates and with
+    /// the same --origin and --flip-y, or with the suffix _um (x0_um,…) in µm; optionally name; and
+    /// optionally file, if the rectangles differ from file to file. A row then belongs to the files
+    /// whose name contains the text in column file; of several such texts the longest counts.
     #[arg(long, value_name = "FILE", group = "roi_source")]
     rois: Option<PathBuf>,
-    /// Squares of this side instead, which slide over the bounds of the window: in the unit of the coordinates, or in µm with um
-    /// behind it
+    /// Side of square regions laid in rows over the window, instead of --rois
+    ///
+    /// In the unit of the coordinates, or in µm with the suffix um, such as 40um.
     #[arg(long, value_name = "SIDE", group = "roi_source")]
     roi_side: Option<Length>,
-    /// From one of these squares to the next [default: their side, so that they tile the window]
+    /// Distance from one square to the next [default: their side, so that they tile the window]
+    ///
+    /// In the unit of the coordinates, or in µm with the suffix um.
     #[arg(long, value_name = "STEP", requires = "roi_side", conflicts_with = "rois")]
     roi_step: Option<Length>,
-    /// Each region grows about its centre, in proportion, until it holds this many bound cells (1–100000); one that ends at the
-    /// border of the window first is flagged “few”
+    /// Number of bound cells that each region grows to hold (1–100000)
+    ///
+    /// Regions grow about their centre and keep their proportions. One that reaches the border of
+    /// the window before it holds that many is flagged “few”. [default: regions do not grow]
     #[arg(long, value_name = "N", requires = "roi_source")]
     roi_cells: Option<usize>,
 }
 
 impl RoiArgs {
-    /// The regions asked for, if any are; `read`: how coordinates are to be understood.
+    /// Returns the regions to be measured; `None` if none were asked for.
+    ///
+    /// `read` says how their coordinates are read.
+    ///
+    /// # Errors
+    /// If the table cannot be read or a value is out of its range.
     pub fn request(&self, read: &ReadOptions) -> Result<Option<RoiRequest>> {
         let source = match (&self.rois, self.roi_side) {
             (Some(path), _) => RoiSource::Table(RoiTable::read(path, read)?),

@@ -5,43 +5,56 @@ use conemosaic::mosaic::io::ScaleTable;
 use conemosaic::mosaic::{MICROMETRES_PER_DEGREE, Scale, micrometres_per_degree};
 use std::path::PathBuf;
 
-/// How large a pixel is; without any of these, results stay in pixels.
+/// Options for the size of a pixel on the retina; without any, results stay in pixels.
 #[derive(Args)]
-#[command(next_help_heading = "Scale (at most one source; none: results in px)")]
+#[command(next_help_heading = "Scale (give at most one; without any, results are in px)")]
 pub struct ScaleArgs {
     /// Micrometres on the retina per pixel, the same for all images
     #[arg(long, value_name = "UM", group = "scale")]
     um_per_px: Option<f64>,
-    /// Width of the imaged field in micrometres, the same for all images
+    /// Width of the image on the retina in micrometres, the same for all images
     #[arg(long, value_name = "UM", group = "scale")]
     field_um: Option<f64>,
-    /// Width of the imaged field in degrees of visual angle
+    /// Width of the image in degrees of visual angle, the same for all images
     #[arg(long, value_name = "DEG", group = "scale")]
     field_degrees: Option<f64>,
-    /// Pixels per degree of visual angle
+    /// Pixels per degree of visual angle, the same for all images
     #[arg(long, value_name = "PX", group = "scale")]
     px_per_degree: Option<f64>,
-    /// CSV of identifier,um_per_px or identifier,axial_length_mm,pixels_per_degree: the row whose identifier is the
-    /// longest part of the file name counts
+    /// CSV file with the scale of each image
+    ///
+    /// Columns: identifier,um_per_px or identifier,axial_length_mm,pixels_per_degree. A row belongs
+    /// to the images whose file name contains its identifier; of several such rows the one with the
+    /// longest identifier counts.
     #[arg(long, value_name = "FILE", group = "scale")]
     scale_table: Option<PathBuf>,
-    /// Images missing from the scale table stay in pixels instead of failing
+    /// Measure images without a row in --scale-table in pixels; without this option they fail
     #[arg(long, requires = "scale_table")]
     unscaled: bool,
-    /// Micrometres per degree [default: 288, Drasdo & Fowler 1974]
+    /// Micrometres on the retina per degree of visual angle [default: 288]
+    ///
+    /// The default is that of an average eye (Drasdo & Fowler 1974).
     #[arg(long, value_name = "UM", requires = "scale", conflicts_with = "axial_length")]
     um_per_degree: Option<f64>,
-    /// Axial length of the eye in mm: 291 µm per degree × length / 24 mm
+    /// Axial length of the eye in mm, to compute the micrometres per degree
+    ///
+    /// They are 291 µm × length / 24 mm.
     #[arg(long, value_name = "MM", requires = "scale")]
     axial_length: Option<f64>,
-    /// Linear shrinkage of post-mortem tissue, as a share of its living length (0–0.9): 0.1 if 10 µm alive are 9 µm on the
-    /// slide. Micrometres are then those of the living retina: lengths divided by 1 − F, densities multiplied by (1 − F)²
+    /// Linear shrinkage of post-mortem tissue, as a fraction of its living length (0–0.9)
+    ///
+    /// 0.1 means that 10 µm of living retina are 9 µm on the slide. Results in micrometres are then
+    /// those of the living retina: lengths are divided by 1 − F, densities multiplied by (1 − F)².
+    /// [default: no shrinkage]
     #[arg(long, value_name = "F")]
     shrinkage: Option<f64>,
 }
 
 impl ScaleArgs {
-    /// Where scales come from.
+    /// Returns the source of the scales.
+    ///
+    /// # Errors
+    /// If a value is out of its range or the table cannot be read.
     pub fn source(&self) -> Result<ScaleSource> {
         let slide = self.slide()?;
         match self.shrinkage {
@@ -50,11 +63,12 @@ impl ScaleArgs {
                 Ok(ScaleSource::Shrunk { slide: Box::new(slide), shrinkage })
             }
             Some(shrinkage) => {
-                bail!("--shrinkage is {shrinkage}: it must be a share of the length, 0 to 0.9")
+                bail!("--shrinkage is {shrinkage}: it must be a fraction of the living length, 0 to 0.9")
             }
         }
     }
 
+    /// Returns the source of the scales before shrinkage is taken into account.
     fn slide(&self) -> Result<ScaleSource> {
         let per_degree = match (self.um_per_degree, self.axial_length) {
             (Some(um), _) => Scale::new(1., um)?.micrometres_per_degree(),
@@ -69,7 +83,7 @@ impl ScaleArgs {
         }
         if let Some(um) = self.field_um.or_else(|| self.field_degrees.map(|d| d * per_degree)) {
             if !(um.is_finite() && um > 0.) {
-                bail!("the width of the field must be a positive number");
+                bail!("the width of the image (--field-um, --field-degrees) must be a positive number");
             }
             return Ok(ScaleSource::FieldWidth { um, um_per_degree: per_degree });
         }

@@ -5,36 +5,57 @@ use conemosaic::mosaic::io::Manifest;
 use conemosaic::report::MetricSelection;
 use std::path::PathBuf;
 
-/// Which columns a summary has, and what is known of its rows.
+/// Options for the columns of the summary and for grouping its rows.
 #[derive(Args)]
 #[command(next_help_heading = "Summary")]
 pub struct SummaryArgs {
-    /// Columns of summary.csv: groups (about, density, nearest, samplers, detection, voronoi, regularity, recovery,
-    /// orientation, fourier, evenness, expected) or names, separated by commas; they are shown on the screen, too.
-    /// `conemosaic metrics` lists them [default: all]
+    /// Columns of summary.csv, by name or by group, separated by commas [default: all]
+    ///
+    /// Groups: about, density, nearest, samplers, detection, voronoi, regularity, recovery,
+    /// orientation, fourier, evenness, expected. The columns chosen are printed on the screen, too.
+    /// `conemosaic metrics` explains every column.
     #[arg(long, value_name = "A,B,…")]
     metrics: Option<MetricSelection>,
-    /// What is known of the files: CSV whose header names an identifier (a part of the file name; the longest one counts) and
-    /// further columns, which are added to summary.csv. eccentricity_mm (or eccentricity_deg) and meridian (nasal, temporal,
-    /// superior, inferior, of the retina) bring the density of Curcio et al. (1990) at that place beside the measured one
+    /// CSV file with further columns for summary.csv, such as subject, eye or eccentricity
+    ///
+    /// It has a header, and its first column is an identifier. A row belongs to the files whose
+    /// name contains its identifier; of several such rows the one with the longest identifier
+    /// counts.
+    ///
+    /// Where it has columns eccentricity_mm (or eccentricity_deg) and meridian (nasal, temporal,
+    /// superior or inferior, on the retina), the density of the average eye at that place (Curcio
+    /// et al. 1990) is given beside the measured one.
     #[arg(long, value_name = "FILE")]
     manifest: Option<PathBuf>,
-    /// Also write groups.csv, mean, SD and number of every column by group: a column of the manifest
-    /// (NAME or column:NAME[,NAME]), prefix:N (the
-    /// first N parts of the name between underscores) or a regular expression on the name
-    #[arg(long, value_name = "RULE")]
+    /// Rule that groups the files, for groups.csv
+    ///
+    /// groups.csv holds mean, SD and number of values of every column for
+    /// each group.
+    ///
+    /// column:NAME       by a column of the manifest; just NAME does, too
+    /// column:NAME,NAME  by several columns of the manifest
+    /// prefix:N          by the first N parts of the file name between
+    ///                   underscores
+    /// any other text    a regular expression: by its first group in the file
+    ///                   name, or by all that it matches if it has no group
+    #[arg(long, verbatim_doc_comment, value_name = "RULE")]
     group_by: Option<GroupBy>,
 }
 
 impl SummaryArgs {
+    /// Returns the columns to be shown; all if none were chosen.
     pub fn metrics(&self) -> MetricSelection {
         self.metrics.clone().unwrap_or_default()
     }
 
+    /// Returns the manifest and the rule of grouping.
+    ///
+    /// # Errors
+    /// If the manifest cannot be read, or is missing though its columns are to group the files.
     pub fn labels(&self) -> Result<Labels> {
         let manifest = self.manifest.as_deref().map(Manifest::read).transpose()?;
         if manifest.is_none() && matches!(self.group_by, Some(GroupBy::Columns(_))) {
-            bail!("--group-by column:NAME needs --manifest FILE");
+            bail!("--group-by column:NAME groups by a column of the manifest: give --manifest FILE as well");
         }
         let group_by = match (&self.group_by, &manifest) {
             (Some(rule), Some(manifest)) => Some(rule.clone().with(manifest)),

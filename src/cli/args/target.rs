@@ -8,32 +8,41 @@ use serde_json::json;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// A curve that the points are to have, instead of a named sampler.
+/// Options for points with a given pair correlation function or spectrum.
 #[derive(Args)]
-#[command(next_help_heading = "Points of a given pair correlation or spectrum (exactly n, instead of NAME)")]
+#[command(next_help_heading = "Points with a given pair correlation function or spectrum (instead of NAME)")]
 pub struct TargetArgs {
-    /// CSV of r (in hexagonal spacings, up to 1 at least) and g, as NAME.pcf.csv of `measure` holds them: points are moved until
-    /// their pair correlation function is this one. Beyond the last r, or 6 spacings, it is left to chance. How near they come
-    /// is printed and, beside --out, written to NAME.fit.json
+    /// CSV file of a pair correlation function that the points shall have
+    ///
+    /// Columns: r, in hexagonal spacings and up to 1 at least, and g, as in NAME.pcf.csv of
+    /// `measure`. Exactly n points are drawn and moved until their g(r) fits this one. Beyond the
+    /// last r, or beyond 6 spacings, g is left to chance. The largest remaining difference is
+    /// printed and, with --out, written to NAME.fit.json beside the points.
     #[arg(long, value_name = "FILE", conflicts_with = "name")]
     target_pcf: Option<PathBuf>,
-    /// CSV of frequency (in √n) and power (1: independent points), as NAME.spectrum.csv of `measure --spectrum` holds them: the same
-    /// for the radially averaged power spectrum, 1 beyond the last frequency: let it go on until it is. Smooth it,
-    /// or average several: the noise of a single pattern's spectrum is noise in g
+    /// CSV file of a radially averaged power spectrum that the points shall have
+    ///
+    /// Columns: frequency, in units of √n, and power (1 for independent points), as in
+    /// NAME.spectrum.csv of `measure --spectrum`. Beyond the last frequency the power is taken to
+    /// be 1, so the table should go on until it has settled there. Smooth the spectrum or average
+    /// several: the noise of a single pattern's spectrum becomes noise in g.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["name", "target_pcf"])]
     target_spectrum: Option<PathBuf>,
 }
 
-/// A curve that was read.
+/// Target curve as read from its file.
 pub struct Target {
-    /// What makes points of it.
+    /// Sampler that draws points with this curve.
     pub shaped: Shaped,
-    /// Rows of r and g, if that is what it is given by.
+    /// Rows of r, in spacings, and g; `None` if the target is a spectrum.
     pub pcf: Option<Vec<[f64; 2]>>,
 }
 
 impl TargetArgs {
-    /// Reads the curve, if there is one.
+    /// Reads the target curve; `None` if no option names one.
+    ///
+    /// # Errors
+    /// If the file cannot be read or no point pattern has this curve.
     pub fn target(&self) -> Result<Option<Target>> {
         let (curve, pcf) = match (&self.target_pcf, &self.target_spectrum) {
             (Some(path), _) => {
@@ -47,7 +56,7 @@ impl TargetArgs {
     }
 }
 
-/// Returns how near points came to their target, in words; a warning if that is not near.
+/// Returns a sentence on how well points fit their target; a warning if they fit it poorly.
 pub fn fit_in_words(fit: &TargetFit) -> String {
     let miss = significant(fit.l_infinity, 2);
     let words =
@@ -57,14 +66,19 @@ pub fn fit_in_words(fit: &TargetFit) -> String {
     }
     let why = match fit.at_the_end() {
         true => {
-            "pairs beyond its last r are left to chance and disturb the last ones; rows that go on, up to 6 spacings, with g = 1 where it has settled, mend that"
+            "g beyond the last r of the target is left to chance and disturbs the rows just before it; add rows up to 6 spacings, with g = 1 where it has settled"
         }
-        false => "a noisy g, or one of points whose density varies, may be out of reach",
+        false => {
+            "possibly no point pattern has this g, because it is noisy or comes from points of varying density; smooth it, or measure it in a region of even density"
+        }
     };
     format!("warning: {words}, more than {POOR_FIT}: {why}")
 }
 
-/// Writes the fit beside the file of the points, as NAME.fit.json, and returns the path.
+/// Writes the fit beside the file of the points, as NAME.fit.json, and returns its path.
+///
+/// # Errors
+/// If the file cannot be written.
 pub fn write_fit(points: &Path, n: usize, fit: &TargetFit) -> Result<PathBuf> {
     let path = points.with_extension("fit.json");
     let told = json!({
@@ -80,7 +94,9 @@ pub fn write_fit(points: &Path, n: usize, fit: &TargetFit) -> Result<PathBuf> {
     Ok(path)
 }
 
-/// Returns the curve and the rows that it is of.
+/// Reads a target curve and returns it with its rows.
+///
+/// `what` names the two columns in errors.
 fn read<E: std::error::Error + Send + Sync + 'static>(
     path: &Path,
     what: &str,
@@ -91,7 +107,10 @@ fn read<E: std::error::Error + Send + Sync + 'static>(
     Ok((curve(&rows).with_context(|| path.display().to_string())?, rows))
 }
 
-/// The first two columns; a header, blank lines and lines after # are left out.
+/// Returns the first two columns of a table.
+///
+/// A header, blank lines and lines that start with # are skipped; commas, semicolons and tabs
+/// separate columns.
 fn rows(text: &str, what: &str) -> Result<Vec<[f64; 2]>> {
     let mut rows = Vec::new();
     let mut header_allowed = true;

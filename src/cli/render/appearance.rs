@@ -4,100 +4,134 @@ use conemosaic::detect::{Modality, Polarity};
 use conemosaic::render::{PointSpread, RenderOptions};
 use rand::Rng;
 
-/// What the cones look like. The unit s is the local distance of the cones.
+/// Options for the appearance of cones and image. The unit s is the local spacing of the cones.
 #[derive(Args)]
-#[command(
-    next_help_heading = "Appearance (A..B: drawn anew for every image; defaults depend on preset and modality)"
-)]
+#[command(next_help_heading = "Appearance (N, or a range A..B from which each image draws; s: cone spacing)")]
 pub struct Appearance {
-    /// Shape of a confocal spot: gaussian or airy (diffraction by a round pupil, with rings)
+    /// Confocal: shape of the spot of a cone [default: gaussian]
+    ///
+    /// airy: diffraction pattern of a round pupil, with rings.
     #[arg(long, value_name = "PSF", value_parser = ["gaussian", "airy"])]
     psf: Option<String>,
-    /// Size of a cone in s (0.1–1.5): width of its spot at half maximum, or diameter of its inner segment [confocal .55, others .8]
+    /// Size of a cone in s (0.1–1.5) [default: confocal 0.55, others 0.8]
+    ///
+    /// Full width at half maximum of its spot in confocal images, diameter of its inner segment in
+    /// the others.
     #[arg(long, value_name = "S")]
     diameter: Option<Draw>,
-    /// Coefficient of variation of the sizes (0–0.5) [confocal .06, split .08, histology .05]
+    /// Coefficient of variation of the sizes of cones (0–0.5) [default: confocal 0.06, split 0.08,
+    /// histology 0.05]
     #[arg(long, value_name = "CV")]
     size_scatter: Option<Draw>,
-    /// Grey value where there is no cone (0–1) [confocal .045, split .5, histology .3]
+    /// Grey value where there is no cone (0–1) [default: confocal 0.045, split 0.5, histology 0.3]
     #[arg(long, value_name = "GREY")]
     brightness: Option<Draw>,
-    /// How far the average cone rises above that (0–1) [confocal .27, split .2, histology .35]
+    /// Contrast of the average cone, in grey values (0–1) [default: confocal 0.27, split 0.2,
+    /// histology 0.35]
+    ///
+    /// The difference between the cone and the grey value where there is no cone. Options below
+    /// that are “in contrasts” are multiples of it.
     #[arg(long, value_name = "GREY")]
     contrast: Option<Draw>,
-    /// Coefficient of variation of the cones' contrast, log-normal (0–2) [confocal .65, split .35, histology .15]
+    /// Coefficient of variation of the contrast of cones (0–2) [default: confocal 0.65, split 0.35,
+    /// histology 0.15]
+    ///
+    /// The contrast has a log-normal distribution.
     #[arg(long, value_name = "CV")]
     scatter: Option<Draw>,
-    /// Fraction of cones that are nearly invisible, class dim (0–1) [confocal and split .03, histology .01]
+    /// Fraction of cones that are nearly invisible, class dim (0–1) [default: histology 0.01,
+    /// others 0.03]
     #[arg(long, value_name = "F")]
     dim: Option<Draw>,
-    /// Fraction of cones that are not drawn, class missing (0–1) [0]
+    /// Fraction of cones that are not drawn, class missing (0–1) [default: 0]
     #[arg(long, value_name = "F")]
     missing: Option<Draw>,
-    /// Confocal: fraction of cones that are several small peaks (0–1) [0]
+    /// Confocal: fraction of cones that show several small peaks (0–1) [default: 0]
     #[arg(long, value_name = "F")]
     multimodal: Option<Draw>,
-    /// Rods per cone, in what room the cones leave (0–30) [0]
+    /// Number of rods per cone, placed between the cones (0–30) [default: 0]
     #[arg(long, value_name = "N")]
     rods: Option<Draw>,
-    /// Contrast of a rod relative to a cone (0–2) [.4]
+    /// Contrast of a rod relative to that of a cone (0–2) [default: 0.4]
     #[arg(long, value_name = "F")]
     rod_contrast: Option<Draw>,
-    /// Towards the bright side, degrees clockwise from the right (−360–360) [split 0, histology 45]
+    /// Split, histology: direction from the dark to the bright side [default: split 0, histology
+    /// 45]
+    ///
+    /// In degrees clockwise from the right (−360 to 360).
     #[arg(long, value_name = "DEG")]
     orientation: Option<Draw>,
-    /// Split: how much brighter than its surround the middle of a cone is, in contrasts (−2–2) [0]
+    /// Split: brightness of the middle of a cone above its surround, in contrasts (−2 to 2)
+    /// [default: 0]
     #[arg(long, value_name = "F")]
     lean: Option<Draw>,
-    /// Split: length of a cone across the direction of light and shade over that along it (0.5–2) [1.12]
+    /// Split: ratio of the two diameters of a cone (0.5–2) [default: 1.12]
+    ///
+    /// The diameter across the direction of light and shade, divided by the diameter along it.
     #[arg(long, value_name = "RATIO")]
     elongation: Option<Draw>,
-    /// Histology: light and dark side of a disc, relative to its height (0–2; Nomarski contrast: .4 and more) [.12]
+    /// Histology: difference between the bright and the dark side of a disc (0–2) [default: 0.12]
+    ///
+    /// Relative to the contrast of the disc; 0.4 and more look like Nomarski contrast.
     #[arg(long, value_name = "F")]
     shading: Option<Draw>,
-    /// Histology: depth of the dark outline in contrasts (0–3) [.45]
+    /// Histology: depth of the dark outline of a disc, in contrasts (0–3) [default: 0.45]
     #[arg(long, value_name = "F")]
     outline: Option<Draw>,
-    /// Histology: grain within the discs in contrasts (0–2) [0]
+    /// Histology: standard deviation of the grain inside the discs, in contrasts (0–2) [default: 0]
     #[arg(long, value_name = "F")]
     granules: Option<Draw>,
-    /// Histology: height of the section above the widest place of the cells, in half axes (0–0.95) [0]
+    /// Histology: height of the section above the widest part of the inner segments (0–0.95)
+    /// [default: 0]
+    ///
+    /// Inner segments are ellipsoids, and the unit is half their length. Above 0 they are cut at
+    /// different heights, so that their discs differ in size.
     #[arg(long, value_name = "F")]
     section: Option<Draw>,
-    /// Structure that is not a cone, standard deviation in contrasts (0–2) [confocal .07, split .22, histology .12]
+    /// Standard deviation of structure that is not a cone, in contrasts (0–2) [default: confocal
+    /// 0.07, split 0.22, histology 0.12]
     #[arg(long, value_name = "F")]
     texture: Option<Draw>,
-    /// Uneven illumination, standard deviation relative to its mean (0–1) [confocal .12, split .14, histology .08]
+    /// Standard deviation of uneven illumination, relative to its mean (0–1) [default: confocal
+    /// 0.12, split 0.14, histology 0.08]
     #[arg(long, value_name = "F")]
     drift: Option<Draw>,
-    /// Blood vessels that enter the image and branch (0–50) [0]
+    /// Number of blood vessels that enter the image and branch (0–50) [default: 0]
     #[arg(long, value_name = "N")]
     vessels: Option<Draw>,
-    /// Width of a vessel in s (0.5–50) [3]
+    /// Width of a vessel in s (0.5–50) [default: 3]
     #[arg(long, value_name = "S")]
     vessel_width: Option<Draw>,
-    /// Part of the light that a vessel takes (0–1) [.6]
+    /// Fraction of the light that a vessel absorbs (0–1) [default: 0.6]
     #[arg(long, value_name = "F")]
     vessel_depth: Option<Draw>,
-    /// Additional Gaussian blur, standard deviation in s (0–1) [confocal and histology .05, split .06]
+    /// Standard deviation of additional Gaussian blur, in s (0–1) [default: split 0.06, others
+    /// 0.05]
     #[arg(long, value_name = "S")]
     blur: Option<Draw>,
-    /// Noise of a pixel at mid-grey (0–0.5) [confocal .01, others .02]
+    /// Standard deviation of the noise of a pixel at mid-grey (0–0.5) [default: confocal 0.01,
+    /// others 0.02]
     #[arg(long, value_name = "GREY")]
     noise: Option<Draw>,
-    /// Part of the noise's variance that is photons', Poisson; the rest is the detector's, Gaussian (0–1) [.5]
+    /// Fraction of the variance of the noise that is photon noise (0–1) [default: 0.5]
+    ///
+    /// Photon noise has a Poisson distribution; the rest is Gaussian noise of the light detector.
     #[arg(long, value_name = "F")]
     photons: Option<Draw>,
-    /// Correlation of the noise of neighbouring pixels, standard deviation in px (0–4; 0: white) [.8]
+    /// Range over which the noise of neighbouring pixels is correlated, in px (0–4) [default: 0.8]
+    ///
+    /// Standard deviation of a Gaussian; 0 is white noise.
     #[arg(long, value_name = "PX")]
     grain: Option<Draw>,
-    /// Tiles along the longer side of a montage with ragged black borders (0–64; 0: one frame) [0]
+    /// Number of tiles along the longer side of a montage (0–64) [default: 0]
+    ///
+    /// The tiles overlap, and the montage has ragged black borders. 0 is a single frame.
     #[arg(long, value_name = "N")]
     montage: Option<Draw>,
 }
 
 impl Appearance {
-    /// The options of one image: what is given over what `defaults` say.
+    /// Returns the options of one image: the values given, and otherwise those of `defaults`.
     pub fn options(&self, defaults: RenderOptions, polarity: Polarity, rng: &mut dyn Rng) -> RenderOptions {
         let mut o = RenderOptions { polarity, ..defaults };
         if let Some(psf) = &self.psf {
@@ -137,14 +171,14 @@ impl Appearance {
         for (given, field) in [(self.vessels, &mut o.vessels), (self.montage, &mut o.montage)] {
             if let Some(draw) = given {
                 let value = draw.value(rng).round();
-                // a negative number is out of range either way
+                // a negative number becomes one that the check of the range refuses
                 *field = if value < 0. { usize::MAX } else { value as usize };
             }
         }
         o
     }
 
-    /// The first option given that pictures of this modality do not have.
+    /// Returns the first option given that images of this modality do not have.
     pub fn foreign(&self, modality: Modality) -> Option<&'static str> {
         let all = [
             ("--psf", self.psf.is_some(), &[Modality::Confocal][..]),

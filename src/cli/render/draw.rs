@@ -1,7 +1,7 @@
 use rand::{Rng, RngExt};
 use std::str::FromStr;
 
-/// A number, or a range from which every image draws its own.
+/// A number, or a range from which each image draws its own number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Draw {
     low: f64,
@@ -9,7 +9,7 @@ pub struct Draw {
 }
 
 impl Draw {
-    /// The number of an image: uniform over the range.
+    /// Returns the number for one image, drawn from the uniform distribution over the range.
     pub fn value(self, rng: &mut dyn Rng) -> f64 {
         if self.low < self.high { rng.random_range(self.low..=self.high) } else { self.low }
     }

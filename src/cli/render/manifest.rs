@@ -5,21 +5,24 @@ use serde::Serialize;
 use std::io::Write;
 use std::path::Path;
 
-/// What one image is and what it was made from.
+/// Description of one image: its files, seed, numbers of cones and source of the mosaic.
 #[derive(Serialize)]
 pub struct Entry {
     image: String,
     truth: String,
     seed: u64,
-    /// Cones of the truth: all, and those of class dim and missing.
+    /// Number of all cones of the truth.
     cones: usize,
+    /// Number of cones of class dim.
     dim_cones: usize,
+    /// Number of cones of class missing.
     missing_cones: usize,
     um_per_px: Option<f64>,
     mosaic: String,
 }
 
 impl Entry {
+    /// Returns the entry of an image and, if it is written, the file of its truth.
     pub fn new(
         (image, truth): (&Path, Option<&Path>),
         seed: u64,
@@ -41,10 +44,13 @@ impl Entry {
     }
 }
 
-/// A row an image: what it is, its mosaic, its appearance.
+/// One row per image: its description, its mosaic and its appearance.
 pub type Row = (Entry, MosaicOptions, RenderOptions);
 
 /// Writes the manifest as CSV, whole or not at all.
+///
+/// # Errors
+/// If the file cannot be written.
 pub fn write(path: &Path, rows: &[Row]) -> Result<()> {
     let mut table = csv::Writer::from_writer(Vec::new());
     for row in rows {
@@ -54,7 +60,9 @@ pub fn write(path: &Path, rows: &[Row]) -> Result<()> {
     write_atomically(path, |writer| writer.write_all(&bytes)).with_context(|| format!("{}", path.display()))
 }
 
-/// The text of the truth: every cone with its contrast and class, in µm too if the scale is known.
+/// Returns the table of the true cones: position in px, contrast and class.
+///
+/// If the scale is known, positions are given in µm as well.
 pub fn truth(made: &Simulation, um_per_px: Option<f64>) -> String {
     let mut text = String::from("x_px,y_px,contrast,class");
     text.push_str(if um_per_px.is_some() { ",x_um,y_um\n" } else { "\n" });

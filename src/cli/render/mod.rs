@@ -1,4 +1,4 @@
-//! `render`: simulated images whose cones are known.
+//! The command `render`, which makes simulated images whose cones are known.
 
 mod appearance;
 mod draw;
@@ -23,44 +23,61 @@ use rand_chacha::ChaCha8Rng;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Makes simulated images whose cones are known, to test detectors with
+/// Makes simulated images whose cones are known
+///
+/// The images show cones as a confocal or split-detector adaptive-optics ophthalmoscope or a
+/// histological micrograph shows them. With --truth the positions of all cones are written too, so
+/// that detectors can be tested and trained. It needs no files.
 #[derive(Args)]
 #[command(after_help = help())]
 pub struct Render {
-    /// Image to write: .png, .tif or .tiff; with --count NAME_001.png, NAME_002.png, …
+    /// Image file to write: .png, .tif or .tiff
+    ///
+    /// With --count N the files are NAME_001.png, NAME_002.png, …
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// CSV for the cones' centres: x_px,y_px,contrast,class; with --count numbered as the images are
+    /// CSV file for the true cones
+    ///
+    /// Columns: x_px,y_px,contrast,class. With --count the files are numbered like the images.
     #[arg(long, value_name = "FILE")]
     truth: Option<PathBuf>,
-    /// Which cones the truth lists: all, or seen (without the classes dim and missing)
+    /// Cones that --truth lists: all, or seen (those of class cone, without dim and missing ones)
     #[arg(long, value_name = "WHICH", default_value = "all", value_parser = ["all", "seen"], requires = "truth")]
     truth_of: String,
-    /// CSV of what every image is and of all its parameters, a row an image
+    /// CSV file for the parameters of the images, one row per image
     #[arg(long, value_name = "FILE")]
     manifest: Option<PathBuf>,
-    /// How many images (1–10000); image k has the seed --seed + k − 1
+    /// Number of images (1–10000)
+    ///
+    /// Image k has the seed --seed + k − 1, and can be made alone with that seed.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     count: u32,
-    /// A kind of image to start from: all that follows changes it
+    /// Preset: a typical image, which the other options change
+    ///
+    /// The presets are described at the end of this help.
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(PRESETS.map(|p| p.name)))]
     preset: Option<String>,
-    /// What kind of image: confocal, split or histology [default: the preset's, otherwise confocal]
+    /// Type of image: confocal, split or histology [default: that of the preset, otherwise
+    /// confocal]
     #[arg(long, value_name = "M", conflicts_with = "preset")]
     modality: Option<Modality>,
-    /// positive: bright cones, in split detection dark left and bright right; negative: the reverse
-    #[arg(long, value_name = "P", default_value = "positive")]
+    /// Contrast of the cones: positive or negative
+    ///
+    /// positive  cones are brighter than their surround; in split-detector
+    ///           images they are dark on the left and bright on the right
+    /// negative  the reverse
+    #[arg(long, verbatim_doc_comment, value_name = "P", default_value = "positive")]
     polarity: Polarity,
-    /// Width in px (1–16384) [default: the preset's, otherwise 150]
+    /// Width of the image in px (1–16384) [default: that of the preset, otherwise 150]
     #[arg(long, value_name = "PX")]
     width: Option<usize>,
-    /// Height in px (1–16384) [default: the preset's, otherwise 150]
+    /// Height of the image in px (1–16384) [default: that of the preset, otherwise 150]
     #[arg(long, value_name = "PX")]
     height: Option<usize>,
-    /// Bits per pixel: 8 or 16
+    /// Bits per pixel of the image file
     #[arg(long, value_name = "BITS", default_value = "8", value_parser = ["8", "16"])]
     bits: String,
-    /// Micrometres per pixel: the truth gets x_um,y_um as well
+    /// Micrometres per pixel; --truth then has the columns x_um,y_um as well
     #[arg(long, value_name = "UM", requires = "truth")]
     um_per_px: Option<f64>,
 
@@ -70,39 +87,28 @@ pub struct Render {
     appearance: Appearance,
 }
 
-/// Examples, the presets, and what the words mean.
+/// Examples and the meaning of terms, for the end of the help.
+const HELP: &str = include_str!("../help/render.txt").trim_ascii_end();
+
+/// Returns the presets with their descriptions, followed by the examples.
 fn help() -> String {
-    let presets: Vec<String> = PRESETS.iter().map(|p| format!("  {:<16} {}", p.name, p.about)).collect();
-    format!(
-        "\
-Presets:
-{}
-
-Examples:
-  conemosaic render --modality split --spacing 16 --out sim.png --truth sim.csv
-  conemosaic render --preset fovea --gradient 6 --out fovea.png --truth fovea.csv
-  mkdir set
-  conemosaic render --preset parafovea --count 50 --spacing 7..12 --noise 0.005..0.05 --vessels 0..2 \\
-    --out set/sim.png --truth set/sim.csv --manifest manifest.csv
-  conemosaic validate --reference set --images set --out scores
-  conemosaic render --width 4096 --height 4096 --spacing 6 --gradient 6 --gradient-shape radial --montage 6 --vessels 8 \\
-    --out montage.tif --truth montage.csv
-
-The unit s is the local distance of the cones. Without --points or --mosaic the cones form a mosaic like a real one: patches of triangular lattice with defects between, jittered.
-The truth's contrast is relative to the average cone; its class is cone, dim (below 0.3: faint, behind a vessel, or cut near its tip) or missing (not drawn). Rods are not listed. What a montage does not image is 0 and holds no cones.",
-        presets.join("\n")
-    )
+    let presets: Vec<String> = PRESETS.iter().map(|p| format!("  {}\n      {}", p.name, p.about)).collect();
+    format!("Presets (lengths in px are the spacing of the cones):\n{}\n\n{HELP}", presets.join("\n"))
 }
 
 impl Render {
+    /// Makes the images and writes them with their truth and manifest.
+    ///
+    /// # Errors
+    /// If an option is wrong or a file cannot be written.
     pub fn execute(self, common: &Common) -> Result<Done> {
         if self.truth.as_ref() == Some(&self.out) {
-            bail!("--out and --truth name the same file: give each its own");
+            bail!("--out and --truth name the same file: give each a file of its own");
         }
         if self.manifest.is_some()
             && (self.manifest == self.truth || self.manifest.as_ref() == Some(&self.out))
         {
-            bail!("--manifest names the file of --out or --truth: give it its own");
+            bail!("--manifest names the file of --out or --truth: give it a file of its own");
         }
         let um_per_px = self.um_per_px.map(|um| Scale::new(um, MICROMETRES_PER_DEGREE)).transpose()?;
         let um_per_px = um_per_px.map(|scale| scale.micrometres_per_pixel());
@@ -136,7 +142,7 @@ impl Render {
         Ok(Done::Completely)
     }
 
-    /// What the image of a seed is made from.
+    /// Returns the options of the mosaic and of the image for one seed.
     fn options(&self, seed: u64) -> Result<(MosaicOptions, RenderOptions)> {
         let preset = self.preset.as_deref().and_then(Preset::named);
         let (mosaic, mut image) = match preset {
@@ -151,7 +157,7 @@ impl Render {
         }
         image.width = self.width.unwrap_or(image.width);
         image.height = self.height.unwrap_or(image.height);
-        // a stream of its own: what is drawn here does not change the image of given options
+        // a random stream of its own, so that ranges do not change an image whose values are given
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         rng.set_stream(1);
         let mut image = self.appearance.options(image, self.polarity, &mut rng);
@@ -162,7 +168,7 @@ impl Render {
         Ok((mosaic, image))
     }
 
-    /// NAME_001.png for the first of several images.
+    /// Returns the path of image `k`, counted from 0: NAME_001.png for the first of several images.
     fn numbered(&self, path: &Path, k: u32) -> PathBuf {
         if self.count == 1 {
             return path.to_owned();
@@ -173,7 +179,7 @@ impl Render {
         path.with_file_name(format!("{stem}_{:0digits$}{ending}", k + 1))
     }
 
-    /// Image and truth, both or neither.
+    /// Writes image and truth, both or neither.
     fn write(
         &self,
         made: &Simulation,
@@ -189,7 +195,7 @@ impl Render {
         let depth = if self.bits == "16" { BitDepth::Sixteen } else { BitDepth::Eight };
         if let Err(error) = write_grey(image, &made.image, depth) {
             if let Some(truth) = truth {
-                // a truth without its image is worth nothing, and the reason is already on its way
+                // a truth without its image is useless; the error below already tells the reason
                 let _ = std::fs::remove_file(truth);
             }
             return Err(error.into());
@@ -198,7 +204,7 @@ impl Render {
     }
 }
 
-/// Without the cones that nobody could mark.
+/// Returns the simulation without the cones that nobody could mark, those dim or missing.
 fn seen(made: Simulation) -> Simulation {
     let all = made.cones.into_iter().zip(made.visibility);
     let (cones, visibility) = all.filter(|(_, v)| v.class == ConeClass::Cone).unzip();

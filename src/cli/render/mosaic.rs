@@ -11,31 +11,46 @@ use conemosaic::sample::sampler;
 use rand::Rng;
 use std::path::PathBuf;
 
-/// Where the cones are.
+/// Options for the positions of the cones.
 #[derive(Args)]
-#[command(next_help_heading = "Mosaic (A..B: drawn anew for every image)")]
+#[command(next_help_heading = "Mosaic (N, or a range A..B from which each image draws; s: cone spacing)")]
 pub struct MosaicSource {
-    /// Hexagonal spacing of the cones in px (2–1000): of the mean density; in the middle of a radial gradient [default: 9; with
-    /// --points each cone's own]
+    /// Hexagonal spacing of the cones in px (2–1000) [default: 9]
+    ///
+    /// It is the spacing at the mean density, or, with a radial gradient, in the middle. [default
+    /// with --points: measured around each cone]
     #[arg(long, value_name = "PX")]
     spacing: Option<Draw>,
-    /// Density at the left edge over that at the right edge, or in the middle over that half the longer side away (0.05–20)
-    /// [default: 1]
+    /// Ratio of the densities at the two ends of the gradient (0.05–20) [default: 1]
+    ///
+    /// linear: density at the left edge divided by that at the right edge; radial: density in the
+    /// middle divided by that at half the longer side from the middle. Below 1 the gradient runs
+    /// the other way.
     #[arg(long, value_name = "RATIO", conflicts_with = "points")]
     gradient: Option<Draw>,
-    /// linear: along x; radial: spacing grows from the middle outwards, as around the fovea [default: linear]
-    #[arg(long, value_name = "SHAPE", value_parser = ["linear", "radial"], conflicts_with = "points")]
+    /// Direction in which the density changes [default: linear]
+    ///
+    /// linear  along x
+    /// radial  from the middle outwards, as around the fovea
+    #[arg(long, verbatim_doc_comment, value_name = "SHAPE", value_parser = ["linear", "radial"], conflicts_with = "points")]
     gradient_shape: Option<String>,
-    /// Spacing along y over spacing along x (0.5–2) [default: 1]
+    /// Spacing along y divided by spacing along x (0.5–2) [default: 1]
     #[arg(long, value_name = "RATIO", conflicts_with = "points")]
     anisotropy: Option<Draw>,
-    /// Displacement of each cone in x and y, standard deviation in s (0–0.5) [default: 0.085; with --mosaic 0]
+    /// Standard deviation of a random displacement of each cone in x and y, in s (0–0.5)
+    ///
+    /// [default: 0.085, which gives the regularity index of real mosaics; with --mosaic: 0]
     #[arg(long, value_name = "S", conflicts_with = "points")]
     jitter: Option<Draw>,
-    /// Take the cones from a sampler (`conemosaic sample --list`), bent to the gradient
+    /// Sampler that places the cones, instead of the built-in model of a mosaic
+    ///
+    /// `conemosaic sample --list` shows the samplers. The pattern is deformed to follow the
+    /// gradient.
     #[arg(long, value_name = "SAMPLER", conflicts_with = "points")]
     mosaic: Option<String>,
-    /// Take the cones from a coordinate file in px, of any dialect that `measure` reads
+    /// File of coordinates of the cones, in px, instead of the built-in model of a mosaic
+    ///
+    /// Any format that `conemosaic measure` reads.
     #[arg(long, value_name = "FILE")]
     points: Option<PathBuf>,
     #[command(flatten)]
@@ -43,7 +58,7 @@ pub struct MosaicSource {
 }
 
 impl MosaicSource {
-    /// The mosaic of one image: what is given over what `defaults` say.
+    /// Returns the options of the mosaic of one image: the values given, and otherwise `defaults`.
     pub fn options(
         &self,
         defaults: MosaicOptions,
@@ -70,12 +85,16 @@ impl MosaicSource {
         o
     }
 
-    /// The spacing to draw the cones of a file with: they may be too few to tell it.
+    /// Returns the spacing given for the cones of a file, which may be too few to measure it;
+    /// `None` if there is no file or no spacing was given.
     pub fn given_spacing(&self, mosaic: &MosaicOptions) -> Option<f64> {
         self.points.as_ref().and(self.spacing).map(|_| mosaic.spacing)
     }
 
-    /// The picture of these cones.
+    /// Returns the image of the cones of one mosaic.
+    ///
+    /// # Errors
+    /// If the file of cones cannot be read, or the sampler or an option does not allow the image.
     pub fn picture(
         &self,
         mosaic: &MosaicOptions,
@@ -96,7 +115,7 @@ impl MosaicSource {
         Ok(picture(&points, image, rng)?)
     }
 
-    /// Where the cones come from, for the manifest.
+    /// Returns the source of the cones, for the manifest.
     pub fn name(&self) -> String {
         match (&self.points, &self.mosaic) {
             (Some(path), _) => path.display().to_string(),
