@@ -2,8 +2,8 @@
 //!
 //!     cargo run --release --example measure_folder -- fixtures/images [µm per pixel]
 //!
-//! This is `conemosaic run` in its simplest form: image → cones → mosaic → numbers → comparison with
-//! a sampler. An image that fails is reported, and the others go on.
+//! This is `conemosaic run` in its simplest form: image → cones → mosaic → numbers → comparison
+//! with a sampler. An image that fails is reported, and the others go on.
 
 use conemosaic::batch::{Input, image_files};
 use conemosaic::compare::{References, l_infinity};

@@ -32,8 +32,8 @@ impl Sampler for Matern {
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         let radius = self.least * frame.spacing(n);
-        // A point stays if it is the first within `radius` of itself: of λ points per area that is a
-        // share (1 − e^−λc) / λc, where c is the area of that disk. Solved for λ, so that n stay.
+        // A point stays if it is the first within `radius` of itself: of λ points per area that is
+        // a share (1 − e^−λc) / λc, where c is the area of that disk. Solved for λ, so that n stay.
         let area = frame.width * frame.height;
         let disk = std::f64::consts::PI * radius * radius;
         let drawn = -(1. - n as f64 * disk / area).ln() / disk * area;

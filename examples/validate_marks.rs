@@ -2,9 +2,9 @@
 //!
 //!     cargo run --release --example validate_marks -- IMAGES MARKS [ORIGIN]
 //!
-//! Each image NAME.png or NAME.tif in the folder IMAGES needs a file NAME.csv or NAME_coords.csv in the
-//! folder MARKS. ORIGIN is the coordinate of the centre of the top-left pixel in these files: 0 (the
-//! default), or 1 for marks made in MATLAB. Try it with
+//! Each image NAME.png or NAME.tif in the folder IMAGES needs a file NAME.csv or NAME_coords.csv in
+//! the folder MARKS. ORIGIN is the coordinate of the centre of the top-left pixel in these files: 0
+//! (the default), or 1 for marks made in MATLAB. Try it with
 //!
 //!     cargo run --release --example validate_marks -- fixtures/images fixtures/truth
 

@@ -42,15 +42,15 @@
 //!
 //! - Coordinates count from (0, 0) at the centre of the top-left pixel, x to the right, y down.
 //! - Images are planes of `f32` indexed as [row, column], but sizes are given as width, height.
-//! - Lengths are in the unit of the coordinates unless a name ends in `_px`, `_um` or `_s` (hexagonal
-//!   spacings).
-//! - Everything random takes a seed or a generator; the same seed gives the same bytes for any number
-//!   of threads.
+//! - Lengths are in the unit of the coordinates unless a name ends in `_px`, `_um` or `_s`
+//!   (hexagonal spacings).
+//! - Everything random takes a seed or a generator; the same seed gives the same bytes for any
+//!   number of threads.
 //!
 //! # Features
 //!
-//! `cli` (the program), `report` (the modules [`report`] and [`batch`]) and `archives` (coordinates in
-//! `.zip` and `.tar`) are on by default; `onnx` runs networks in ONNX format.
+//! `cli` (the program), `report` (the modules [`report`] and [`batch`]) and `archives` (coordinates
+//! in `.zip` and `.tar`) are on by default; `onnx` runs networks in ONNX format.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 

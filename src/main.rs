@@ -1,4 +1,4 @@
-//! The conemosaic program.
+//! The command-line program `conemosaic`.
 #![forbid(unsafe_code)]
 
 mod cli;

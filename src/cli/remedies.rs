@@ -49,6 +49,8 @@ pub fn words(error: &BatchError) -> String {
 mod tests {
     use super::*;
     use conemosaic::batch::BatchError;
+    use std::fs;
+    use std::path::{Path, PathBuf};
 
     #[test]
     fn an_error_names_the_options_that_help() {
@@ -60,5 +62,29 @@ mod tests {
         let error = BatchError::Corrected { path: "points.csv".into() };
         let text = words(&error);
         assert!(text.contains("--replace-corrections") && text.contains("--fresh") && text.contains("--out"));
+    }
+
+    #[test]
+    fn every_neutral_phrase_still_stands_in_the_library() {
+        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        let mut library = String::new();
+        for file in rust_files(&source) {
+            if !file.starts_with(source.join("cli")) {
+                library.push_str(&fs::read_to_string(file).unwrap());
+            }
+        }
+        // a string that goes on after a backslash at the end of a line has no break there
+        let parts = library.split("\\\n").enumerate();
+        let library: String = parts.map(|(i, part)| if i == 0 { part } else { part.trim_start() }).collect();
+        let gone: Vec<&str> =
+            PHRASES.iter().map(|(neutral, _)| *neutral).filter(|p| !library.contains(p)).collect();
+        assert_eq!(gone, [""; 0], "reworded in the library: reword them here too");
+    }
+
+    fn rust_files(folder: &Path) -> Vec<PathBuf> {
+        let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        let (folders, files): (Vec<_>, Vec<_>) = entries.partition(|path| path.is_dir());
+        let rust = files.into_iter().filter(|path| path.extension().is_some_and(|e| e == "rs"));
+        rust.chain(folders.iter().flat_map(|folder| rust_files(folder))).collect()
     }
 }

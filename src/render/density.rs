@@ -110,8 +110,8 @@ impl Density {
     ///
     /// For a linear gradient, a low-discrepancy sequence with a random start is bent (Roberts 2018,
     /// <https://extremelearning.com.au/unreasonable-effectiveness-of-quasirandom-sequences/>, the
-    /// analogue of the golden ratio in the plane). For a radial gradient, Vogel's spiral is spaced by
-    /// the density.
+    /// analogue of the golden ratio in the plane). For a radial gradient, Vogel's spiral is spaced
+    /// by the density.
     pub(super) fn evenly_spread(&self, bounds: &Rectangle, rng: &mut dyn Rng) -> Vec<Point> {
         const RATIO: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
         let start: [f64; 2] = [rng.random(), rng.random()];

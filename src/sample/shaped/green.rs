@@ -28,8 +28,8 @@ static SHAPED: LazyLock<Shaped> =
 
 /// Green noise: clusters at a typical distance, so that the power gathers in a ring.
 ///
-/// It is [`Shaped`] with the curves of the patterns of Ahmed et al. (2015). The term is that of Lau,
-/// Arce & Gallagher (1998, “Green-noise digital halftoning”).
+/// It is [`Shaped`] with the curves of the patterns of Ahmed et al. (2015). The term is that of
+/// Lau, Arce & Gallagher (1998, “Green-noise digital halftoning”).
 pub static GREEN: Noise = Noise {
     name: "green",
     about: "clusters at a typical distance, a ring of power at 0.62 √n: by optimisation towards the PCF and spectrum of Ahmed et al. (2015); exactly n",
