@@ -13,8 +13,8 @@ pub(super) struct Sought {
     pub polarity: Polarity,
     /// Cone spacing in px.
     pub spacing: f64,
-    /// Clarity of the image: the natural logarithm of the power around the ring of this cone
-    /// spacing over the power of detail finer than any cone.
+    /// Clarity of the image: the natural logarithm of the ratio of the power around the ring of
+    /// this cone spacing to the power of detail finer than any cone.
     ///
     /// See [`RingProfile::clarity`](super::RingProfile::clarity). Infinity stands for a clear
     /// image.

@@ -16,7 +16,7 @@
 //! assert_eq!(found.modality, Modality::Confocal);
 //! println!("{} cones, {:.1} px apart", found.cones.len(), found.spacing);
 //!
-//! // or stage by stage, with a spacing of one's own, in px
+//! // or stage by stage, at a spacing given in px
 //! let (modality, polarity) = (Modality::Confocal, Polarity::Positive);
 //! let clear = f64::INFINITY; // filters widen only in images of low clarity
 //! let (filtered, criterion) = response(&image, modality, polarity, 7.5, clear);
@@ -118,9 +118,9 @@ pub enum DetectError {
         width: usize,
         /// Height of the image in px.
         height: usize,
-        /// Width in px of the part of the image without its black margin.
+        /// Width in px of the part of the image inside its black margin.
         imaged_width: usize,
-        /// Height in px of the part of the image without its black margin.
+        /// Height in px of the part of the image inside its black margin.
         imaged_height: usize,
     },
     /// All pixels have the same value.
@@ -246,7 +246,11 @@ fn in_range(image: Cow<'_, Plane>) -> Cow<'_, Plane> {
     Cow::Owned(image)
 }
 
-/// Returns the numbers by which the modality and the polarity of an image are decided.
+/// Returns the features by which the modality and the polarity of an image are decided.
+///
+/// # Errors
+/// If the image, without its black margin, is too small or constant, or if a pixel is not a finite
+/// number.
 pub fn modality_features(image: &Plane) -> Result<ModalityFeatures, DetectError> {
     let (imaged, ..) = without_margin(image)?;
     let rings = View::suitable(&imaged, None).rings;

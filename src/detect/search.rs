@@ -16,8 +16,8 @@ use std::collections::HashMap;
 
 /// Largest number of searches of one image, the first one included.
 const PASSES: usize = 5;
-/// Relative change at which a spacing that varies from place to place has settled: every node of
-/// its map must change by less.
+/// Relative change of the spacing below which a spacing that varies from place to place has
+/// settled; every node of its map must change by less.
 ///
 /// The limit is wider than for a constant spacing, because a local count of cones scatters more
 /// than the count over an entire image.

@@ -27,7 +27,7 @@ pub struct Detections {
     pub modality: Modality,
     /// Probability (0–1) that the modality is right; 1 if it was given.
     pub modality_confidence: f64,
-    /// Sign of the contrast, given or decided from the image.
+    /// Sign of the cones' contrast, given or decided from the image.
     pub polarity: Polarity,
     /// Kind of filters that found the cones: classical or learned.
     pub detector: Detector,
@@ -36,8 +36,8 @@ pub struct Detections {
     /// Probability (0–1), judged by the ring alone, that `ring_spacing` is within 15 % of the true
     /// spacing.
     pub ring_confidence: f64,
-    /// Clarity of the image: the natural logarithm of the power around the ring of `spacing` over
-    /// the power of detail finer than any cone.
+    /// Clarity of the image: the natural logarithm of the ratio of the power around the ring of
+    /// `spacing` to the power of detail finer than any cone.
     ///
     /// It is above 6 for a clear image, and 2 where noise is as strong as the cones. See
     /// [`RingProfile::clarity`](super::RingProfile::clarity).
@@ -58,8 +58,8 @@ impl Detections {
         self.cones.iter().map(|d| 1. - d.score).sum()
     }
 
-    /// Returns the expected number of cones among the `rejected` candidates: the sum of their
-    /// scores.
+    /// Returns the expected number of cones among the `rejected` candidates: the sum of the
+    /// candidates' scores.
     ///
     /// Cones that left no trace in the image do not count.
     pub fn expected_misses(&self) -> f64 {

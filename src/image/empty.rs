@@ -2,8 +2,8 @@
 //!
 //! 1. A summed-area table gives the count in any rectangle by four look-ups.
 //! 2. Pull–push (Gortler et al. 1996, <https://doi.org/10.1145/237170.237200>) fills them in: the
-//!    plane is averaged to ever coarser versions until all pixels are known, and from there back to
-//!    fine.
+//!    plane is averaged to ever coarser versions until all pixels are known, and each version then
+//!    fills in the next finer one.
 
 use super::{Plane, fill_rows, imaged_mask};
 

@@ -145,8 +145,8 @@ struct Coarse {
     step: usize,
     /// Weights of the pixels around a point of the grid.
     ///
-    /// They form a hat twice as wide as `step`, so that fine detail does not pass for coarse
-    /// detail.
+    /// The weights form a triangle (a hat) twice as wide as `step`, so that fine detail does not
+    /// pass for coarse detail.
     hat: Vec<f32>,
     /// Weights of the Gaussian kernel on the grid, from its middle outwards.
     kernel: Vec<f32>,

@@ -22,7 +22,7 @@ const ABRUPT: f64 = 0.5;
 
 /// Least number of runs per row of a porous region, such as the ground between cones.
 ///
-/// A run is an unbroken stretch of pixels in a row.
+/// A run is an unbroken stretch of black pixels in a row.
 const POROUS_RUNS: usize = 4;
 /// Largest mean length, in px, of the runs of a porous region.
 const POROUS_LENGTH: usize = 64;
@@ -40,15 +40,16 @@ pub struct ImagedPart {
     pub width: usize,
 }
 
-/// Returns the imaged part: the bounds of the [`imaged_mask`], or all of the image if nothing was
-/// imaged.
+/// Returns the part that was imaged: the bounds of the [`imaged_mask`], or all of the image if
+/// nothing was imaged.
 pub fn imaged_part(plane: &Plane) -> ImagedPart {
     let (height, width) = plane.dim();
     let whole = ImagedPart { top: 0, left: 0, height, width };
     imaged_mask(plane).and_then(|mask| part_of(&mask, width)).unwrap_or(whole)
 }
 
-/// Returns the bounds of a mask with rows of `width` pixels, or `None` if no pixel is in it.
+/// Returns the bounds of a mask with rows of `width` pixels, or `None` if no pixel of the mask is
+/// `true`.
 pub(super) fn part_of(mask: &[bool], width: usize) -> Option<ImagedPart> {
     let imaged = |row: &&[bool]| row.contains(&true);
     let rows = || mask.chunks_exact(width.max(1));
@@ -179,8 +180,8 @@ impl Region {
     }
 }
 
-/// Connected regions, stored as runs of pixels row by row; each run points to an earlier run of its
-/// region.
+/// Connected black regions, stored as runs of pixels row by row; each run points to an earlier run
+/// of its region.
 ///
 /// `connected_components` of imageproc would keep two words and a label for every pixel and panics
 /// from 2³² pixels on. That is too much for a montage, whose margins are few runs.

@@ -2,7 +2,7 @@
 //!
 //! 1. The mask of imaged pixels is eroded by 1 px, because ragged edges are mixed with black.
 //! 2. The outlines of the mask are followed along the edges of its pixels.
-//! 3. The steps of oblique lines are levelled.
+//! 3. Oblique lines, which run in steps along pixel edges, are straightened.
 //! 4. The outlines are simplified (Douglas and Peucker 1973,
 //!    <https://doi.org/10.3138/FM57-6770-U75U-7727>).
 

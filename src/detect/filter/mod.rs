@@ -1,6 +1,6 @@
 //! Classical filters whose local maxima are cones, one per modality.
 //!
-//! All take a plane and the cone spacing in px.
+//! All filters take a plane and the cone spacing in px.
 
 pub(super) mod confocal;
 pub(super) mod histology;
@@ -94,8 +94,8 @@ impl ConeFinder for Filter {
         Ok(found)
     }
 
-    /// Returns .005 (.5 %): a filter follows the spacing closely, so even small changes of it
-    /// matter.
+    /// Returns .005 (.5 %): the response of a filter follows the spacing closely, so even a small
+    /// change of the spacing matters.
     fn settled(&self) -> f64 {
         0.005
     }

@@ -25,12 +25,14 @@ pub(super) struct Kernel {
 }
 
 impl Maps {
-    /// Returns the convolution of these maps with `kernel`: Σ weight · input + bias, zeros outside.
+    /// Returns the convolution of these maps with `kernel`: Σ weight · input + bias, with zeros
+    /// outside the maps.
     pub(super) fn convolved(&self, kernel: &Kernel) -> Self {
         self.through(kernel, false)
     }
 
-    /// Returns the convolution with `kernel`, negative values replaced by zero (ReLU).
+    /// Returns the convolution of these maps with `kernel`, in which negative values are replaced
+    /// by zero (ReLU).
     pub(super) fn layer(&self, kernel: &Kernel) -> Self {
         self.through(kernel, true)
     }

@@ -61,7 +61,7 @@ enum Network {
     Onnx(Box<onnx::Onnx>),
 }
 
-/// Threshold of the logit above which a maximum is a cone.
+/// Rule that gives the logit above which a maximum is a cone.
 #[derive(Debug)]
 enum Threshold {
     /// The threshold `logit`, which rises by `in_noise` for every unit by which the image's clarity

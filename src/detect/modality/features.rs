@@ -19,8 +19,8 @@ const COARSE: f64 = 0.2;
 ///
 /// Without it, noise would blur the distribution of grey values.
 const GREY: f64 = 0.08;
-/// Width, in spacings, of the Gaussian neighbourhood with whose mean and scatter grey values are
-/// compared.
+/// Width, in spacings, of the Gaussian neighbourhood whose mean and scatter serve as reference for
+/// grey values.
 const AROUND: f64 = 1.5;
 /// Least range of grey values that other values are divided by, in local standard deviations.
 ///
@@ -121,7 +121,7 @@ impl Features {
         [response, self.coarse_slopes, self.fine_slopes, self.blobs_skewness]
     }
 
-    /// Returns the coefficient of variation of the cones' heights.
+    /// Returns the coefficient of variation of the cones' heights in `blobs`.
     ///
     /// The heights of waveguides (confocal) scatter more than those of cut discs (histology).
     fn scatter_of_heights(&self) -> f64 {
@@ -158,7 +158,7 @@ struct Greys {
     kurtosis: f64,
     /// Interquartile range, divided by the range from the 5 % to the 95 % quantile.
     ///
-    /// It is large where most pixels are either disc or ground.
+    /// It is large where most pixels belong either to a disc or to the ground.
     boxiness: f64,
     /// Distance of the bright end from the median less that of the dark end, divided by the
     /// distance between the ends.

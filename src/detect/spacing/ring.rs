@@ -65,8 +65,8 @@ pub struct RingEstimate {
     /// Probability, 0–1, judged by the spectrum alone, that the spacing is within 15 % of the true
     /// one.
     pub confidence: f64,
-    /// Spacing, in px, that the true spacing is below with a probability of 15 %; at most
-    /// `spacing`.
+    /// Lower limit of the spacing in px: with a probability of 15 %, the true spacing is below it.
+    /// At most `spacing`.
     pub least: f64,
 }
 
@@ -210,7 +210,8 @@ impl RingProfile {
         RingEstimate { spacing, confidence: self.probability_near(spacing), least: self.least().min(spacing) }
     }
 
-    /// Returns the most probable spacing, px, that differs from `spacing` by at most `factor`.
+    /// Returns the most probable spacing, in px, that differs from `spacing` by at most the given
+    /// factor, up or down.
     pub(super) fn spacing_near(&self, spacing: f64, factor: f64) -> f64 {
         self.peak_among(|s| (s / spacing).ln().abs() <= factor.ln())
     }

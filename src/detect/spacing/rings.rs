@@ -98,9 +98,9 @@ impl Rings {
     }
 }
 
-/// Returns the first pixel of every tile along a side.
+/// Returns the first pixel of every tile along a side of `length` px.
 ///
-/// A short side has one tile, a long side tiles that overlap by half or more.
+/// A side of up to 512 px has one tile; the tiles of a longer side overlap by at least half.
 fn tile_starts(length: usize) -> Vec<usize> {
     if length <= SIZE {
         return vec![0];

@@ -10,7 +10,7 @@ const PER_SIDE: usize = 4;
 /// Largest factor by which the spacing of a tile may differ from that of the entire image.
 const LOCAL: f64 = 2.;
 
-/// Options of a map of the spacing.
+/// Options of a map of the modal spacing, see [`fourier_map`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FourierMapOptions {
     /// Side of a tile, in spacings of the entire image: 6–60, default 12.
@@ -38,7 +38,7 @@ impl FourierMapOptions {
     }
 }
 
-/// The modal spacing of an image from place to place.
+/// Modal spacing of an image from place to place, as [`fourier_map`] finds it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FourierMap {
     /// Side of the tiles in px.

@@ -43,7 +43,8 @@ const LARGE: usize = 16 * LONGEST * LONGEST;
 /// Smallest fraction of a tile that must have been imaged for the tile to be measured.
 const IMAGED: f64 = 0.5;
 
-/// The modal spacing of an image, or of a part of it.
+/// Modal spacing of an image or of a part of it: the period of the waves at which its spectrum has
+/// a ring.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FourierSpacing {
     /// Modal spacing 1/f in px, with f the modal frequency: the distance between neighbouring rows
@@ -89,8 +90,8 @@ pub struct FourierEstimate {
 ///
 /// The spacing lies between 4 and 40 px; the row spacing is at most a fifth of the shorter side.
 /// Tiles are as large as the image allows, up to 512 px, and overlap by half; beyond 4 megapixels
-/// they only touch. Pixels that were not imaged are filled in, and tiles that are mostly such
-/// pixels are left out unless all tiles are.
+/// they only touch. Pixels that were not imaged are filled in. Tiles of which less than half was
+/// imaged are left out, unless this is true of all tiles.
 ///
 /// A mosaic has a ring because its patches of lattice are turned every way. A single perfect
 /// lattice has six points instead, which the mean of logarithms hardly shows: it may be missed.
@@ -98,15 +99,15 @@ pub struct FourierEstimate {
 /// The accuracy is measured by `tests/it/fourier_spacing.rs` against the spacing of the lattice
 /// with the density of the marks:
 ///
-/// - Of 200 confocal images all are within 15 %, on average 3.5 % too wide (standard deviation
-///   1.6 %). The ring of the marks themselves ([`modal_spacing`](crate::stats::modal_spacing)) is
-///   3.0 % too wide (1.9 %), because mosaics are no lattices.
-/// - Of 184 split-detector images 84 % are within 15 % (on average −2.9 %, standard deviation
-///   5.5 %), as many as by the ring of the marks.
+/// - Of 200 confocal images all are within 15 %, on average 3.5 % too wide (standard deviation 1.6
+///   %). The ring of the marks themselves ([`modal_spacing`](crate::stats::modal_spacing)) is 3.0 %
+///   too wide (1.9 %), because mosaics are no lattices.
+/// - Of 184 split-detector images 84 % are within 15 % (on average −2.9 %, standard deviation 5.5
+///   %), as many as by the ring of the marks.
 ///
 /// # Errors
-/// If a side is below [`MIN_SIDE`](crate::detect::MIN_SIDE), all pixels are the same, or one is not
-/// a number.
+/// If a side is below [`MIN_SIDE`](crate::detect::MIN_SIDE), if all pixels are the same, or if a
+/// pixel is not a number.
 pub fn fourier_spacing(image: &Plane) -> Result<FourierEstimate, DetectError> {
     check(image)?;
     let empty = EmptyPixels::of(image);

@@ -101,7 +101,7 @@ impl Polar {
         Self { side, size, taper, terms, weights }
     }
 
-    /// Returns the profile of the tile of an image whose first pixel is (`left`, `top`).
+    /// Returns the profile of the tile of `image` that begins in column `left` and row `top`.
     pub fn profile(&self, image: &Plane, top: usize, left: usize) -> Profile {
         let mut tile = crop(image, top, left, self.side, self.side);
         let mean = (tile.iter().map(|v| f64::from(*v)).sum::<f64>() / tile.len() as f64) as f32;
