@@ -92,6 +92,9 @@ impl Detections {
     /// found.
     ///
     /// Without a `scale`, everything measured in the mosaic stays in px.
+    ///
+    /// # Errors
+    /// If the image has no pixels, or if the position of a cone is not a finite number.
     pub fn mosaic(&self, image: &Plane, scale: Option<Scale>) -> Result<Mosaic, MosaicError> {
         // a refined centre lies at most half a pixel from its pixel, so never beyond the image's
         // window
