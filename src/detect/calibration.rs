@@ -1,5 +1,5 @@
-//! Probabilities: that a person would mark a cone where a filter responds, and that the spacing is
-//! right.
+//! Calibration of two probabilities: that a person would mark a cone where a filter responds, and
+//! that the spacing is right.
 //!
 //! Both are logistic regressions, fitted by `scripts/fit-calibration`.
 
@@ -25,10 +25,10 @@ impl Logistic {
 ///
 /// - `sure` is the probability (0–1) that the ring's own spacing is right.
 /// - `moved` is the absolute logarithm of the factor by which the density of the detections changed
-///   it.
-/// - `clarity` (see [`RingProfile::clarity`](super::RingProfile::clarity)) counts if it is below 1,
-///   so if the ring stands out of detail finer than any cone by less than a factor of e: white
-///   noise has rings, too.
+///   the ring's spacing.
+/// - `clarity` (see [`RingProfile::clarity`](super::RingProfile::clarity)) lowers the probability
+///   if it is below 1. The ring then has less than e times the power of detail finer than any cone,
+///   and even white noise has such rings.
 ///
 /// The coefficients are a logistic regression by `scripts/fit-calibration` on hand-marked and
 /// simulated images, among them blurred and noisy ones and white noise.
@@ -45,15 +45,15 @@ pub(super) fn spacing(sure: f64, moved: f64, clarity: f64) -> f64 {
 pub(super) enum Reference {
     /// Median height of the image's cones; the response is divided by it.
     Median,
-    /// Least height of a cone in the image; it is subtracted from the response.
+    /// Height that a cone in the image must exceed; it is subtracted from the response.
     Least,
 }
 
 impl Reference {
     /// Returns the function that measures a height against the reference.
     ///
-    /// `cones` are those of the image, the highest first; `least` is the height that a cone had to
-    /// exceed.
+    /// `cones` are the cones of the image, the highest first. `least` is the height that a cone had
+    /// to exceed.
     pub(super) fn against(self, cones: &[Detection], least: f64) -> impl Fn(f64) -> f64 + use<> {
         let median = cones.get(cones.len() / 2).map_or(1., |d| d.score).max(f64::MIN_POSITIVE);
         move |height| match self {

@@ -13,24 +13,28 @@ pub(super) struct Sought {
     pub polarity: Polarity,
     /// Cone spacing in px.
     pub spacing: f64,
-    /// Clarity of the image's ring at that spacing
-    /// ([`RingProfile::clarity`](super::RingProfile::clarity)); infinity for a clear image.
+    /// Clarity of the image: the natural logarithm of the ratio of the power around the ring of
+    /// this cone spacing to the power of detail finer than any cone.
+    ///
+    /// See [`RingProfile::clarity`](super::RingProfile::clarity). Infinity stands for a clear
+    /// image.
     pub clarity: f64,
 }
 
 /// A method that finds cones in an image at one spacing.
 pub(super) trait ConeFinder: Sync {
-    /// Returns the cones of `image` and the candidates that were too faint, the best first.
+    /// Returns the cones of `image` and the candidates that were too faint, each from the best to
+    /// the worst.
     ///
-    /// Scores are probabilities.
+    /// Scores are probabilities (0–1).
     fn find(&self, image: &Plane, sought: Sought) -> Result<Found, WeightsError>;
 
-    /// Returns the relative change of the spacing below which another search would find the same
+    /// Returns the relative change of the spacing below which a new search would find the same
     /// cones.
     fn settled(&self) -> f64;
 }
 
-/// Cones, and candidates that were too faint; scores are probabilities.
+/// Cones, and candidates that were too faint. Their scores are probabilities (0–1).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Found {
     /// Candidates that are taken for cones.

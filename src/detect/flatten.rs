@@ -2,15 +2,16 @@
 
 use crate::image::{Plane, gaussian, values};
 
-/// Smallest local standard deviation that is divided by, as a fraction of the largest one.
+/// Least local contrast that a plane is divided by, as a fraction of the largest local contrast in
+/// the plane.
 ///
-/// Without it, the noise of empty margins would be blown up.
+/// Without this floor, the noise of empty margins would be blown up.
 const FLOOR: f32 = 1e-3;
 
 /// Returns the image less its slow drift, divided by its local contrast.
 ///
-/// With I the image and G(σ) a Gaussian of σ = longer side / 8, that is g / √(G(σ)∗g²), g = I −
-/// G(σ)∗I. The result has mean about 0 and standard deviation about 1 everywhere.
+/// With I the image and G(σ) a Gaussian filter of σ = longer side / 8, the result is g /
+/// √(G(σ)∗g²), where g = I − G(σ)∗I. It has mean about 0 and standard deviation about 1 everywhere.
 pub fn flatten(image: &Plane) -> Plane {
     let (h, w) = image.dim();
     let sigma = h.max(w) as f64 / 8.;
@@ -27,10 +28,10 @@ pub(super) fn normalise(plane: &Plane, sigma: f64) -> Plane {
     variance
 }
 
-/// Returns the highest value of a plane that has none below zero.
+/// Returns the highest value of a plane without negative values.
 ///
-/// Sixteen maxima are kept side by side, because each comparison with a single one would wait for
-/// the one before.
+/// Sixteen maxima are kept side by side, because comparisons with a single maximum would have to
+/// wait for each other.
 fn highest(plane: &Plane) -> f32 {
     let values = values(plane);
     let (blocks, rest) = values.as_chunks::<16>();

@@ -11,9 +11,9 @@ use rayon::prelude::*;
 
 /// Returns the local maxima of `response` over 3 × 3 px that exceed `threshold`, in reading order.
 ///
-/// Each is moved by at most half a pixel, to the top of a parabola through its neighbours along x
-/// and along y; its score is the response at the pixel. A plateau counts once, at its first pixel
-/// in reading order.
+/// Each maximum is moved by at most half a pixel, to the top of a parabola through its neighbours
+/// along x and along y; its score is the response at the pixel. A plateau counts once, at its first
+/// pixel in reading order.
 pub fn local_maxima(response: &Plane, threshold: f32) -> Vec<Detection> {
     let (h, w) = response.dim();
     let data = values(response);
@@ -53,14 +53,14 @@ pub fn local_maxima(response: &Plane, threshold: f32) -> Vec<Detection> {
     }
 }
 
-/// Number of pixels that are compared with their neighbours together.
+/// Number of pixels of a row that are compared with their neighbours at once.
 const BLOCK: usize = 16;
 
-/// Returns whether a pixel of the block from `x` on may be a maximum.
+/// Returns whether any pixel of the block that begins at column `x` may be a maximum.
 ///
-/// It may if it is above its upper and its left neighbour and not below its right and its lower
-/// one. There are no branches, so that all pixels of a block are compared at once. Blocks at either
-/// end of a row are not examined and may always hold one.
+/// A pixel may be a maximum if it is higher than its upper and its left neighbour and not lower
+/// than its right and its lower one. There are no branches, so that all pixels of a block are
+/// compared at once. Blocks at either end of a row are not examined; the result for them is `true`.
 fn any_on_top(x: usize, above: &[f32], here: &[f32], below: &[f32]) -> bool {
     fn block(row: &[f32], from: usize) -> Option<&[f32; BLOCK]> {
         row.get(from..from + BLOCK)?.try_into().ok()
@@ -80,9 +80,10 @@ fn any_on_top(x: usize, above: &[f32], here: &[f32], below: &[f32]) -> bool {
     })
 }
 
-/// Returns the place of the top of the parabola through (−1, a), (0, b), (1, c), within ½ of 0.
+/// Returns the position of the top of the parabola through (−1, a), (0, b), (1, c), clamped to −½
+/// to ½.
 ///
-/// The place is 0 if the parabola has no top.
+/// The position is 0 if the parabola has no top.
 fn parabola_top(a: f32, b: f32, c: f32) -> f64 {
     let curvature = f64::from(a) - 2. * f64::from(b) + f64::from(c);
     if curvature < 0. { (0.5 * f64::from(a - c) / curvature).clamp(-0.5, 0.5) } else { 0. }
@@ -114,7 +115,7 @@ mod tests {
 
     #[test]
     fn maxima_are_those_of_a_plain_search() {
-        // so few levels that there are plateaus
+        // grey levels are so few that there are plateaus
         let plane =
             Plane::from_shape_fn((37, 53), |(y, x)| ((x * 7919 + y * 104_729 + x * y * 31) % 7) as f32);
         let at = |y: isize, x: isize| plane.get((y as usize, x as usize)).copied();

@@ -16,7 +16,7 @@
 //! assert_eq!(found.modality, Modality::Confocal);
 //! println!("{} cones, {:.1} px apart", found.cones.len(), found.spacing);
 //!
-//! // or stage by stage, with a spacing of one's own, in px
+//! // or stage by stage, at a spacing given in px
 //! let (modality, polarity) = (Modality::Confocal, Polarity::Positive);
 //! let clear = f64::INFINITY; // filters widen only in images of low clarity
 //! let (filtered, criterion) = response(&image, modality, polarity, 7.5, clear);
@@ -67,32 +67,35 @@ use strum::VariantArray;
 use thiserror::Error;
 use view::View;
 
-/// Shortest side of an image in px; a smaller one has no room for even a handful of cones at the
-/// closest spacing.
+/// Least width and height, in px, of an image in which cones are looked for.
+///
+/// Smaller images are refused: they have no room for even a handful of cones at the closest
+/// spacing.
 pub const MIN_SIDE: usize = 24;
 
-/// Number of files of weights: one network per modality, that of the spacing and that of the
-/// modality.
+/// Number of weight files: one per modality for the network that finds cones, one for the network
+/// that estimates the spacing, and one for the network that recognises the modality.
 const FILES: usize = Modality::VARIANTS.len() + 2;
 
-/// Returns the files of weights that are compiled into the program and on which its results depend.
+/// Returns the weight files that are compiled into the program; its results depend on them.
 ///
-/// First come the networks of the modalities in the order of [`Modality`], then that of the spacing
-/// and that of the modality.
+/// First come the networks that find cones, one per modality in the order of [`Modality`], then the
+/// network that estimates the spacing, and last the network that recognises the modality.
 pub fn weights() -> [&'static [u8]; FILES] {
     let others = [spacing::ring_weights(), modality::weights()];
     let mut all = SPECS.iter().map(|spec| spec.network.weights()).chain(others);
     std::array::from_fn(|_| all.next().unwrap_or_default())
 }
 
-/// Largest binary exponent of grey values that need no rescaling.
+/// Largest absolute binary exponent of grey values that are filtered without rescaling.
 ///
-/// Images whose largest grey value is about 2^−20 to 2^20 are filtered as they are.
+/// An image is rescaled if its largest absolute grey value is outside about 2^−20 to 2^20.
 const USUAL_EXPONENT: f64 = 20.;
 
-/// Confidence in a spacing from which on it is not doubted.
+/// Least confidence (0–1) at which a spacing is accepted; below it, wider spacings are tried as
+/// well.
 const SURE: f64 = 0.9;
-/// Confidence in a spacing below which nothing speaks for it.
+/// Confidence (0–1) below which a spacing is given up for any wider spacing of higher confidence.
 const HOPELESS: f64 = 0.1;
 
 /// Reasons why cones cannot be looked for in an image.
@@ -115,9 +118,9 @@ pub enum DetectError {
         width: usize,
         /// Height of the image in px.
         height: usize,
-        /// Width in px of the part that is not a margin.
+        /// Width in px of the part of the image inside its black margin.
         imaged_width: usize,
-        /// Height in px of the part that is not a margin.
+        /// Height in px of the part of the image inside its black margin.
         imaged_height: usize,
     },
     /// All pixels have the same value.
@@ -136,16 +139,16 @@ pub enum DetectError {
         /// Value of the pixel.
         value: f32,
     },
-    /// A spacing, in px, is outside its range.
+    /// The given cone spacing, in px, is outside the range 4–160 px.
     #[error("a spacing of {0} px is outside {low}–{high} px", low = SPACING_RANGE.0, high = WIDEST_SPACING)]
     Spacing(f64),
-    /// A side of tiles, in spacings, is outside its range.
+    /// The given side of the tiles of a spacing map, in spacings, is outside the range 6–60.
     #[error("tiles of {0} spacings cannot be mapped: give a side of 6 to 60 spacings")]
     TileSide(f64),
-    /// The spectrum shows no ring.
+    /// The spectrum of the image has no ring between 4 and 40 px, so it shows no regular mosaic.
     #[error("the spectrum of the image has no ring between {low} and {high} px: it shows no regular mosaic", low = SPACING_RANGE.0, high = SPACING_RANGE.1)]
     NoRing,
-    /// A model is given together with the classical detector, which uses none.
+    /// A model is given together with the classical detector, which uses no model.
     #[error("the classical detector uses no model: leave out the one or the other")]
     Unused,
     /// A model is given that was made for images of another modality.
@@ -204,10 +207,12 @@ pub fn detect(image: &Plane, options: &DetectOptions) -> Result<Detections, Dete
     Ok(found)
 }
 
-/// Returns the image without its straight black margin, and the column and row where that part
-/// begins.
+/// Returns the part of the image inside its black margins, and the first column and row of that
+/// part.
 ///
-/// The edges of a margin look like cones, and its spectrum would be added to that of the mosaic.
+/// The edges of a margin look like cones, and the spectrum of a margin would be added to that of
+/// the mosaic. The grey values of the part are rescaled if [`in_range`] finds them extremely small
+/// or large.
 fn without_margin(image: &Plane) -> Result<(Cow<'_, Plane>, usize, usize), DetectError> {
     check(image)?;
     let part = imaged_part(image);
@@ -224,10 +229,11 @@ fn without_margin(image: &Plane) -> Result<(Cow<'_, Plane>, usize, usize), Detec
     Ok((in_range(Cow::Owned(imaged)), part.left, part.top))
 }
 
-/// Multiplies grey values by a power of two if single precision cannot hold their squares or sums.
+/// Multiplies grey values by a power of two if they are so small or large that single precision
+/// might not hold their squares or sums.
 ///
-/// That changes nothing else. Integers of 64 bits of which only the lowest few are used lead to
-/// values that small.
+/// Nothing else changes, because a power of two only changes the exponents. Extremely small values
+/// come, for example, from 64-bit integers of which only the lowest few bits are used.
 fn in_range(image: Cow<'_, Plane>) -> Cow<'_, Plane> {
     let largest = f64::from(image.iter().fold(0f32, |top, v| top.max(v.abs())));
     let exponent = largest.log2().floor();
@@ -240,17 +246,21 @@ fn in_range(image: Cow<'_, Plane>) -> Cow<'_, Plane> {
     Cow::Owned(image)
 }
 
-/// Returns the numbers by which the modality and the polarity of an image are decided.
+/// Returns the features by which the modality and the polarity of an image are decided.
+///
+/// # Errors
+/// If the image, without its black margin, is too small or constant, or if a pixel is not a finite
+/// number.
 pub fn modality_features(image: &Plane) -> Result<ModalityFeatures, DetectError> {
     let (imaged, ..) = without_margin(image)?;
     let rings = View::suitable(&imaged, None).rings;
     Ok(modality::features(rings.sample(), rings.whole()))
 }
 
-/// Detects the cones in an image that has no straight margin.
+/// Detects the cones in an image without a black margin.
 ///
-/// In doubt about the spacing, it also searches means of pixels for cones farther apart, and keeps
-/// the better of both results.
+/// If the spacing was not given and is in doubt, the image is searched once more for cones farther
+/// apart, in coarser pixels, and the better of the two results is kept.
 fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, DetectError> {
     let view = View::suitable(image, options.spacing);
     let mut found = detect_in(&view, options)?;
@@ -259,8 +269,8 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
         && let Some(wider) = view.wider(found.spacing_confidence)
     {
         let other = detect_in(&wider, options)?;
-        // both spacings are in doubt: the more regular mosaic is right, unless nothing speaks for
-        // the closer one and the wider one is surer
+        // both spacings are in doubt: the more regular mosaic is taken; a wider spacing of higher
+        // confidence also wins if the closer one is hopeless
         let regularity = |found: &Detections| regularity(&found.centres(), image.dim());
         let surer = other.spacing_confidence > found.spacing_confidence;
         if found.spacing_confidence < HOPELESS && surer || regularity(&other) > regularity(&found) {
@@ -270,7 +280,8 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
     Ok(found)
 }
 
-/// Detects the cones in a view; the result is in px of the image.
+/// Detects the cones in a view, which is the image at one resolution, and returns them in px of the
+/// image.
 fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, DetectError> {
     let (field, rings) = (view.field(), &view.rings);
     let (modality, modality_confidence, mut polarity) =
@@ -302,7 +313,7 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
         && let Some(other) = start.contradicted_by(&found.centres(), field.image.dim(), field.empty)
     {
         // the density of the detections contradicts the ring: of the two starts, the one that leads
-        // to the more regular mosaic is right
+        // to the more regular mosaic is taken
         let searched = search(&other, first)?;
         let dim = field.image.dim();
         if regularity(&searched.0.centres(), dim) > regularity(&found.centres(), dim) {
@@ -343,8 +354,8 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
 
 /// Returns the network to use, or `None` for the classical filter.
 ///
-/// The user's `own` network comes before that of the program, which is used if it was asked for or
-/// measured to be better than the filter.
+/// The user's network, `own`, takes precedence. The network of the program is used if the options
+/// ask for it or if it was measured to be better than the filter.
 fn network_for<'a>(
     options: &DetectOptions,
     spec: &'a ModalitySpec,
@@ -358,7 +369,7 @@ fn network_for<'a>(
     Ok((options.detector == Detector::Learned || model.better).then_some(model))
 }
 
-/// Returns whether a side is shorter than [`MIN_SIDE`].
+/// Returns whether the width or the height, in px, is less than [`MIN_SIDE`].
 const fn is_too_small(width: usize, height: usize) -> bool {
     width < MIN_SIDE || height < MIN_SIDE
 }

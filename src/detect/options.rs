@@ -26,7 +26,7 @@ use strum::{Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
     parse_err_fn = UnknownChoice::among::<Detector>
 )]
 pub enum Detector {
-    /// Whichever family scored higher on hand-marked images of the modality.
+    /// Automatic choice: the family that scored higher on hand-marked images of the modality.
     #[default]
     Auto,
     /// Hand-designed band-pass filters, one per modality.
@@ -47,14 +47,15 @@ impl Detector {
 pub struct DetectOptions {
     /// Modality of the image; `None` to decide it from the image.
     pub modality: Option<Modality>,
-    /// Sign of the contrast; `None` to decide it from the image.
+    /// Sign of the cones' contrast; `None` to decide it from the image.
     pub polarity: Option<Polarity>,
     /// Family of filters that finds the cones.
     pub detector: Detector,
-    /// Cone spacing in px (4–160) to start from; `None` to take that of Yellott's ring.
+    /// Cone spacing in px (4–160) to start from; `None` to start from the spacing that Yellott's
+    /// ring in the spectrum shows.
     pub spacing: Option<f64>,
-    /// Network of the user's own, used on images of the modality it was made for instead of the
-    /// built-in one.
+    /// User's own network, used instead of the built-in one on images of the modality that it was
+    /// made for.
     pub model: Option<UserModel>,
 }
 
@@ -62,7 +63,7 @@ impl DetectOptions {
     /// Checks that the options are in range and do not contradict each other.
     ///
     /// # Errors
-    /// If the spacing is out of its range, or a model is given that these options do not use.
+    /// If the spacing is outside 4–160 px, or if a model is given that these options do not use.
     pub fn validate(&self) -> Result<(), DetectError> {
         if self.model.is_some() && self.detector == Detector::Classical {
             return Err(DetectError::Unused);

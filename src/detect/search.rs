@@ -1,7 +1,7 @@
 //! Search for cones at a spacing that may vary from place to place.
 //!
-//! 1. Cut the image into tiles, over each of which one spacing serves.
-//! 2. Run a finder on every tile and merge the results, each cone once.
+//! 1. Cut the image into tiles, so that a single spacing is good enough for each tile.
+//! 2. Run a finder on every tile and merge the results, so that each cone counts once.
 //! 3. Derive the spacing from the density of the detections, and search again until it settles.
 
 use super::finder::Found;
@@ -16,25 +16,27 @@ use std::collections::HashMap;
 
 /// Largest number of searches of one image, the first one included.
 const PASSES: usize = 5;
-/// Relative change of every node below which a spacing that varies has settled.
+/// Relative change of the spacing below which a spacing that varies from place to place has
+/// settled; every node of its map must change by less.
 ///
-/// It is larger than that of a constant spacing, because a local count scatters more than that of a
-/// whole image.
+/// The limit is wider than for a constant spacing, because a local count of cones scatters more
+/// than the count over an entire image.
 const MAP_SETTLED: f64 = 0.08;
 /// Distance, in spacings, up to which a tile also reports cones beyond its edges.
 ///
-/// Without it, a cone on the cut could be missed by both tiles.
+/// Without this overlap, a cone on the edge between two tiles could be missed by both.
 const OVERLAP: f64 = 0.5;
-/// Distance, in spacings, below which detections of neighbouring tiles are the same cone.
+/// Distance, in spacings, below which detections of neighbouring tiles are taken for the same cone.
 ///
-/// The one with the lower score is dropped.
+/// The detection with the lower score is dropped.
 const SAME: f64 = 0.5;
 
 /// Returns the regularity index of cones in an image of `height` × `width` px, less its standard
 /// error.
 ///
 /// The index is the mean over the standard deviation of the distances to the nearest neighbour.
-/// With few points it is high by chance, hence the deduction. 0 where it is not defined.
+/// With few points the index is high by chance, hence the deduction. Returns 0 if the index is not
+/// defined.
 pub(super) fn regularity(centres: &[Point], (height, width): (usize, usize)) -> f64 {
     let Ok(window) = Window::of_image(width, height) else { return 0. };
     let distances = nearest_neighbours(centres, &window).distances;
@@ -44,12 +46,13 @@ pub(super) fn regularity(centres: &[Point], (height, width): (usize, usize)) -> 
     if deviation > 0. { mean / deviation * (1. - 1. / (2. * n).sqrt()) } else { 0. }
 }
 
-/// Function that finds cones in a part of an image at a spacing in px.
+/// Function that returns the cones in a part of an image, given the part and the cone spacing in
+/// px.
 pub(super) trait Find: Fn(&Plane, f64) -> Result<Found, DetectError> {}
 
 impl<F: Fn(&Plane, f64) -> Result<Found, DetectError>> Find for F {}
 
-/// Areas that were searched, each with the spacing it was searched at and the detections in it.
+/// Areas that were searched, each with its spacing in that search (px) and the detections in it.
 type Searched = HashMap<Area, (f64, Found)>;
 
 /// An image whose empty pixels are filled in, and a record of which pixels those are.
@@ -57,16 +60,17 @@ type Searched = HashMap<Area, (f64, Found)>;
 pub(super) struct Field<'a> {
     /// Image with its empty pixels filled in.
     pub image: &'a Plane,
-    /// Pixels that were not imaged; `None` if all were.
+    /// Pixels that were not imaged, or `None` if every pixel was imaged.
     pub empty: Option<&'a EmptyPixels>,
 }
 
 impl Field<'_> {
-    /// Runs `find` on every tile and merges the results.
+    /// Runs `find` on every tile of the image, at the spacing that `map` gives for the tile, and
+    /// merges the results.
     ///
-    /// Detections on pixels that were not imaged are dropped. A tile is reused from `searched` if
-    /// its spacing changed by less than the fraction `settled` since then. An image of one tile is
-    /// always searched anew.
+    /// Detections on pixels that were not imaged are dropped. `searched` holds the results of the
+    /// last search: a tile is not searched again if its spacing has changed since by less than the
+    /// fraction `settled`. An image of a single tile is always searched anew.
     fn search(
         &self,
         map: &SpacingMap,
@@ -97,7 +101,8 @@ impl Field<'_> {
         Ok(found)
     }
 
-    /// Runs `find` on what a tile sees, and keeps the detections that the tile answers for.
+    /// Runs `find` on a tile with its margin, and keeps the detections in the core of the tile or
+    /// at most [`OVERLAP`] beyond it.
     fn search_tile(&self, tile: &Tile, find: &impl Find) -> Result<Found, DetectError> {
         let seen = tile.seen;
         let core = tile.core;
@@ -111,10 +116,11 @@ impl Field<'_> {
     }
 
     /// Searches at the spacing `start`, then again at the spacing that the density of the
-    /// detections shows, until that changes by less than the fraction `settled`.
+    /// detections shows, until the spacing changes by less than the fraction `settled`.
     ///
-    /// Returns the last detections and the spacing that their density shows. A spacing that varies
-    /// has settled already below [`MAP_SETTLED`].
+    /// Returns the detections of the last search and the spacing that their density shows. For a
+    /// spacing that varies from place to place, [`MAP_SETTLED`] replaces `settled`. The image is
+    /// searched at most [`PASSES`] times.
     pub(super) fn until_settled(
         &self,
         start: &Start,
@@ -139,9 +145,10 @@ impl Field<'_> {
     }
 }
 
-/// Merges the detections of tiles so that each cone counts once.
+/// Merges the detections of all tiles so that each cone counts once.
 ///
-/// A cone on a cut is seen from both sides. Any cone ranks above all rejected candidates.
+/// A cone on the edge between two tiles is detected in both. Of detections of the same cone, a cone
+/// is kept before a rejected candidate, and otherwise the one with the higher score.
 fn merged<'a>(parts: impl Iterator<Item = &'a Found>, map: &SpacingMap) -> Found {
     let (mut cones, mut rejected) = (Vec::new(), Vec::new());
     for part in parts {

@@ -16,26 +16,27 @@ pub(super) struct ModalitySpec {
     pub modality: Modality,
     /// Classical filter of the modality.
     pub filter: Filter,
-    /// Network of the modality that is compiled into the program.
+    /// Network, compiled into the program, that finds cones in images of the modality.
     pub network: BuiltIn,
-    /// `true` if the network runs first, instead of only at the spacing that the filter has settled
-    /// on.
+    /// `true` if the network searches first, `false` if it runs only after the classical filter has
+    /// settled on a spacing.
     ///
     /// For confocal and split-detector images the classical filter gives a good first spacing, so
     /// the network runs second. On histology the classical filter also fires on rods and gaps, so
     /// there the built-in network runs first.
     pub starts_with_network: bool,
-    /// Evidence that decides the sign of the contrast.
+    /// Evidence by which the sign of the cones' contrast is decided.
     pub polarity: PolarityCue,
 }
 
-/// The evidence by which the polarity of an image is decided.
+/// Evidence by which the polarity of an image, the sign of its cones' contrast, is decided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PolarityCue {
-    /// Side of the inner segments that is dark.
+    /// Dark side of the inner segments: the polarity is positive if cones are dark on the left.
     DarkSide,
-    /// Skewness of the response to blobs: cones make high maxima, the places between them shallow
-    /// minima.
+    /// Skewness of the response of a filter for blobs: the polarity is positive if the skewness is.
+    ///
+    /// Bright cones make high maxima, and the ground between them makes only shallow minima.
     Blobs,
 }
 
@@ -50,7 +51,7 @@ impl BuiltIn {
         Self { weights, model: OnceLock::new() }
     }
 
-    /// Returns the network, which is read on first use and kept.
+    /// Returns the network, which is read on first use and then kept.
     pub(super) fn model(&self) -> Result<&Model, WeightsError> {
         self.model.get_or_init(|| Model::read(self.weights)).as_ref().map_err(Clone::clone)
     }
@@ -61,10 +62,10 @@ impl BuiltIn {
     }
 }
 
-/// Entries of the modalities, in the order of [`Modality::VARIANTS`].
+/// Table of all modalities, in the order of [`Modality::VARIANTS`].
 ///
 /// The constants of the probabilities were fitted by `scripts/fit-calibration` to hand-marked
-/// images (for histology, to simulated ones). On subjects left out of the fit, the expected
+/// images (for histology, to simulated images). On subjects left out of the fit, the expected
 /// calibration error is .0014 (confocal), .009 (split), .008 (histology).
 pub(super) static SPECS: [ModalitySpec; COUNT] = [
     ModalitySpec {
@@ -102,7 +103,7 @@ pub(super) static SPECS: [ModalitySpec; COUNT] = [
     },
 ];
 
-/// Returns the entry of a modality.
+/// Returns the entry of the table for the given modality.
 pub(super) fn spec(modality: Modality) -> &'static ModalitySpec {
     // the table has one entry per variant, so the index is in range
     &SPECS[modality as usize]

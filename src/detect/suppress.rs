@@ -1,7 +1,7 @@
 //! Greedy non-maximum suppression: of detections close to each other only the highest stays.
 //!
-//! A grid of buckets holds those that stayed, so that a detection is compared only with those near
-//! it.
+//! A grid of buckets holds the detections kept so far, so that each new one is compared only with
+//! those nearby.
 
 use super::Detection;
 use crate::geometry::Point;
@@ -9,8 +9,8 @@ use crate::geometry::index::BucketGrid;
 
 /// Drops every detection that lies within `radius` (px) of a kept one of higher rank.
 ///
-/// The rank runs from the highest score to the lowest, equal scores in reading order; the result is
-/// in that order. Only kept detections suppress others. A radius of 0 keeps all.
+/// Detections rank from the highest score to the lowest, those of equal score in reading order. The
+/// result is in the same order. Only kept detections suppress others. A radius of 0 keeps all.
 pub fn suppress(mut detections: Vec<Detection>, radius: f64) -> Vec<Detection> {
     detections.sort_by(by_score);
     suppress_sorted(detections, |d| d.centre, radius, |_| radius)
@@ -48,8 +48,8 @@ pub(super) fn suppress_sorted<T>(
     kept.into_things()
 }
 
-/// Returns an empty grid over all places, with cells about as wide as `radius`; `None` if there are
-/// no places.
+/// Returns an empty grid over all places, with cells about as wide as `radius`, or `None` if there
+/// are no places.
 fn grid_over<T>(places: impl ExactSizeIterator<Item = Point> + Clone, radius: f64) -> Option<BucketGrid<T>> {
     let range = |value: fn(Point) -> f64| {
         let values = places.clone().map(value);

@@ -1,32 +1,35 @@
-//! Tiles of an image, over each of which one spacing serves.
+//! Tiles of an image, each of which is searched with a single spacing.
 //!
-//! They let a filter that is made for one spacing follow a spacing that varies, and bound the
+//! Tiles let a filter that is made for one spacing follow a spacing that varies, and they bound the
 //! memory.
 
 use super::spacing::SpacingMap;
 use crate::geometry::Point;
 
-/// Largest ratio of spacings within a tile; filters tolerate a spacing that far off their own.
-const EVEN: f64 = 1.15;
-/// Longest side of a tile in px, which bounds the memory.
-const LONGEST: usize = 1024;
-/// Shortest side, in spacings, that cutting for an even spacing may leave.
-const SHORTEST: f64 = 10.;
-/// Width, in spacings, of the margin that is searched around a tile.
+/// Largest ratio of the spacings within a tile; an area with a larger ratio is cut, if it is large
+/// enough.
 ///
-/// Filters and their normalisation reach that far.
+/// Filters tolerate spacings that differ by this factor from the one they are set to.
+const EVEN: f64 = 1.15;
+/// Longest side of a tile in px; longer areas are always cut, to bound the memory.
+const LONGEST: usize = 1024;
+/// Least side, in spacings, of the halves of an area that is cut because its spacing varies.
+const SHORTEST: f64 = 10.;
+/// Width, in spacings, of the margin around a tile that is searched with it.
+///
+/// The response of a filter and its normalisation depend on pixels up to this distance.
 const MARGIN: f64 = 5.;
 
-/// A rectangle of whole pixels of an image.
+/// A rectangle of pixels of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Area {
     /// Index of the first column.
     pub left: usize,
     /// Index of the first row.
     pub top: usize,
-    /// One past the last column.
+    /// Index of the last column plus one.
     pub right: usize,
-    /// One past the last row.
+    /// Index of the last row plus one.
     pub bottom: usize,
 }
 
@@ -62,7 +65,7 @@ pub(super) struct Tile {
 
 /// Returns tiles whose cores cover an image of `width` × `height` px without overlap.
 ///
-/// There is only one if the spacing and the size allow it.
+/// There is a single tile if the image is small enough and its spacing even enough.
 pub(super) fn tiles(width: usize, height: usize, map: &SpacingMap) -> Vec<Tile> {
     let mut done = Vec::new();
     let mut open = vec![Area { left: 0, top: 0, right: width, bottom: height }];
@@ -75,7 +78,9 @@ pub(super) fn tiles(width: usize, height: usize, map: &SpacingMap) -> Vec<Tile> 
     done
 }
 
-/// Returns the spacings at 5 × 5 places of an area, row by row, from edge to edge.
+/// Returns the spacings (px) at 5 × 5 evenly spaced places of an area, row by row.
+///
+/// The outermost places lie on the edges of the area.
 fn samples(area: Area, map: &SpacingMap) -> [[f64; 5]; 5] {
     let place = |k: usize, from: usize, to: usize| from as f64 - 0.5 + (to - from) as f64 * k as f64 / 4.;
     std::array::from_fn(|j| {
@@ -84,7 +89,9 @@ fn samples(area: Area, map: &SpacingMap) -> [[f64; 5]; 5] {
     })
 }
 
-/// Returns the tile with this core, its spacing the geometric mean over the core.
+/// Returns the tile with the given core in an image of `width` × `height` px.
+///
+/// The spacing of the tile is the geometric mean over 5 × 5 places of the core.
 fn tile(core: Area, width: usize, height: usize, map: &SpacingMap) -> Tile {
     let spacings = samples(core, map);
     let spacing = (spacings.iter().flatten().map(|s| s.ln()).sum::<f64>() / 25.).exp();
@@ -98,11 +105,12 @@ fn tile(core: Area, width: usize, height: usize, map: &SpacingMap) -> Tile {
     Tile { core, seen, spacing }
 }
 
-/// Returns both halves of an area that is too large or too uneven for one spacing; `None` if it is
-/// neither.
+/// Returns the two halves of an area, or `None` if the area stays one tile.
 ///
-/// A large area is cut across its longer side, an uneven one across the direction in which the
-/// spacing changes more.
+/// An area with a side longer than [`LONGEST`] is cut across its longer side. Any other area is cut
+/// if its spacings differ by more than the factor [`EVEN`] and at least one side is long enough for
+/// two halves of [`SHORTEST`] times its largest spacing. Of the sides that are long enough, the one
+/// along which the spacing changes more is halved.
 fn cut(area: Area, map: &SpacingMap) -> Option<(Area, Area)> {
     let s = samples(area, map);
     let (low, high) =

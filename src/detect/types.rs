@@ -11,8 +11,8 @@ pub struct Detection {
     pub centre: Point,
     /// Probability (0–1) that a person would mark a cone here.
     ///
-    /// In the results of the inner stages of detection, it is the height of the filter's response
-    /// instead, in the unit of that filter.
+    /// The inner stages of detection, such as [`local_maxima`](super::local_maxima), store the
+    /// height of the filter's response instead, in the unit of that filter.
     pub score: f64,
 }
 
@@ -27,7 +27,7 @@ pub struct Detections {
     pub modality: Modality,
     /// Probability (0–1) that the modality is right; 1 if it was given.
     pub modality_confidence: f64,
-    /// Sign of the contrast, given or decided from the image.
+    /// Sign of the cones' contrast, given or decided from the image.
     pub polarity: Polarity,
     /// Kind of filters that found the cones: classical or learned.
     pub detector: Detector,
@@ -36,18 +36,19 @@ pub struct Detections {
     /// Probability (0–1), judged by the ring alone, that `ring_spacing` is within 15 % of the true
     /// spacing.
     pub ring_confidence: f64,
-    /// Clarity of the image: a natural logarithm that tells how far the ring of `spacing` stands
-    /// out of detail finer than any cone.
+    /// Clarity of the image: the natural logarithm of the ratio of the power around the ring of
+    /// `spacing` to the power of detail finer than any cone.
     ///
-    /// See [`RingProfile::clarity`](super::RingProfile::clarity).
+    /// It is above 6 for a clear image, and 2 where noise is as strong as the cones. See
+    /// [`RingProfile::clarity`](super::RingProfile::clarity).
     pub clarity: f64,
     /// Cone spacing after refinement by the density of the detections, in px.
     ///
     /// It is the geometric mean of `spacing_map`.
     pub spacing: f64,
-    /// Probability (0–1) that `spacing` is within 15 % of the true one.
+    /// Probability (0–1) that `spacing` is within 15 % of the true spacing.
     pub spacing_confidence: f64,
-    /// Cone spacing from place to place, in px; constant where density is even.
+    /// Cone spacing from place to place, in px; the same everywhere if the density is even.
     pub spacing_map: SpacingMap,
 }
 
@@ -57,8 +58,8 @@ impl Detections {
         self.cones.iter().map(|d| 1. - d.score).sum()
     }
 
-    /// Returns the expected number of cones among the `rejected` candidates: the sum of their
-    /// scores.
+    /// Returns the expected number of cones among the `rejected` candidates: the sum of the
+    /// candidates' scores.
     ///
     /// Cones that left no trace in the image do not count.
     pub fn expected_misses(&self) -> f64 {
@@ -73,10 +74,10 @@ impl Detections {
         self.spacing_map.move_by(left as f64, top as f64);
     }
 
-    /// Scales all positions and spacings by `times`, from px of means over blocks to px of the
-    /// image.
+    /// Converts all positions and spacings from px of means over blocks of `times` × `times` px to
+    /// px of the image.
     ///
-    /// Outer edges of pixels stay outer edges: position x becomes (x + ½) · times − ½.
+    /// The outer edges of pixels stay where they are: position x becomes (x + ½) · times − ½.
     pub(super) fn enlarge(&mut self, times: f64) {
         let place = |x: f64| (x + 0.5) * times - 0.5;
         for d in self.cones.iter_mut().chain(&mut self.rejected) {
@@ -87,10 +88,13 @@ impl Detections {
         self.spacing_map.enlarge(times);
     }
 
-    /// Returns the cones as a mosaic in px, whose window is the whole of the `image` they were
-    /// found in.
+    /// Returns the cones as a mosaic in px whose window is all of `image`, in which they were
+    /// found.
     ///
     /// Without a `scale`, everything measured in the mosaic stays in px.
+    ///
+    /// # Errors
+    /// If the image has no pixels, or if the position of a cone is not a finite number.
     pub fn mosaic(&self, image: &Plane, scale: Option<Scale>) -> Result<Mosaic, MosaicError> {
         // a refined centre lies at most half a pixel from its pixel, so never beyond the image's
         // window

@@ -1,5 +1,7 @@
-//! The resolution at which an image is searched: its own pixels, or means over blocks of them where
-//! cones are farther apart than the filters are made for.
+//! The resolution at which an image is searched for cones.
+//!
+//! An image is searched in its own pixels or, if its cones are farther apart than the filters are
+//! made for, in coarser pixels, each of which is the mean over a square block.
 
 use super::search::Field;
 use super::spacing::{PERIODS, Rings};
@@ -7,29 +9,34 @@ use super::{MIN_SIDE, SPACING_RANGE};
 use crate::image::{EmptyPixels, Plane, block_means};
 use std::borrow::Cow;
 
-/// Sides of the blocks whose means serve as coarser pixels, in px.
+/// Sides, in px of the image, of the square blocks whose means serve as coarser pixels.
 const BLOCKS: [usize; 2] = [2, 4];
-/// Widest spacing that can be found, in px.
+/// Widest cone spacing that can be found, in px: 160.
 pub const WIDEST_SPACING: f64 = BLOCKS[BLOCKS.len() - 1] as f64 * SPACING_RANGE.1;
-/// Minimum side, in coarse pixels, for a ring too wide for the next finer resolution to be
-/// measurable.
+/// Least length, in coarse pixels, of the shorter side of an image that is also searched in coarse
+/// pixels.
+///
+/// Coarse pixels are for spacings too wide for the next finer resolution, which are more than 20
+/// coarse pixels. A shorter side holds fewer than five of their periods, too few to measure a ring.
 const ROOM: f64 = 0.5 * PERIODS * SPACING_RANGE.1;
 
-/// An image at one resolution, the pixels that were not imaged filled in, and its rings.
+/// An image at one resolution, with the pixels that were not imaged filled in, and the rings in its
+/// spectrum.
 pub(super) struct View<'a> {
     image: Cow<'a, Plane>,
     empty: Option<EmptyPixels>,
-    /// Rings in the spectrum of the image, in px of the view.
+    /// Yellott's rings in the spectra of the view, in px of the view.
     pub rings: Rings,
     /// Side, in px of the image, of one pixel of the view.
     pub block: usize,
 }
 
 impl<'a> View<'a> {
-    /// Returns the view in the image's own pixels or, if a wide `spacing` (px) is given, in the
-    /// largest blocks that suit it.
+    /// Returns the view in which `image` is searched first.
     ///
-    /// In blocks of a suitable size, that spacing is more than 20 px of the view.
+    /// The view has the image's own pixels unless a wide `spacing` (px) is given. It then has the
+    /// largest blocks for which the spacing is still more than 20 px of the view and the shorter
+    /// side of the view at least [`MIN_SIDE`].
     pub(super) fn suitable(image: &'a Plane, spacing: Option<f64>) -> Self {
         let empty = EmptyPixels::of(image);
         let filled = empty.as_ref().map_or(Cow::Borrowed(image), |e| Cow::Owned(e.filled(image)));
@@ -43,10 +50,10 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Returns the view in coarser pixels whose ring has the highest confidence, if that is above
-    /// `confidence` (0–1).
+    /// Returns the view in coarser pixels whose ring has the highest confidence, or `None` if no
+    /// ring has a confidence above `confidence` (0–1).
     ///
-    /// Only rings too wide for the next finer pixels count. `None` if there is no such view.
+    /// A ring counts only if its spacing is too wide for the next finer pixels.
     pub(super) fn wider(&self, mut confidence: f64) -> Option<View<'static>> {
         let mut surest = None;
         for block in
@@ -68,12 +75,14 @@ impl<'a> View<'a> {
         Self { image, empty, rings, block }
     }
 
-    /// Returns the view in means over blocks; a block with an empty pixel is empty.
+    /// Returns the view whose pixels are means over blocks of `block` × `block` px.
+    ///
+    /// A block that holds an empty pixel counts as empty.
     fn averaged(filled: &Plane, empty: Option<&EmptyPixels>, block: usize) -> View<'static> {
         View::new(Cow::Owned(block_means(filled, block)), empty.and_then(|e| e.in_blocks(block)), block)
     }
 
-    /// Returns the pixels to search, with those that are empty.
+    /// Returns the pixels of the view, and the record of those that were not imaged.
     pub(super) fn field(&self) -> Field<'_> {
         Field { image: &self.image, empty: self.empty.as_ref() }
     }

@@ -2,8 +2,8 @@
 //!
 //! 1. A summed-area table gives the count in any rectangle by four look-ups.
 //! 2. Pull–push (Gortler et al. 1996, <https://doi.org/10.1145/237170.237200>) fills them in: the
-//!    plane is averaged to ever coarser versions until all pixels are known, and from there back to
-//!    fine.
+//!    plane is averaged to ever coarser versions until all pixels are known, and each version then
+//!    fills in the next finer one.
 
 use super::{Plane, fill_rows, imaged_mask};
 
@@ -16,23 +16,22 @@ pub struct EmptyPixels {
     height: usize,
     /// Mask of the image, row by row: `true` for a pixel that was imaged.
     imaged: Vec<bool>,
-    /// Number of empty pixels above and to the left of every corner of pixels, (height + 1) ×
-    /// (width + 1).
+    /// Summed-area table: the number of empty pixels above and to the left of every corner of a
+    /// pixel, (height + 1) × (width + 1) values row by row.
     sums: Vec<u32>,
 }
 
 impl EmptyPixels {
-    /// Finds the empty pixels of an image; `None` if all of it was imaged.
+    /// Finds the empty pixels of an image, or returns `None` if every pixel was imaged.
     pub fn of(plane: &Plane) -> Option<Self> {
         let (height, width) = plane.dim();
         imaged_mask(plane).map(|imaged| Self::not(imaged, height, width))
     }
 
     /// Returns the blocks of `block` × `block` px that hold an empty pixel, as empty pixels of a
-    /// coarser image.
+    /// coarser image, or `None` if there are none.
     ///
-    /// `None` if there are none. Pixels at the right and at the bottom that do not fill a block are
-    /// left out.
+    /// Pixels at the right and at the bottom that do not fill a block are left out.
     pub fn in_blocks(&self, block: usize) -> Option<Self> {
         let (height, width) = (self.height / block, self.width / block);
         let whole = |k: usize| {
@@ -43,7 +42,8 @@ impl EmptyPixels {
         imaged.contains(&false).then(|| Self::not(imaged, height, width))
     }
 
-    /// Returns the empty pixels of a mask.
+    /// Returns the empty pixels of an image of `height` × `width` px: those outside the mask
+    /// `imaged`.
     fn not(imaged: Vec<bool>, height: usize, width: usize) -> Self {
         let mut sums = vec![0u32; (height + 1) * (width + 1)];
         for y in 0..height {
@@ -56,10 +56,11 @@ impl EmptyPixels {
         Self { width, height, imaged, sums }
     }
 
-    /// Returns the fraction, 0–1, of the columns `left..right` and rows `top..bottom` that was not
-    /// imaged.
+    /// Returns the fraction (0–1) of a rectangle that was not imaged: the columns `left..right` and
+    /// rows `top..bottom`.
     ///
-    /// Pixels beyond the image do not count; without any pixel inside it, the fraction is 0.
+    /// Pixels beyond the image do not count. If the rectangle holds no pixel of the image, the
+    /// fraction is 0.
     pub fn part(&self, left: usize, top: usize, right: usize, bottom: usize) -> f64 {
         let (right, bottom) = (right.min(self.width), bottom.min(self.height));
         let (left, top) = (left.min(right), top.min(bottom));
@@ -69,13 +70,13 @@ impl EmptyPixels {
     }
 
     /// Returns whether the pixel in column `x` and row `y` was not imaged; pixels beyond the image
-    /// were not.
+    /// count as not imaged.
     pub fn contains(&self, x: usize, y: usize) -> bool {
         x >= self.width || y >= self.height || !self.imaged[y * self.width + x]
     }
 
-    /// Returns `plane` with these pixels filled in smoothly from those around them, so that filters
-    /// meet no edge there.
+    /// Returns `plane` with the empty pixels filled in smoothly from the pixels around them, so
+    /// that filters meet no edge there.
     ///
     /// The method is pull–push (Gortler et al. 1996, <https://doi.org/10.1145/237170.237200>).
     pub fn filled(&self, plane: &Plane) -> Plane {

@@ -2,7 +2,8 @@ use super::{extensions_in_words, formats_in_words};
 use std::io;
 use thiserror::Error;
 
-/// Reasons why an image cannot be read or written. `name` is its file.
+/// Reasons why an image cannot be read or written; in every variant, `name` is the name of the
+/// file.
 #[derive(Debug, Error)]
 pub enum ImageError {
     /// The file cannot be opened or read.
@@ -57,7 +58,7 @@ pub enum ImageError {
         name: String,
         /// Name of the file's format.
         format: &'static str,
-        /// Kind of the image, in words.
+        /// Property of the image that is not supported, in words.
         reason: String,
     },
     /// The image has no width or no height.

@@ -9,9 +9,10 @@ pub struct Format {
     pub name: &'static str,
     /// Extensions of the format's files in lower case, without the dot; the first is the usual one.
     pub extensions: &'static [&'static str],
-    /// Alternatives for the first bytes of the format's files.
+    /// Byte strings with one of which every file of the format begins.
     pub signatures: &'static [&'static [u8]],
-    /// Function that decodes the bytes of a file; the text is the file's name for errors.
+    /// Function that decodes the bytes of a file; its second argument is the name of the file for
+    /// error messages.
     pub(super) decode: fn(&[u8], &str) -> Result<Plane, ImageError>,
     /// Function that writes a plane with values from 0 to 1.
     pub(super) write: fn(&Path, &Plane, BitDepth) -> Result<(), ImageError>,
@@ -37,13 +38,14 @@ pub static FORMATS: [Format; 2] = [
 ];
 
 impl Format {
-    /// Returns the format that the first bytes of a file show; `None` if it is none of them.
+    /// Returns the format that the first bytes of a file show, or `None` if they show none of
+    /// [`FORMATS`].
     pub(super) fn of_bytes(bytes: &[u8]) -> Option<&'static Self> {
         FORMATS.iter().find(|format| format.signatures.iter().any(|s| bytes.starts_with(s)))
     }
 
-    /// Returns the format that the extension of a file names, in upper or lower case; `None` if it
-    /// is none of them.
+    /// Returns the format that the extension of a file names, in upper or lower case, or `None` if
+    /// it names none of [`FORMATS`].
     pub(super) fn of_path(path: &Path) -> Option<&'static Self> {
         let extension = path.extension()?.to_str()?;
         FORMATS.iter().find(|format| format.extensions.iter().any(|e| extension.eq_ignore_ascii_case(e)))

@@ -50,7 +50,7 @@ pub struct Spectrum {
 impl Spectrum {
     /// Returns the transform of `plane`, padded with zeros to `height` × `width`.
     ///
-    /// Neither may be smaller than the plane's own.
+    /// Neither `height` nor `width` may be smaller than that of the plane.
     pub fn forward(plane: &Plane, height: usize, width: usize) -> Self {
         let (rows, columns) = plane.dim();
         let half = width / 2 + 1;
@@ -131,8 +131,8 @@ impl Spectrum {
 
     /// Multiplies every term by `factor(of_x(fx), of_y(fy))`.
     ///
-    /// The frequencies are in cycles per pixel, 0 ≤ fx ≤ ½ and −½ ≤ fy < ½. What depends on one of
-    /// them alone is computed only once per column or row.
+    /// The frequencies are in cycles per pixel, 0 ≤ fx ≤ ½ and −½ ≤ fy < ½. `of_x` is called only
+    /// once per column and `of_y` only once per row.
     pub fn multiply<X, Y: Sync>(
         &mut self,
         of_x: impl Fn(f32) -> X + Sync,

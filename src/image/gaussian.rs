@@ -32,7 +32,8 @@ pub fn gaussian(plane: &Plane, sigma: f64) -> Plane {
     if step == 1 { fine_columns(&fine_rows(plane, sigma), sigma) } else { coarse(plane, sigma, step) }
 }
 
-/// Returns the kernel from its middle outwards; both halves together sum to 1.
+/// Returns the weights of the Gaussian kernel from its middle outwards; both sides of the complete
+/// kernel together sum to 1.
 fn half_kernel(sigma: f64) -> Vec<f32> {
     let radius = (CUT * sigma).ceil() as usize;
     let weights: Vec<f64> = (0..=radius).map(|k| (-0.5 * (k as f64 / sigma).powi(2)).exp()).collect();
@@ -55,12 +56,13 @@ struct Pair<'a> {
     before: &'a [f32],
     /// Row below the computed one.
     after: &'a [f32],
-    /// Weight of their sum.
+    /// Weight by which the sum of both rows is multiplied.
     weight: f32,
 }
 
 impl<'a> Pair<'a> {
-    /// Returns the pair in which the computed row itself stands for both.
+    /// Returns the pair in which the computed row itself stands for both rows, with half the
+    /// weight.
     const fn alone(row: &'a [f32], weight: f32) -> Self {
         Self { before: row, after: row, weight: 0.5 * weight }
     }
@@ -137,20 +139,20 @@ fn fine_columns(plane: &Plane, sigma: f64) -> Plane {
     })
 }
 
-/// Filter along one side of a plane, on a grid of `step` pixels.
+/// Gaussian filter along one axis of a plane, on a grid with one point every `step` px.
 struct Coarse {
-    /// Distance of the points of the grid, in px.
+    /// Distance between neighbouring points of the grid, in px.
     step: usize,
     /// Weights of the pixels around a point of the grid.
     ///
-    /// They form a hat twice as wide as `step`, so that fine detail does not pass for coarse
-    /// detail.
+    /// The weights form a triangle (a hat) twice as wide as `step`, so that fine detail does not
+    /// pass for coarse detail.
     hat: Vec<f32>,
-    /// Kernel on the grid, from its middle outwards.
+    /// Weights of the Gaussian kernel on the grid, from its middle outwards.
     kernel: Vec<f32>,
-    /// Number of points before the first one inside.
+    /// Number of grid points beyond either end of the axis, which the kernel needs.
     reach: usize,
-    /// Number of points that cover the side.
+    /// Number of grid points that cover the pixels of the axis.
     inside: usize,
 }
 
@@ -167,33 +169,37 @@ impl Coarse {
         Self { step, hat, kernel, reach, inside: length.div_ceil(step) }
     }
 
-    /// Returns the number of points, including those beyond either end.
+    /// Returns the number of grid points, including those beyond either end of the axis.
     const fn points(&self) -> usize {
         self.inside + 2 * self.reach
     }
 
-    /// Returns the first pixel that counts for point `i`, in a row with its frame.
+    /// Returns the index, in a row with its mirrored frame, of the first pixel that enters the
+    /// weighted mean of grid point `i`.
     const fn first(&self, i: usize) -> usize {
         (i + 2) * self.step - self.step / 2
     }
 
-    /// Returns the number of pixels beyond either end that count for any point.
+    /// Returns the width, in px, of the mirrored frame beyond either end of the axis that the grid
+    /// points need.
     const fn frame(&self) -> usize {
         (self.reach + 2) * self.step
     }
 
-    /// Returns the number of filtered samples; two beyond either end serve the cubics at the
-    /// border.
+    /// Returns the number of filtered samples along the axis.
+    ///
+    /// Two samples beyond either end serve the cubics at the border.
     const fn samples(&self) -> usize {
         self.inside + 4
     }
 
-    /// Returns the index of the point at the place of sample `i`.
+    /// Returns the index of the grid point at the position of the filtered sample `i`.
     const fn middle(&self, i: usize) -> usize {
         i + self.reach - 2
     }
 
-    /// Returns the first of the four samples around every pixel of the side, and the four weights.
+    /// Returns, for every pixel along an axis of `length` px, the first of the four samples around
+    /// it, and their weights.
     fn cubics(&self, length: usize) -> Vec<(usize, [f32; 4])> {
         (0..length)
             .map(|x| {
@@ -263,8 +269,10 @@ fn coarse(plane: &Plane, sigma: f64, step: usize) -> Plane {
     })
 }
 
-/// Returns the weights of the four samples around a place `t` of the way from the second to the
-/// third.
+/// Returns the Catmull–Rom weights of four neighbouring samples for a place between the second and
+/// the third.
+///
+/// `t` (0–1) is the fraction of the way from the second to the third.
 fn catmull_rom(t: f32) -> [f32; 4] {
     [
         0.5 * t * (-1. + t * (2. - t)),

@@ -6,20 +6,23 @@
 
 use super::Plane;
 
-/// Smallest region that can count as not imaged, as a fraction of the image.
+/// Least size of a black region that can count as not imaged, as a fraction of the image.
 ///
-/// Smaller ones are dark places.
+/// Smaller regions are dark places.
 const SMALLEST: f64 = 0.005;
 
-/// Fraction of the image below which a region must end abruptly to count as not imaged.
+/// Size, as a fraction of the image, below which a black region must end abruptly to count as not
+/// imaged.
 ///
 /// A region that fades to black is a dark place in a picture of few grey levels.
 const SMALL: f64 = 0.05;
-/// Smallest brightness around an abrupt region, as a fraction of the mean brightness of all imaged
-/// pixels.
+/// Least brightness around a black region that ends abruptly, as a fraction of the mean brightness
+/// of all pixels that are not black.
 const ABRUPT: f64 = 0.5;
 
-/// Smallest number of runs per row that makes a region porous, like the ground between cones.
+/// Least number of runs per row of a porous region, such as the ground between cones.
+///
+/// A run is an unbroken stretch of black pixels in a row.
 const POROUS_RUNS: usize = 4;
 /// Largest mean length, in px, of the runs of a porous region.
 const POROUS_LENGTH: usize = 64;
@@ -37,15 +40,16 @@ pub struct ImagedPart {
     pub width: usize,
 }
 
-/// Returns the imaged part: the bounds of the [`imaged_mask`], or all of the image if nothing was
-/// imaged.
+/// Returns the part that was imaged: the bounds of the [`imaged_mask`], or all of the image if
+/// nothing was imaged.
 pub fn imaged_part(plane: &Plane) -> ImagedPart {
     let (height, width) = plane.dim();
     let whole = ImagedPart { top: 0, left: 0, height, width };
     imaged_mask(plane).and_then(|mask| part_of(&mask, width)).unwrap_or(whole)
 }
 
-/// Returns the bounds of a mask with rows of `width` pixels; `None` if nothing is in it.
+/// Returns the bounds of a mask with rows of `width` pixels, or `None` if no pixel of the mask is
+/// `true`.
 pub(super) fn part_of(mask: &[bool], width: usize) -> Option<ImagedPart> {
     let imaged = |row: &&[bool]| row.contains(&true);
     let rows = || mask.chunks_exact(width.max(1));
@@ -59,13 +63,13 @@ pub(super) fn part_of(mask: &[bool], width: usize) -> Option<ImagedPart> {
     Some(ImagedPart { top, left, height: bottom - top + 1, width: right - left + 1 })
 }
 
-/// Returns a mask, row by row, that is `true` for pixels that were imaged; `None` if all were.
+/// Returns a mask, row by row, that is `true` for pixels that were imaged, or `None` if all were.
 ///
 /// Regions that are exactly black, 4-connected and at least 0.5 % of the image count as not imaged:
 /// montages and registered averages leave such margins, and such gaps between tiles. Two kinds of
-/// them count as imaged nevertheless: porous regions, which are the dark ground between bright
-/// cones, and small ones that the image fades into. Labelling takes one pass over the pixels, the
-/// mask one byte per pixel.
+/// black regions count as imaged nevertheless: porous regions, which are the dark ground between
+/// bright cones, and regions below 5 % of the image into which the picture fades. Labelling takes
+/// one pass over the pixels, the mask one byte per pixel.
 pub fn imaged_mask(plane: &Plane) -> Option<Vec<bool>> {
     let width = plane.ncols();
     let least = SMALLEST * plane.len() as f64;
@@ -144,7 +148,7 @@ struct Run {
 }
 
 impl Run {
-    /// Returns the values of the pixels above, below and at both ends.
+    /// Returns the values of the pixels above and below the run and of those at both ends.
     fn neighbours(self, plane: &Plane) -> impl Iterator<Item = f32> + '_ {
         let ends = [self.first.wrapping_sub(1), self.end].into_iter().map(move |x| (self.row, x));
         let sides = [self.row.wrapping_sub(1), self.row + 1];
@@ -160,23 +164,24 @@ struct Region {
     size: usize,
     /// Number of runs in the region.
     runs: usize,
-    /// Number of rows in which it has a run.
+    /// Number of rows in which the region has a run.
     rows: usize,
-    /// Last row in which it has a run.
+    /// Last row in which the region has a run.
     last_row: usize,
-    /// Mean of the pixels around it that are not black.
+    /// Mean of the pixels around the region that are not black.
     rim: Mean,
 }
 
 impl Region {
-    /// Returns whether other pixels keep interrupting the region: it has many runs per row, and
-    /// short ones.
+    /// Returns whether other pixels keep interrupting the region, so that it has many short runs
+    /// per row.
     fn is_porous(&self) -> bool {
         self.runs >= POROUS_RUNS * self.rows && self.size <= POROUS_LENGTH * self.runs
     }
 }
 
-/// Connected regions as runs of pixels, row by row, each pointing to an earlier run of its region.
+/// Connected black regions, stored as runs of pixels row by row; each run points to an earlier run
+/// of its region.
 ///
 /// `connected_components` of imageproc would keep two words and a label for every pixel and panics
 /// from 2³² pixels on. That is too much for a montage, whose margins are few runs.
@@ -184,15 +189,16 @@ impl Region {
 struct Regions {
     /// Runs of all rows so far.
     runs: Vec<Run>,
-    /// Index of an earlier run of the same region, or of the run itself.
+    /// Index, for each run, of an earlier run of the same region, or of the run itself.
     parents: Vec<usize>,
     rows: usize,
-    /// Index of the first run of the row before.
+    /// Index of the first run of the row that was added last.
     before: usize,
 }
 
 impl Regions {
-    /// Returns the first run of the region of run `k`, and shortens the way to it.
+    /// Returns the first run of the region of run `k`, and shortens the chain of runs that leads to
+    /// it.
     fn root(&mut self, mut k: usize) -> usize {
         while self.parents[k] != k {
             self.parents[k] = self.parents[self.parents[k]];

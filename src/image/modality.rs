@@ -67,7 +67,8 @@ pub enum Polarity {
     /// Contrast of cones that are brighter than their surroundings; in split detection, of cones
     /// that are dark on the left and bright on the right.
     Positive,
-    /// Contrast of the opposite sign.
+    /// Contrast of cones that are darker than their surroundings; in split detection, of cones that
+    /// are bright on the left and dark on the right.
     Negative,
 }
 

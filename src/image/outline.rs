@@ -2,7 +2,7 @@
 //!
 //! 1. The mask of imaged pixels is eroded by 1 px, because ragged edges are mixed with black.
 //! 2. The outlines of the mask are followed along the edges of its pixels.
-//! 3. The steps of oblique lines are levelled.
+//! 3. Oblique lines, which run in steps along pixel edges, are straightened.
 //! 4. The outlines are simplified (Douglas and Peucker 1973,
 //!    <https://doi.org/10.3138/FM57-6770-U75U-7727>).
 
@@ -15,17 +15,19 @@ use imageproc::morphology::erode_mut;
 
 /// Width, in px, of the margin that is removed next to pixels that were not imaged.
 ///
-/// At ragged edges, registration has mixed pixels with black. Nothing is removed if all edges of
-/// the imaged area are upright and straight.
+/// At ragged edges, registration has mixed pixels with black. Nothing is removed if the imaged area
+/// is an upright rectangle.
 const MARGIN: u8 = 1;
-/// Smallest island that counts, as a fraction of the image; smaller ones are specks and letters
-/// rather than parts of a mosaic.
+/// Least area of an island of imaged pixels that is kept, as a fraction of the image.
+///
+/// Smaller islands are specks and letters rather than parts of a mosaic. They are kept only if no
+/// island is larger.
 const SMALLEST_ISLAND: f64 = 0.001;
-/// Length, in px, from which on a run of pixel edges is an edge of its own.
+/// Least length, in px, of a straight run of pixel edges that stays an edge of the outline.
 ///
 /// Shorter runs may be steps of an oblique line.
 const LONG_RUN: f64 = 16.;
-/// Largest distance, in px, of an omitted corner from the simplified outline.
+/// Largest distance, in px, between an omitted corner and the simplified outline.
 const TOLERANCE: f64 = 0.5;
 
 /// Returns the part of an image that was imaged ([`imaged_mask`]) as a window in px.
@@ -66,8 +68,10 @@ pub fn imaged_area(plane: &Plane) -> Result<Window, WindowError> {
     }
 }
 
-/// Removes from a mask, whose rows have `width` pixels, all that lies within `margin` px of pixels
-/// outside it, along x, y or both.
+/// Removes from a mask all pixels that are at most `margin` px along x and along y away from a
+/// pixel outside the mask.
+///
+/// Each row of the mask has `width` pixels.
 fn erode(mask: &mut [bool], width: usize, margin: u8) {
     let height = mask.len() / width;
     let (Ok(w), Ok(h)) = (u32::try_from(width), u32::try_from(height)) else { return };
@@ -80,7 +84,7 @@ fn erode(mask: &mut [bool], width: usize, margin: u8) {
 
 /// Returns the outlines of a mask along the edges of its pixels, as corners in px.
 ///
-/// The inside is always on the right. Pixels that touch only at a corner are separate.
+/// An outline runs with the inside on its right. Pixels that touch only at a corner are separate.
 fn rings(mask: &[bool], width: usize) -> Vec<Ring> {
     // steps to the right, down, left and up, and the pixels on either side of the way ahead,
     // relative to the current corner
@@ -162,7 +166,8 @@ fn levelled(ring: &[Point]) -> Ring {
     level
 }
 
-/// Returns the ring with fewer corners, none of the others farther than `tolerance` from it.
+/// Returns the ring with fewer corners, so that no omitted corner is farther than `tolerance` px
+/// from the result.
 ///
 /// The method is that of Douglas and Peucker (1973).
 fn simplified(ring: &[Point], tolerance: f64) -> Ring {

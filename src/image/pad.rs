@@ -35,8 +35,8 @@ pub(super) fn framed(row: &[f32], before: usize, after: usize) -> Vec<f32> {
 
 /// Returns `plane` inside a frame of its own mirror image, `height` × `width` px in all.
 ///
-/// The frame has `top` rows above and `left` columns to the left; the rest lies below and to the
-/// right. `height` and `width` must hold it all.
+/// The frame has `top` rows above the plane and `left` columns to its left; the rest lies below and
+/// to the right. `height` and `width` must be large enough for all of this.
 pub fn reflect_pad(plane: &Plane, top: usize, left: usize, height: usize, width: usize) -> Plane {
     let (h, w) = plane.dim();
     let data = values(plane);
@@ -46,13 +46,14 @@ pub fn reflect_pad(plane: &Plane, top: usize, left: usize, height: usize, width:
     })
 }
 
-/// Returns the part of `plane` of `height` × `width` px whose first pixel is at (`left`, `top`).
+/// Returns the part of `plane` that is `height` × `width` px large and begins in row `top` and
+/// column `left`.
 pub fn crop(plane: &Plane, top: usize, left: usize, height: usize, width: usize) -> Plane {
     let rows = plane.slice_axis(Axis(0), (top..top + height).into());
     rows.slice_axis(Axis(1), (left..left + width).into()).to_owned()
 }
 
-/// Returns the means over blocks of `block` × `block` px.
+/// Returns a coarser plane, whose pixels are the means over blocks of `block` × `block` px.
 ///
 /// Pixels at the right and at the bottom that do not fill a block are left out. `block` must not be
 /// 0.

@@ -17,15 +17,17 @@ const MAX_BYTES: u64 = 16 * MAX_PIXELS as u64;
 /// Reads the image in a PNG or TIFF file as one grey plane; see [`decode`].
 ///
 /// # Errors
-/// If the file cannot be read, and as [`decode`].
+/// If the file cannot be read, or if [`decode`] returns an error.
 pub fn read(path: &Path) -> Result<Plane, ImageError> {
     decode(&read_bytes(path)?, &path.display().to_string())
 }
 
-/// Reads the bytes of a file that is not unreasonably large.
+/// Reads the bytes of a file, unless it is larger than 2 GiB.
+///
+/// An image of [`MAX_PIXELS`] takes at most this size.
 ///
 /// # Errors
-/// If it cannot be read or has more bytes than the largest image.
+/// If the file cannot be read or is larger than 2 GiB.
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ImageError> {
     let name = path.display().to_string();
     let unreadable = |source| ImageError::Read { name: name.clone(), source };
@@ -48,15 +50,16 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ImageError> {
 /// - Colour becomes its luma by Rec. 601, .299 R + .587 G + .114 B, as in MATLAB, OpenCV and
 ///   Pillow; equal R, G and B keep their value exactly. Palettes are looked up first. Gamma and
 ///   colour profiles are ignored.
-/// - Transparent pixels were not imaged and become black: grey × alpha, or grey as it is where it
-///   is already multiplied by alpha.
+/// - Transparent pixels were not imaged and become black: grey is multiplied by alpha, unless the
+///   file says that this was done already.
 /// - TIFF may have strips or tiles, any byte order, and be a BigTIFF; it may be uncompressed or
 ///   compressed by LZW, Deflate or PackBits. WhiteIsZero is inverted. Thumbnails and masks beside
 ///   the image are skipped; several images are an error.
 ///
 /// # Errors
-/// If it is not a PNG or TIFF, damaged, of a kind that is not read, larger than [`MAX_PIXELS`],
-/// holds no pixel or several pages, or has a pixel that is not a finite number.
+/// If the bytes are not a PNG or TIFF file, are damaged or of a kind that is not read, or if the
+/// image is larger than [`MAX_PIXELS`], has no pixel, has several pages, or has a pixel that is not
+/// a finite number.
 pub fn decode(bytes: &[u8], name: &str) -> Result<Plane, ImageError> {
     if bytes.is_empty() {
         return Err(ImageError::Empty { name: name.to_owned() });

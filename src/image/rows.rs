@@ -2,9 +2,9 @@ use super::Plane;
 use rayon::prelude::*;
 use std::borrow::Cow;
 
-/// Number of pixels from which on a filter spreads one image over all cores.
+/// Least number of pixels of an image that a filter spreads over all cores.
 ///
-/// Smaller images are processed side by side instead.
+/// Smaller images are each filtered by one core, several of them side by side.
 pub(crate) const PARALLEL_PIXELS: usize = 1 << 18;
 
 /// Fills a new plane by `fill(y, row)` for every row, over all cores if it is large.
@@ -21,15 +21,15 @@ pub(crate) fn fill_rows(height: usize, width: usize, fill: impl Fn(usize, &mut [
     plane_of(height, width, data)
 }
 
-/// Returns the grey values of a plane row by row; they are copied only if it is stored in another
-/// order.
+/// Returns the grey values of a plane row by row; they are copied only if the plane is stored in
+/// another order.
 pub(crate) fn values(plane: &Plane) -> Cow<'_, [f32]> {
     plane.as_slice().map_or_else(|| plane.iter().copied().collect(), Cow::Borrowed)
 }
 
 /// Returns the plane whose grey values, row by row, are `values`.
 ///
-/// There must be exactly `height` × `width` of them.
+/// `values` must hold exactly `height` × `width` numbers.
 pub(crate) fn plane_of(height: usize, width: usize, values: Vec<f32>) -> Plane {
     // a plane of another size would be a silent fault of the filter that made it
     assert_eq!(values.len(), height * width, "grey values of a plane of {height} × {width} px");

@@ -2,10 +2,7 @@ use super::Plane;
 use crate::geometry::{Window, WindowError};
 
 impl Window {
-    /// Returns the window of a whole image, in px: see [`Window::of_image`].
-    ///
-    /// # Errors
-    /// If the image has no pixels.
+    /// Returns the window, in px, that covers all of an image; see [`Window::of_image`].
     pub fn of(image: &Plane) -> Result<Self, WindowError> {
         let (height, width) = image.dim();
         Self::of_image(width, height)

@@ -7,7 +7,7 @@ use std::io::{self, Cursor, Write};
 use std::path::Path;
 use tiff::encoder::{TiffEncoder, colortype};
 
-/// Bits of a grey value in a file.
+/// Number of bits per grey value in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BitDepth {
     /// Eight bits: 256 grey values.
@@ -18,12 +18,8 @@ pub enum BitDepth {
 
 /// Writes a plane as grey PNG or TIFF, by the extension of the name (`.png`, `.tif`, `.tiff`).
 ///
-/// Values from 0 to 1 are rounded to the nearest grey; values outside are clamped. The file appears
-/// whole or not at all.
-///
-/// # Errors
-/// If the name has another extension, a pixel is not a finite number, the plane has no pixel, or
-/// the file cannot be written.
+/// Values from 0 to 1 are rounded to the nearest grey; values outside are clamped. If writing
+/// fails, no incomplete file is left.
 pub fn write_grey(path: &Path, plane: &Plane, depth: BitDepth) -> Result<(), ImageError> {
     let unknown = || ImageError::UnknownExtension { name: path.display().to_string() };
     (Format::of_path(path).ok_or_else(unknown)?.write)(path, plane, depth)
@@ -64,7 +60,12 @@ pub fn write_tiff(path: &Path, plane: &Plane, depth: BitDepth) -> Result<(), Ima
     write_whole(path, bytes.get_ref())
 }
 
-/// Returns the width and the height of a plane, or an error if it cannot be written.
+/// Returns the width and the height of `plane` in px, after checking that it can be written.
+///
+/// `path` names the file in errors.
+///
+/// # Errors
+/// If the plane has no pixel, or a pixel is not a finite number.
 fn check(path: &Path, plane: &Plane) -> Result<(u32, u32), ImageError> {
     let name = || path.display().to_string();
     let (rows, columns) = plane.dim();

@@ -10,7 +10,7 @@ use crate::image::{Plane, gaussian};
 /// Width of the Gaussian in a clear image, in spacings: narrow, so that close neighbours stay
 /// apart.
 const NARROWEST: f64 = 0.13;
-/// Increase of the width, in spacings, for every unit of clarity below `CLEAR`.
+/// Increase of the width, in spacings, for every unit by which the clarity is below `CLEAR`.
 ///
 /// It was chosen on hand-marked images with white, smooth and Poisson-like noise of 0–1 standard
 /// deviations, and on the same images at .7 and 1.5 times their size.
@@ -18,19 +18,20 @@ const WIDENING: f64 = 0.0174;
 /// Largest width of the Gaussian, in spacings.
 const WIDEST: f64 = 0.21;
 
-/// Criterion for cones: any concave place is a candidate.
+/// Criterion for cones: every positive maximum of the response, where the blurred image is concave,
+/// unless a higher one is within .55 spacings.
 const CRITERION: Criterion = Criterion { threshold: 0., suppression: 0.55, relative: None };
 
-/// Returns the response of the filter to an image with this spacing in px, and the criterion for
-/// cones.
+/// Returns the response of the filter to an image with the given cone `spacing` in px, and the
+/// criterion for cones.
 ///
-/// `clarity` is that of the image's ring.
+/// The filter is wider where `clarity`, the clarity of the image's ring, is low.
 pub(in crate::detect) fn response(image: &Plane, spacing: f64, clarity: f64) -> (Plane, Criterion) {
     let blurred = gaussian(image, sigma(clarity) * spacing);
     (negative_laplacian(&blurred), CRITERION)
 }
 
-/// Returns the width of the Gaussian, in spacings.
+/// Returns the width of the Gaussian, in spacings, for an image of the given clarity.
 fn sigma(clarity: f64) -> f64 {
     (NARROWEST + WIDENING * (CLEAR - clarity)).clamp(NARROWEST, WIDEST)
 }

@@ -11,24 +11,24 @@ use crate::image::{Plane, gaussian};
 /// Width of the Gaussian, in spacings: as wide as a disc, so that texture and outline make no
 /// maxima of their own.
 const SIGMA: f64 = 0.22;
-/// Width, in spacings, of the neighbourhood in which the response is made even.
+/// Width, in spacings, of the Gaussian neighbourhood whose root mean square divides the response.
 const CONTRAST: f64 = 2.;
 
 /// Criterion for cones.
 ///
 /// Rods and the gaps between outlined discs make maxima too, but lower ones, hence the threshold.
 /// Discs of different size touch at less than the mean distance, hence the short suppression. On
-/// 300 simulated images of every look, many of them harsh, Dice is .962; with .3 and .55 spacings
-/// it was .949.
+/// 300 varied simulated images, many of them difficult, the Dice coefficient is .962; with a
+/// threshold of .3 and a suppression of .55 spacings it was .949.
 const CRITERION: Criterion = Criterion { threshold: 0.65, suppression: 0.45, relative: None };
 
-/// Returns the response of the filter to an image with this spacing in px, and the criterion for
-/// cones.
+/// Returns the response of the filter to an image with the given cone `spacing` in px, and the
+/// criterion for cones.
 pub(in crate::detect) fn response(image: &Plane, spacing: f64, _clarity: f64) -> (Plane, Criterion) {
     (normalise(&blobs(image, spacing), CONTRAST * spacing), CRITERION)
 }
 
-/// Returns the response before it is made even.
+/// Returns the response of the filter before it is divided by its local root mean square.
 pub(in crate::detect) fn blobs(image: &Plane, spacing: f64) -> Plane {
     negative_laplacian(&gaussian(image, SIGMA * spacing))
 }

@@ -1,6 +1,6 @@
 //! Classical filters whose local maxima are cones, one per modality.
 //!
-//! All take a plane and the cone spacing in px.
+//! All filters take a plane and the cone spacing in px.
 
 pub(super) mod confocal;
 pub(super) mod histology;
@@ -22,16 +22,18 @@ pub struct Criterion {
     pub threshold: f32,
     /// Distance, in spacings, below which only the higher of two maxima stays.
     pub suppression: f64,
-    /// Threshold for the maxima that remain, if it depends on the image.
+    /// Threshold that replaces `threshold` for the maxima left by suppression, or `None` if the
+    /// threshold does not depend on the image.
     pub relative: Option<RelativeThreshold>,
 }
 
-/// Threshold that follows the image: slope × upper quartile of the maxima + offset.
+/// Threshold that depends on the image: `slope` × the upper quartile of the heights of the maxima +
+/// `offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RelativeThreshold {
-    /// Weight of the upper quartile.
+    /// Factor by which the upper quartile of the maxima is multiplied.
     pub slope: f64,
-    /// Constant part of the threshold, in the unit of the response.
+    /// Constant that is added to the threshold, in the unit of the response.
     pub offset: f64,
 }
 
@@ -43,7 +45,7 @@ impl Criterion {
         maxima
     }
 
-    /// Returns the height that a cone must exceed among `maxima`, the highest first.
+    /// Returns the height that a cone must exceed; `maxima` are sorted, the highest first.
     fn least(&self, maxima: &[Detection]) -> f64 {
         // with the highest first, the upper quartile stands a quarter of the way down
         match (self.relative, maxima.get(maxima.len() / 4)) {
@@ -55,19 +57,19 @@ impl Criterion {
 
 /// A classical filter, and the calibration of its maxima as probabilities.
 pub(super) struct Filter {
-    /// Function that returns the response of an image, and the criterion for its cones.
+    /// Function that returns the response to an image, and the criterion for its cones.
     ///
     /// Its arguments are the image, in which cones have positive polarity, the cone spacing in px,
     /// and the clarity of the image.
     pub response: fn(&Plane, f64, f64) -> (Plane, Criterion),
     /// Probability of a cone, given the height of its maximum relative to `reference`.
     pub probability: Logistic,
-    /// Height that the height of a maximum is measured against.
+    /// Height with which the height of a maximum is compared.
     pub reference: Reference,
 }
 
 impl Filter {
-    /// Returns the response in either polarity.
+    /// Returns the response for cones of the sought polarity, and the criterion for cones.
     ///
     /// The filters are odd: for negative polarity the response only changes its sign.
     fn respond(&self, image: &Plane, sought: Sought) -> (Plane, Criterion) {
@@ -92,7 +94,8 @@ impl ConeFinder for Filter {
         Ok(found)
     }
 
-    /// Returns .5 %, since a filter follows the spacing closely.
+    /// Returns .005 (.5 %): the response of a filter follows the spacing closely, so even a small
+    /// change of the spacing matters.
     fn settled(&self) -> f64 {
         0.005
     }
@@ -114,7 +117,8 @@ pub fn response(
     spec(modality).filter.respond(image, Sought { polarity, spacing, clarity })
 }
 
-/// Returns −∇² of a plane by differences of five points; beyond the border lies a mirror image.
+/// Returns −∇² of a plane by the five-point difference; beyond its border, the plane continues as
+/// its mirror image.
 fn negative_laplacian(plane: &Plane) -> Plane {
     let (h, w) = plane.dim();
     let data = values(plane);

@@ -12,10 +12,11 @@ use crate::detect::flatten::normalise;
 use crate::image::{Plane, Spectrum, crop, fast_length, reflect_pad};
 use rustfft::num_complex::Complex32;
 
-/// Criterion for cones, with a threshold that follows the image.
+/// Criterion for cones, with a threshold that depends on the image.
 ///
-/// In a blurred or noisy image, true cones rise less above the rest than in a sharp one. Chosen on
-/// hand-marked images: on subjects left out, Dice is .9645; with a fixed threshold it was .9607.
+/// In a blurred or noisy image, true cones rise less above the rest than in a sharp one. The
+/// constants were chosen on hand-marked images. On subjects left out of the choice, the Dice
+/// coefficient is .9645; with a fixed threshold it was .9607.
 const CRITERION: Criterion = Criterion {
     threshold: 0.6,
     suppression: 0.5,
@@ -26,19 +27,19 @@ const CRITERION: Criterion = Criterion {
 const FINE: f32 = 0.14;
 /// Width, in spacings, of the Gaussian at the lower end of the band.
 ///
-/// Nothing slower than the band is left of a drift, so none is subtracted before.
+/// The band leaves nothing of a slow drift, so none is subtracted beforehand.
 const COARSE: f32 = 0.25;
-/// Width, in spacings, of the neighbourhood in which the response is made even.
+/// Width, in spacings, of the Gaussian neighbourhood whose root mean square divides the response.
 const CONTRAST: f64 = 0.8;
 
-/// Returns the response of the filter to an image with this spacing in px, and the criterion for
-/// cones.
+/// Returns the response of the filter to an image with the given cone `spacing` in px, and the
+/// criterion for cones.
 ///
-/// Cones are expected dark on the left.
+/// The cones are expected to be dark on the left and bright on the right.
 pub(in crate::detect) fn response(image: &Plane, spacing: f64, _clarity: f64) -> (Plane, Criterion) {
     let (h, w) = image.dim();
     // the mirrored frame keeps opposite edges, which the transform joins, from disturbing each
-    // other; it is wider than s where that makes the transform fast
+    // other; it is wider than one spacing if that makes the transform fast
     let pad = spacing.round() as usize;
     let (height, width) = (fast_length(h + 2 * pad), fast_length(w + 2 * pad));
     let mut spectrum = Spectrum::forward(&reflect_pad(image, pad, pad, height, width), height, width);

@@ -25,17 +25,20 @@ pub(super) struct Kernel {
 }
 
 impl Maps {
-    /// Returns the convolution of these maps with `kernel`: Σ weight · input + bias, zeros outside.
+    /// Returns the convolution of these maps with `kernel`: Σ weight · input + bias, with zeros
+    /// outside the maps.
     pub(super) fn convolved(&self, kernel: &Kernel) -> Self {
         self.through(kernel, false)
     }
 
-    /// Returns the convolution with `kernel`, negative values replaced by zero (ReLU).
+    /// Returns the convolution of these maps with `kernel`, in which negative values are replaced
+    /// by zero (ReLU).
     pub(super) fn layer(&self, kernel: &Kernel) -> Self {
         self.through(kernel, true)
     }
 
-    /// Dispatches to the widest SIMD level available.
+    /// Returns the convolution with `kernel`, computed at the widest SIMD level available; if
+    /// `rectified`, negative values become zero.
     ///
     /// Each pass accumulates 4 outputs × 2 vectors (1 × 4 for a single output): enough independent
     /// sums to hide the latency of the multiply-add, few enough to stay in 16 registers together
@@ -72,10 +75,11 @@ impl Maps {
 }
 
 impl Kernel {
-    /// Returns the weights in the order of their use: for blocks of outputs, by input, row and
-    /// column, with the block's outputs side by side.
+    /// Returns the weights in the order of their use.
     ///
-    /// Missing outputs of the last block have weights of zero.
+    /// Outputs are grouped into blocks of `together`. Within a block, the weights run by input, row
+    /// and column, and those of all outputs for one tap stand side by side. If the last block has
+    /// fewer outputs, weights of zero fill it up.
     fn blocks(&self, together: usize) -> Vec<f32> {
         let taps = self.inputs * self.side * self.side;
         let mut blocks = Vec::with_capacity(self.outputs.next_multiple_of(together) * taps);
@@ -90,27 +94,27 @@ impl Kernel {
     }
 }
 
-/// One convolution of all rows.
+/// One convolution of all rows of the input maps.
 ///
-/// Its functions are inlined into the dispatching caller, so that they are compiled once per SIMD
+/// The methods are inlined into the dispatching caller, so that they are compiled once per SIMD
 /// level.
 struct Pass<'a> {
     /// Maps that are convolved.
     input: &'a Maps,
-    /// Convolution, for its biases.
+    /// Convolution that is applied; only the biases are read from it.
     kernel: &'a Kernel,
-    /// Weights in the order of their use.
+    /// Weights in the order of their use, see [`Kernel::blocks`].
     blocks: Vec<f32>,
-    /// Offset in memory of each tap.
+    /// Offset in memory from a pixel to each tap.
     taps: Vec<isize>,
     /// `true` if negative sums become zero.
     rectified: bool,
 }
 
 impl Pass<'_> {
-    /// Computes all rows, `TOGETHER` outputs and `VECTORS` registers along x at a time.
+    /// Computes all rows of `out`, `TOGETHER` outputs and `VECTORS` registers along x at a time.
     ///
-    /// At the end of a row it takes one register at a time.
+    /// The end of a row is computed one register at a time.
     #[inline(always)]
     fn run<S: Simd, const TOGETHER: usize, const VECTORS: usize>(&self, simd: S, out: &mut Maps) {
         const { assert!(S::f32s::LEN <= LANES) };

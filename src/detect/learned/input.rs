@@ -1,26 +1,28 @@
 //! Input of the networks: an image resampled so that cones have the network's spacing, and
 //! normalised.
 //!
-//! 1. Where the grid gets wider, a Gaussian removes detail that it cannot hold.
-//! 2. Cubics (Catmull and Rom 1974, <https://doi.org/10.1016/B978-0-12-079050-0.50020-5>) give the
-//!    values at the new grid.
+//! 1. If the new pixels are larger, a Gaussian first removes detail too fine for them.
+//! 2. Cubics (Catmull and Rom 1974, <https://doi.org/10.1016/B978-0-12-079050-0.50020-5>)
+//!    interpolate the values at the new pixels.
 //! 3. The drift is subtracted, and the contrast is made even.
 
 use crate::image::{PARALLEL_PIXELS, Plane, gaussian, mirror, plane_of, values};
 use rayon::prelude::*;
 
-/// Width, in px of the network, of the Gaussian that is subtracted as drift.
+/// Width, in px of the resampled image, of the Gaussian filter whose result is subtracted as drift.
 const DRIFT: f64 = 8.;
-/// Width, in px of the network, of the neighbourhood in which contrast is measured.
+/// Width, in px of the resampled image, of the Gaussian neighbourhood in which contrast is
+/// measured.
 const CONTRAST: f64 = 12.;
 /// Fraction of the mean contrast that is added to the local contrast.
 ///
-/// Without it, places without structure would be blown up.
+/// Without this floor, places without structure would be blown up.
 const FLOOR: f64 = 0.1;
 
 /// Returns `image` with its drift subtracted and its contrast made even.
 ///
-/// The result is a / (d + .1 mean d) with a = g − G(8)∗g and d = √(G(12)∗a²), g the image.
+/// With g the image and G(σ) a Gaussian filter of σ px, the result is a / (d + .1 mean d), where a
+/// = g − G(8)∗g and d = √(G(12)∗a²).
 pub(super) fn normalised(image: &Plane) -> Plane {
     let level = image - &gaussian(image, DRIFT);
     let deviation = gaussian(&level.mapv(|v| v * v), CONTRAST).mapv(|v| v.max(0.).sqrt());
@@ -31,10 +33,11 @@ pub(super) fn normalised(image: &Plane) -> Plane {
     out
 }
 
-/// Returns `image` resampled at every `step` px; the outer edges of the pixels stay where they are.
+/// Returns `image` resampled to pixels of `step` × `step` px; its upper and its left edge stay
+/// where they are.
 pub(super) fn resampled(image: &Plane, step: f64) -> Plane {
     let (h, w) = image.dim();
-    // added to a pixel's own extent, this width suits the wider grid
+    // together with the extent of a pixel itself, this blur suits the larger pixels
     let blurred = if step > 1. { gaussian(image, 0.5 * (step * step - 1.).sqrt()) } else { image.clone() };
     let source = values(&blurred);
     let (rows, columns) = (taps(h, step), taps(w, step));
@@ -57,7 +60,7 @@ pub(super) fn resampled(image: &Plane, step: f64) -> Plane {
     plane_of(rows.len(), width, data)
 }
 
-/// Samples that make a new one, and their weights.
+/// Four old samples from which a new one is computed, and their weights.
 struct Tap {
     at: [usize; 4],
     weights: [f32; 4],

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 
 /// Width of the frame of zeros around every channel, in px.
 ///
-/// No layer reaches further, so none has to ask where the image ends.
+/// No layer reads farther beyond the border, so no layer has to test where the image ends.
 pub(super) const MARGIN: usize = 4;
 /// Largest number of pixels that a register holds.
 ///
@@ -21,17 +21,17 @@ pub(super) struct Maps {
     pub(super) height: usize,
     /// Width in px, without the frame.
     pub(super) width: usize,
-    /// Distance in memory from one row to the next.
+    /// Number of values from the start of one row in memory to the start of the next.
     pub(super) stride: usize,
     /// Values by channel, row and column, the frames included.
     pub(super) data: Vec<f32>,
 }
 
-/// Number of maps whose memory a thread keeps: as many as a network has at once.
+/// Largest number of dropped maps whose memory a thread keeps: as many as a network has at once.
 const KEPT: usize = 6;
 
 thread_local! {
-    /// Memory of maps that were dropped.
+    /// Memory of dropped maps, which is kept for new maps.
     ///
     /// Layers follow each other so fast that allocating their memory anew takes as long as the
     /// convolutions.
@@ -53,14 +53,14 @@ impl Drop for Maps {
 
 /// Returns memory for `length` values, whose contents are arbitrary.
 ///
-/// It is the smallest piece that is kept and large enough.
+/// It is the smallest kept piece that is large enough; if there is none, it is newly allocated.
 fn memory(length: usize) -> Vec<f32> {
     let kept = MEMORY.try_with(|memory| {
         let mut memory = memory.borrow_mut();
         let fits = (0..memory.len()).filter(|&k| memory[k].capacity() >= length);
         let best = fits.min_by_key(|&k| memory[k].capacity());
-        // if none is large enough, one is taken out all the same, or small pieces would fill the
-        // store
+        // if no piece is large enough, one is taken out all the same: otherwise small pieces would
+        // fill the store
         best.or_else(|| memory.len().checked_sub(1)).map(|k| memory.swap_remove(k))
     });
     let mut data = kept.ok().flatten().unwrap_or_default();
@@ -98,12 +98,13 @@ impl Maps {
         maps
     }
 
-    /// Returns the distance in memory from one channel to the next.
+    /// Returns the number of values from the start of one channel in memory to the start of the
+    /// next.
     pub(super) fn plane(&self) -> usize {
         (self.height + 2 * MARGIN) * self.stride
     }
 
-    /// Returns the index of the first pixel of a row.
+    /// Returns the index in `data` of the first pixel of a row.
     pub(super) fn start(&self, channel: usize, y: usize) -> usize {
         channel * self.plane() + (y + MARGIN) * self.stride + MARGIN
     }
@@ -120,7 +121,8 @@ impl Maps {
         &mut self.data[start..start + self.width]
     }
 
-    /// Returns the means over 2 × 2 px; height and width must be even.
+    /// Returns the maps at half the resolution: the means over 2 × 2 px. Height and width must be
+    /// even.
     pub(super) fn halved(&self) -> Self {
         let mut out = Self::framed(self.channels, self.height / 2, self.width / 2);
         for channel in 0..out.channels {
@@ -135,7 +137,10 @@ impl Maps {
         out
     }
 
-    /// Returns the maps with every pixel repeated as 2 × 2 px, added to `others` of that size.
+    /// Returns the sum of `others` and of these maps at twice their resolution, with every pixel
+    /// repeated as 2 × 2 px.
+    ///
+    /// `others` must have twice the height and width of these maps.
     pub(super) fn doubled_onto(&self, others: &Self) -> Self {
         let mut out = Self::framed(self.channels, 2 * self.height, 2 * self.width);
         for channel in 0..out.channels {
@@ -150,7 +155,7 @@ impl Maps {
     }
 }
 
-/// Runs `part` for every item, over all cores if there is more than one.
+/// Returns the result of `part` for every item; several items are spread over all cores.
 pub(super) fn for_all<T: Sync, R: Send>(items: &[T], part: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
     if items.len() < 2 { items.iter().map(part).collect() } else { items.par_iter().map(part).collect() }
 }

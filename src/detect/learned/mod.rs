@@ -24,20 +24,21 @@ use crate::image::Plane;
 use std::ops::RangeInclusive;
 use weights::Weights;
 
-/// Range of spacings, in px, that a model can be made for.
+/// Range of the cone spacing, in px, for which a model can be made.
 const SPACING: RangeInclusive<f64> = 2. ..=64.;
-/// Range of the radius of suppression, in spacings.
+/// Range of a model's radius of suppression, in spacings.
 const SUPPRESSION: RangeInclusive<f64> = 0.1..=2.;
-/// Logit below which a maximum is never a cone.
+/// Logit above which a maximum is a candidate for a cone, unless the model has a lower threshold.
 const CANDIDATE: f32 = -4.5;
-/// Quantile of the stronger maxima from which an image-relative threshold is counted.
+/// Quantile of the stronger maxima of an image that serves as reference for a threshold relative to
+/// the image.
 const QUANTILE: f64 = 0.75;
 
 /// A network with everything that turns its output into cones.
 #[derive(Debug)]
 pub(super) struct Model {
     network: Network,
-    /// Cone spacing, in px, in the plane that the network sees.
+    /// Cone spacing, in px, in the plane that is given to the network.
     spacing: f64,
     threshold: Threshold,
     /// Distance, in spacings, below which only the higher of two maxima stays.
@@ -60,14 +61,15 @@ enum Network {
     Onnx(Box<onnx::Onnx>),
 }
 
-/// Threshold of the logit above which a maximum is a cone.
+/// Rule that gives the logit above which a maximum is a cone.
 #[derive(Debug)]
 enum Threshold {
-    /// A logit, which rises by `in_noise` for every unit of the image's clarity below [`CLEAR`].
+    /// The threshold `logit`, which rises by `in_noise` for every unit by which the image's clarity
+    /// is below [`CLEAR`].
     Absolute { logit: f64, in_noise: f64 },
-    /// A logit that lies `below` the upper quartile of the image's stronger maxima.
+    /// The upper quartile of the logits of the image's stronger maxima, less `below`.
     ///
-    /// Those are the maxima above `floor`, after suppression at `radius` spacings.
+    /// Stronger maxima are above `floor` and remain after suppression at `radius` spacings.
     Relative { below: f64, floor: f32, radius: f64 },
 }
 
@@ -75,7 +77,7 @@ impl Model {
     /// Reads the network in a file of weights.
     ///
     /// # Errors
-    /// If the weights are damaged, or their metadata out of range.
+    /// If the weights are damaged or their metadata are out of range.
     pub(super) fn read(file: &[u8]) -> Result<Self, WeightsError> {
         let weights = Weights::read(file)?;
         let threshold = match weights.word("rule")? {
@@ -160,13 +162,17 @@ impl ConeFinder for Model {
         Ok(Found { cones, rejected })
     }
 
-    /// Returns 3 %: networks tolerate more, since they are trained at spacings off by up to 15 %.
+    /// Returns .03 (3 %): networks tolerate more change of the spacing, since they are trained at
+    /// spacings off by up to 15 %.
     fn settled(&self) -> f64 {
         0.03
     }
 }
 
-/// Returns a number in a model's metadata, if it is in range.
+/// Returns the number that the metadata of a model give as `text` under `key`.
+///
+/// # Errors
+/// If `text` is not a number in `range`, which `expected` describes for the message.
 fn in_range(
     key: &'static str,
     text: &str,
@@ -177,7 +183,7 @@ fn in_range(
     number.ok_or_else(|| WeightsError::value(key, text, expected))
 }
 
-/// Returns the quantile of values in rising order, interpolated linearly; infinity if there are
+/// Returns the quantile of values in rising order, interpolated linearly, or infinity if there are
 /// none.
 fn quantile(rising: &[f64], part: f64) -> f64 {
     crate::numeric::linear_quantile(rising, part).unwrap_or(f64::INFINITY)

@@ -1,9 +1,12 @@
 //! A U-Net (Ronneberger et al. 2015, <https://doi.org/10.1007/978-3-319-24574-4_28>) that finds
 //! cones.
 //!
-//! 1. The plane is cut into pieces that overlap as far as the network reaches.
-//! 2. Each piece, if the network wants it also mirrored, goes through two halvings and back.
-//! 3. The pieces of logits are joined without a seam.
+//! 1. The plane is cut into pieces, each of which also gets the surrounding pixels that can affect
+//!    its result.
+//! 2. Each piece goes through the network, which halves the resolution twice and then restores it.
+//!    If the network asks for it, mirror images of the piece go through it as well, and the results
+//!    are averaged.
+//! 3. The logits of the pieces are joined without a seam.
 
 use super::convolution::Kernel;
 use super::maps::{Maps, for_all};
@@ -12,18 +15,20 @@ use crate::image::{Plane, mirror};
 
 /// Longest side, in px, of a piece that goes through the network in one go.
 ///
-/// Larger planes are cut so that all cores work and memory is bounded.
+/// Larger planes are cut into pieces so that all cores work and memory is bounded.
 const PIECE: usize = 256;
 
-/// A network from a normalised plane, in which cones are 8 px apart, to the logit of a cone's
-/// centre at every pixel.
+/// A network that takes a normalised plane in which cones are 8 px apart, and gives, for every
+/// pixel, the logit of being a cone's centre.
 #[derive(Debug)]
 pub(super) struct Network {
     unet: Unet,
     views: Views,
 }
 
-/// A U-Net with two halvings and back, whose widths are those of the tensors in the file.
+/// A U-Net that halves the resolution twice and then restores it.
+///
+/// The numbers of channels are those of the tensors in the file of weights.
 #[derive(Debug)]
 struct Unet {
     first: Kernel,
@@ -39,21 +44,23 @@ struct Unet {
     last: Kernel,
 }
 
-/// Views of an image whose logits are averaged.
+/// Views of an image (the image itself and its mirror images) whose logits are averaged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Views {
-    /// Only the image as it is.
+    /// A single view: the image as it is.
     One,
-    /// The image as it is, mirrored along x, along y and along both.
+    /// Four views: the image, and its mirror images along x, along y and along both.
     ///
-    /// A view mirrored along x is multiplied by `sign`: a split detector then has the other
-    /// polarity.
+    /// The two views mirrored along x are multiplied by `sign`. For split-detector images `sign` is
+    /// −1, because mirroring such an image along x swaps the dark and the bright side of its cones.
+    /// Otherwise it is 1.
     Mirrored { sign: f32 },
 }
 
-/// Number of px that the sides of a piece must be multiples of, because they are halved twice.
+/// Unit, in px, of which the sides of a piece are multiples, because they are halved twice.
 const UNIT: usize = 4;
-/// Distance, in px, up to which an input can act, rounded up to a multiple of the unit.
+/// Distance, in px, up to which a pixel of the input can affect the output, rounded up to a
+/// multiple of [`UNIT`].
 const REACH: usize = 24;
 
 impl Network {
@@ -118,7 +125,8 @@ impl Network {
         let mut sum = self.unet.apply(&seen);
         let mut view = seen;
         // mirroring along y, x and y in turn gives every view once, the piece itself first; the sum
-        // is mirrored with them, and once more along x at the end, which brings it back
+        // of the logits is mirrored with the view each time, and once more along x at the end,
+        // which brings it back
         for (along_x, factor) in [(false, 1.), (true, sign), (false, 1.)] {
             view = mirrored(&view, along_x, factor, None);
             sum = mirrored(&sum, along_x, 1., Some(&self.unet.apply(&view)));
@@ -160,7 +168,8 @@ impl Unet {
     }
 }
 
-/// Returns one map, mirrored along x or along y and multiplied by `factor`, with `others` added.
+/// Returns a single map, mirrored along x if `along_x` and otherwise along y, multiplied by
+/// `factor`, with `others` added.
 fn mirrored(maps: &Maps, along_x: bool, factor: f32, others: Option<&Maps>) -> Maps {
     let mut out = Maps::framed(1, maps.height, maps.width);
     for y in 0..maps.height {
@@ -178,8 +187,8 @@ fn mirrored(maps: &Maps, along_x: bool, factor: f32, others: Option<&Maps>) -> M
     out
 }
 
-/// A stretch `first..end` of a side whose logits are used, inside the stretch `from..to` that goes
-/// through the network.
+/// A stretch `first..end` of a side whose logits are used, and the wider stretch `from..to` that
+/// goes through the network.
 struct Piece {
     first: usize,
     end: usize,
@@ -187,9 +196,10 @@ struct Piece {
     to: usize,
 }
 
-/// Cuts a side into equal pieces of about `longest` at most, with all cuts at multiples of 4.
+/// Cuts a side of `length` px into equal pieces of at most about `longest` px, with all cuts at
+/// multiples of 4.
 ///
-/// Each piece sees up to `reach` px beyond its ends.
+/// The stretch that goes through the network extends up to `reach` px beyond either end of a piece.
 fn pieces(length: usize, longest: usize, reach: usize) -> Vec<Piece> {
     let count = length.div_ceil(longest).max(1);
     let step = length.div_ceil(count).next_multiple_of(4);

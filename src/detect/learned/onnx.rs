@@ -8,10 +8,14 @@ use rten::{Dimension, RunOptions, ThreadPool, Value};
 use std::fmt;
 use std::sync::Arc;
 
-/// Number of px that the sides of the input are multiples of, unless the metadata say otherwise: it
-/// allows five halvings.
+/// Default unit, in px: the sides of the input are padded to multiples of it, unless the metadata
+/// give another unit.
+///
+/// Multiples of 32 px allow five halvings.
 const MULTIPLE: &str = "32";
-/// Distance from 0 and 1 at which probabilities are held, since the logit is infinite there.
+/// Least distance of a probability from 0 and from 1.
+///
+/// Closer probabilities are moved to this distance, because the logit of 0 or 1 is infinite.
 const SURE: f32 = 1e-6;
 
 /// An ONNX model, and the meaning of its output.
@@ -22,7 +26,7 @@ pub(super) struct Onnx {
     options: RunOptions,
     /// `true` if the output is a probability, `false` if it is a logit.
     probability: bool,
-    /// Number of px that the sides of the input are multiples of.
+    /// Unit, in px, of which the sides of the input must be multiples.
     multiple: usize,
 }
 
@@ -36,7 +40,8 @@ impl Model {
     /// Reads the ONNX model in `bytes` and its metadata.
     ///
     /// # Errors
-    /// If it cannot be run, has another shape, or its metadata are out of range.
+    /// If the model cannot be run or its input or output has another shape, or if its metadata are
+    /// out of range.
     pub(super) fn onnx(bytes: &[u8]) -> Result<Self, WeightsError> {
         let model = rten::Model::load(bytes.to_vec()).map_err(|e| WeightsError::Onnx(e.to_string()))?;
         let word = |key| model.metadata().get(key);
@@ -75,10 +80,10 @@ impl Model {
 }
 
 impl Onnx {
-    /// Checks that the model takes one plane of any size and gives one of the same size.
+    /// Checks that the model takes one plane of any size and returns one plane of the same size.
     ///
     /// # Errors
-    /// If it does not, or fails on a plane of waves.
+    /// If the shapes are others, or if the model fails on a test image of waves.
     fn check(&self) -> Result<(), WeightsError> {
         let (inputs, outputs) = (self.model.input_ids().len(), self.model.output_ids().len());
         if (inputs, outputs) != (1, 1) {
@@ -100,10 +105,11 @@ impl Onnx {
 
     /// Returns the logit at every pixel of `seen`.
     ///
-    /// Beyond its right and lower border, the plane continues as its mirror image up to a multiple.
+    /// Beyond its right and lower border, the plane continues as its mirror image until its sides
+    /// are multiples of `self.multiple` px.
     ///
     /// # Errors
-    /// If the model fails, or its output is no plane of logits or probabilities.
+    /// If the model fails, or its output is not a plane of logits or probabilities.
     pub(super) fn logits(&self, seen: &Plane) -> Result<Plane, WeightsError> {
         let (height, width) = seen.dim();
         let padded = Plane::from_shape_fn(
@@ -113,7 +119,7 @@ impl Onnx {
         Ok(crop(&self.run(&padded)?, 0, 0, height, width))
     }
 
-    /// Returns the logits of a plane whose sides are multiples as the model wants them.
+    /// Returns the logits of a plane whose sides are already multiples of `self.multiple` px.
     fn run(&self, seen: &Plane) -> Result<Plane, WeightsError> {
         let (h, w) = seen.dim();
         let refused = |e: &dyn fmt::Display| WeightsError::Onnx(e.to_string());

@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 use sha2::{Digest, Sha256};
 use std::sync::Arc;
 
-/// A network of the user's own, cheap to clone and equal to every other of the same bytes.
+/// A user's own network; cheap to clone. Two are equal if the bytes of their files are.
 ///
 /// There are two kinds:
 ///
@@ -17,10 +17,10 @@ use std::sync::Arc;
 ///
 /// - `spacing`: px between cones in the input, default 8
 /// - `output`: `probability` (the default) or `logit`
-/// - `multiple`: the number of px that H and W are multiples of, default 32
+/// - `multiple`: unit in px of which H and W are multiples, default 32
 /// - `threshold`: probability above which a maximum is a cone, default 0.5
 /// - `suppression`: radius of suppression in spacings, default 0.5
-/// - `modality`: the images that the model is for, by default all
+/// - `modality`: modality of the images that the model is for, by default all
 #[derive(Clone, Debug)]
 pub struct UserModel {
     name: Arc<str>,
@@ -29,10 +29,11 @@ pub struct UserModel {
 }
 
 impl UserModel {
-    /// Reads the model in the bytes of a file; `name` stands for it in errors.
+    /// Reads the model in the bytes of a file; `name` stands for the model in errors.
     ///
     /// # Errors
-    /// If it is neither kind, damaged, or its metadata are out of range.
+    /// If the bytes are neither kind of model, or damaged, or if the metadata of the model are out
+    /// of range.
     pub fn new(name: &str, bytes: &[u8]) -> Result<Self, WeightsError> {
         let model = match bytes {
             // safetensors begins with 8 bytes of length and a JSON object of that length
@@ -45,7 +46,7 @@ impl UserModel {
         Ok(Self { name: name.into(), model: Arc::new(model), sha256: sha256.into() })
     }
 
-    /// Returns the name of the model, as it was given.
+    /// Returns the name of the model, as it was given to [`UserModel::new`].
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -55,7 +56,7 @@ impl UserModel {
         self.model.modality
     }
 
-    /// Returns the model, if it is for images of that modality.
+    /// Returns the model if it is for images of `modality`, otherwise `None`.
     pub(in crate::detect) fn for_modality(&self, modality: Modality) -> Option<&Model> {
         self.modality().is_none_or(|own| own == modality).then_some(&*self.model)
     }
@@ -67,8 +68,8 @@ impl PartialEq for UserModel {
     }
 }
 
-/// Serialisation as the hash of the bytes: results that depend on the model depend on nothing else
-/// of it, such as its name.
+/// Serialisation as the SHA-256 hash of the model's bytes: results that depend on the model depend
+/// on nothing else of it, such as its name.
 impl Serialize for UserModel {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(&self.sha256)

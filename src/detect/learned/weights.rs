@@ -16,7 +16,7 @@ pub enum WeightsError {
     /// The file is an ONNX model, which this build of the program cannot run.
     #[error("ONNX models need a program built with them: cargo install --path . --features onnx")]
     NoOnnx,
-    /// The ONNX model cannot be run, or its output is of no use.
+    /// The ONNX model cannot be run, or its output cannot be used.
     #[error("the ONNX model cannot be used: {0}")]
     Onnx(String),
     /// A value in the metadata is out of range.
@@ -51,7 +51,7 @@ impl WeightsError {
     }
 }
 
-/// Largest number of channels; more are a sign of a damaged header.
+/// Largest number of channels that is accepted; a larger number is a sign of a damaged header.
 const WIDEST: u64 = 1024;
 
 /// A safetensors file: eight bytes of length, a JSON header of that length, then the bytes of the
@@ -116,7 +116,7 @@ impl<'a> Weights<'a> {
         outputs.map(|n| n as usize).ok_or(WeightsError::Tensor { name, shape: vec![] })
     }
 
-    /// Returns the values of a tensor of this shape, row by row.
+    /// Returns the values of the tensor `name`, which must have the given shape, row by row.
     pub(super) fn tensor(&self, name: &str, shape: &[usize]) -> Result<Vec<f32>, WeightsError> {
         let find = || {
             let entry = self.header.get(name)?;

@@ -11,56 +11,61 @@ use crate::detect::spacing::{AROUND as AROUND_RING, RingProfile};
 use crate::detect::{Modality, Polarity, filter, flatten::normalise, local_maxima, suppress};
 use crate::image::{Plane, gaussian, values};
 
-/// Width of the Gaussian before fine slopes are taken, in spacings.
+/// Width, in spacings, of the Gaussian that smooths an image before fine slopes are taken.
 const FINE: f64 = 0.1;
-/// Width of the Gaussian before coarse slopes are taken, in spacings.
+/// Width, in spacings, of the Gaussian that smooths an image before coarse slopes are taken.
 const COARSE: f64 = 0.2;
-/// Width of the Gaussian before grey values are compared, in spacings; otherwise noise would blur
-/// their distribution.
-const GREY: f64 = 0.08;
-/// Width of the neighbourhood in which grey values are compared, in spacings.
-const AROUND: f64 = 1.5;
-/// Smallest range of grey values that is divided by, in local standard deviations.
+/// Width, in spacings, of the Gaussian that smooths an image before grey values are compared.
 ///
-/// More than half of an image may be a single grey value.
+/// Without it, noise would blur the distribution of grey values.
+const GREY: f64 = 0.08;
+/// Width, in spacings, of the Gaussian neighbourhood whose mean and scatter serve as reference for
+/// grey values.
+const AROUND: f64 = 1.5;
+/// Least range of grey values that other values are divided by, in local standard deviations.
+///
+/// Without this floor, the range could be 0: more than half of an image may be a single grey value.
 const LEAST_RANGE: f64 = 1e-2;
-/// Smallest height of a cone's maximum, as a fraction of the median height of all maxima.
+/// Least height of a maximum that counts as a cone, as a fraction of the median height of all
+/// maxima.
 const CONE: f64 = 0.3;
 
 /// Number of features that tell modalities apart.
 pub(super) const MODALITY: usize = 11 + AROUND_RING;
-/// Number of features that tell on which side a split detector shows cones dark.
+/// Number of features that tell whether cones in a split-detector image are dark on the left or on
+/// the right.
 pub(super) const DIRECTION: usize = 4;
 
-/// Features that tell images apart.
+/// Features by which the modality and the polarity of an image are recognised.
 pub(super) struct Features {
-    /// Spacing by the ring in px.
+    /// Cone spacing estimated from Yellott's ring, in px.
     spacing: f64,
     /// Response of a filter as wide as a cone.
     blobs: Plane,
-    /// Skewness of that response.
+    /// Skewness of `blobs`, the response of a filter as wide as a cone.
     pub blobs_skewness: f64,
-    /// Logarithm of the variance of slopes along x over that along y.
+    /// Logarithm of the ratio of the variance of fine slopes along x to that along y.
     ///
-    /// A split detector shows the derivative along x.
+    /// It is high for split-detector images, which show the derivative along x.
     directed: f64,
-    /// Skewness of the fine slopes along x.
+    /// Skewness of the slopes along x after fine smoothing.
     ///
     /// A cone is steeper between its dark and its bright side than the ground between cones is.
     fine_slopes: f64,
-    /// Skewness of the coarse slopes along x.
+    /// Skewness of the slopes along x after coarse smoothing.
     coarse_slopes: f64,
-    /// Logarithm of power around the ring.
+    /// Logarithm of the power at frequencies around the ring, see [`RingProfile::around`].
     ///
     /// Round soft spots have little power above the ring's frequency, discs have more because of
     /// their edges, and uneven brightness has much below it.
     spectrum: [f64; AROUND_RING],
-    /// Distribution of local grey values, the side of the cones taken as the bright one.
+    /// Distribution of grey values around their local mean, with its signs chosen as if cones were
+    /// bright.
     greys: Greys,
 }
 
 impl Features {
-    /// Returns the features of a flattened image with this ring.
+    /// Returns the features of the flattened image `flat`, in whose spectrum `ring` was found.
     pub(super) fn of(flat: &Plane, ring: &RingProfile) -> Self {
         let spacing = ring.spacing().spacing;
         let blobs = filter::blobs(flat, spacing);
@@ -105,9 +110,10 @@ impl Features {
         features
     }
 
-    /// Returns the features that show on which side a split detector has cones dark.
+    /// Returns the features that tell whether cones in a split-detector image are dark on the left
+    /// or on the right.
     ///
-    /// For the negative of an image, they have the opposite sign.
+    /// The negative of an image has the same features with the opposite sign.
     pub(super) fn of_direction(&self, flat: &Plane) -> [f64; DIRECTION] {
         let (response, _) =
             filter::response(flat, Modality::Split, Polarity::Positive, self.spacing, f64::INFINITY);
@@ -115,7 +121,7 @@ impl Features {
         [response, self.coarse_slopes, self.fine_slopes, self.blobs_skewness]
     }
 
-    /// Returns the coefficient of variation of the cones' heights.
+    /// Returns the coefficient of variation of the cones' heights in `blobs`.
     ///
     /// The heights of waveguides (confocal) scatter more than those of cut discs (histology).
     fn scatter_of_heights(&self) -> f64 {
@@ -129,7 +135,7 @@ impl Features {
     }
 }
 
-/// Moments of the differences of neighbouring pixels.
+/// Moments of the differences of neighbouring pixels, along x and along y.
 struct Slopes {
     along_x: Moments,
     along_y: Moments,
@@ -150,25 +156,31 @@ impl Slopes {
 struct Greys {
     skewness: f64,
     kurtosis: f64,
-    /// Interquartile range over the range from 5 % to 95 %.
+    /// Interquartile range, divided by the range from the 5 % to the 95 % quantile.
     ///
-    /// It is large where most pixels are either disc or ground.
+    /// It is large where most pixels belong either to a disc or to the ground.
     boxiness: f64,
-    /// Distance of the bright end from the median less that of the dark end, in units of the range
-    /// from 5 % to 95 %.
+    /// Distance of the bright end from the median less that of the dark end, divided by the
+    /// distance between the ends.
+    ///
+    /// The ends are the 5 % and the 95 % quantile, and cones are on the bright side.
     asymmetry: f64,
-    /// Distance of the brightest hundredth from the bright end, in the same units.
+    /// Distance between the outermost hundredth and the outermost twentieth of the grey values on
+    /// the side of the cones, divided by the range from the 5 % to the 95 % quantile.
     ///
-    /// It is close to 0 where a camera was overexposed.
+    /// It is close to 0 where grey values are cut off there: bright cones in an overexposed image.
     bright_end: f64,
-    /// Distance of the darkest hundredth from the dark end, in the same units.
+    /// Distance between the outermost hundredth and the outermost twentieth of the grey values on
+    /// the side of the ground, divided by the range from the 5 % to the 95 % quantile.
     ///
-    /// It is close to 0 where the zero of a camera was set too high.
+    /// It is close to 0 where grey values are cut off there: dark ground where the zero of a camera
+    /// was set too high.
     dark_end: f64,
 }
 
 impl Greys {
-    /// Returns the distribution for an image; `negative` if cones are dark in it.
+    /// Returns the distribution of grey values in a flattened image; `negative` is `true` if cones
+    /// are darker than the ground.
     fn of(flat: &Plane, spacing: f64, negative: bool) -> Self {
         let smooth = gaussian(flat, GREY * spacing);
         let local = normalise(&(&smooth - &gaussian(&smooth, AROUND * spacing)), AROUND * spacing);
@@ -195,7 +207,7 @@ impl Greys {
     }
 }
 
-/// Mean and central moments of values, each divided by their number.
+/// Mean and central moments of a set of values; every sum is divided by the number of values.
 struct Moments {
     mean: f64,
     second: f64,

@@ -1,10 +1,10 @@
 //! Modality and polarity of an image, decided from the image.
 //!
-//! A small network tells modalities apart; `scripts/train-modality` trains it on hand-marked and on
+//! A small network tells modalities apart. `scripts/train-modality` trains it on hand-marked and on
 //! simulated images: as they are, with gamma ½ and 2, with noise, blurred, over- and underexposed,
-//! as negatives and as crops. A logistic regression by the same script tells on which side a split
-//! detector shows cones dark. Once cut cells are detected, their own contrast gives the polarity
-//! ([`of_cells`]).
+//! as negatives and as crops. A logistic regression by the same script tells whether cones in a
+//! split-detector image are dark on the left or on the right. Once cut cells are detected, their
+//! own contrast gives the polarity ([`of_cells`]).
 
 mod features;
 mod network;
@@ -18,40 +18,48 @@ use crate::geometry::Point;
 use crate::image::{Plane, gaussian};
 use features::{DIRECTION, Features, MODALITY};
 
-/// Width of a Gaussian within a cut cell, in spacings.
+/// Width, in spacings, of the Gaussian that averages the brightness in the middle of a cut cell.
 const MIDDLE: f64 = 0.1;
-/// Width of a Gaussian that reaches beyond the walls of a cut cell, in spacings.
+/// Width, in spacings, of the Gaussian that averages the brightness of a cut cell and of its
+/// surroundings beyond the walls.
 const CELL: f64 = 0.5;
 
-/// Number of pixels of the flattened part from which on the image may be larger than that part.
+/// Least number of pixels of a flattened image that is taken for a part of a larger one, so that
+/// its ring is measured anew.
+///
+/// Parts of a large image are at most 512 × 512 px.
 const LARGE: usize = 512 * 512;
 
-/// Prior evidence, in logits, that a split detector shows cones dark on the left.
+/// Prior evidence, in logits, that cones in a split-detector image are dark on the left.
 ///
 /// Instruments are usually set up that way: odds of two to one.
 const USUAL: f64 = 0.7;
 
-/// Features of an image, without units, as `scripts/train-modality` reads them.
+/// Features by which the modality and the polarity of an image are decided. They have no unit.
+///
+/// `scripts/train-modality` reads them, too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModalityFeatures {
     /// Features that show the modality.
     ///
     /// They are the excess of slopes along x over those along y, the skewness of slopes along x
-    /// (coarse, then fine), the skewness of blobs, the skewness, kurtosis, shape and ends of grey
-    /// values, the scatter of the cones' heights, and the spectrum around the ring.
+    /// (coarse, then fine), the skewness of the response of a filter for blobs, the skewness,
+    /// kurtosis, shape and ends of the grey values, the scatter of the cones' heights, and the
+    /// spectrum around the ring.
     pub modality: [f64; MODALITY],
-    /// Features that show on which side a split detector has cones dark.
+    /// Features that tell whether cones in a split-detector image are dark on the left or on the
+    /// right.
     ///
-    /// They are the skewness of the filter's response, that of slopes along x (coarse, then fine),
-    /// and that of blobs.
+    /// They are the skewness of the split-detector filter's response, that of slopes along x
+    /// (coarse, then fine), and that of the response of a filter for blobs.
     pub direction: [f64; DIRECTION],
 }
 
 /// Decides the modality and the polarity of a flattened image, or of a part that stands for all of
 /// it.
 ///
-/// Returns the modality, the probability (0–1) that it is right, and the polarity. Whatever is
-/// given stays as it is, a given modality with probability 1.
+/// Returns the modality, the probability (0–1) that it is right, and the polarity. A `modality` or
+/// a `polarity` that is given is returned as it is; a given modality has probability 1.
 pub(super) fn decide(
     flat: &Plane,
     ring: &RingProfile,
@@ -73,7 +81,7 @@ pub(super) fn decide(
     (modality, confidence, polarity)
 }
 
-/// Returns the features on which [`decide`] rests.
+/// Returns the features by which [`decide`] recognises the modality and the polarity.
 pub(super) fn features(flat: &Plane, ring: &RingProfile) -> ModalityFeatures {
     let features = features_of(flat, ring);
     ModalityFeatures { modality: features.of_modality(), direction: features.of_direction(flat) }
@@ -81,14 +89,15 @@ pub(super) fn features(flat: &Plane, ring: &RingProfile) -> ModalityFeatures {
 
 /// Returns the features of a flattened image, or of a part that stands for all of it.
 fn features_of(flat: &Plane, ring: &RingProfile) -> Features {
-    // `flat` is only a part of a large image: where density is uneven, its ring differs from that
-    // of all
+    // a large `flat` may be only a part of the image: where density is uneven, its ring differs
+    // from that of the entire image
     let own = (flat.len() >= LARGE).then(|| RingProfile::of(flat));
     Features::of(flat, own.as_ref().unwrap_or(ring))
 }
 
-/// Returns the polarity of cut cells with these centres: positive if they are brighter in the
-/// middle than all around.
+/// Returns the polarity of the cut cells at `centres`, which are `spacing` px apart.
+///
+/// It is positive if the cells are, on average, brighter in the middle than all around.
 pub(super) fn of_cells(image: &Plane, centres: &[Point], spacing: f64) -> Polarity {
     let [middle, around] = [MIDDLE, CELL].map(|width| gaussian(image, width * spacing));
     let (height, width) = image.dim();

@@ -1,6 +1,6 @@
 //! A small network with one hidden layer that tells modalities apart by their
-//! [`Features`](super::features::Features), and a logistic regression that tells on which side a
-//! split detector shows cones dark.
+//! [`Features`](super::features::Features), and a logistic regression that tells whether cones in a
+//! split-detector image are dark on the left or on the right.
 //!
 //! Both are trained by `scripts/train-modality`.
 
@@ -9,12 +9,12 @@ use crate::detect::Modality;
 use std::sync::OnceLock;
 use strum::VariantArray;
 
-/// Number of units of the hidden layer: those of four networks whose scores are averaged.
+/// Number of units of the hidden layer: 16 for each of four networks whose scores are averaged.
 const HIDDEN: usize = 64;
 const CLASSES: usize = Modality::VARIANTS.len();
 
-/// File of the weights (out × in) and biases of both layers, then the weights of the direction, as
-/// 32-bit floats, little endian.
+/// File of the weights (out × in) and biases of both layers, then the weights of the logistic
+/// regression, as 32-bit floats, little endian.
 ///
 /// Modalities are in the order of [`Modality::VARIANTS`].
 static FILE: &[u8; 4 * COUNT] = include_bytes!("modality.f32");
@@ -50,7 +50,7 @@ fn scores(features: &[f64; MODALITY]) -> [f64; CLASSES] {
     layer(&rest[..LAST], &hidden)
 }
 
-/// Returns the evidence, in logits, that a split detector shows cones dark on the left.
+/// Returns the evidence, in logits, that cones in a split-detector image are dark on the left.
 pub(super) fn dark_left(features: &[f64; DIRECTION]) -> f64 {
     numbers()[FIRST + LAST..].iter().zip(features).map(|(w, f)| w * f).sum()
 }

@@ -7,19 +7,20 @@ pub(super) const LONGEST_PERIOD: f64 = 64.;
 /// Number of bins, up to half a cycle per pixel.
 pub(super) const BINS: usize = 121;
 
-/// Returns the place of a period (px) on the axis of bins.
+/// Returns the position of a period (px) on the axis of bins: a bin index with a fraction.
 pub(super) fn bin_of(period: f64) -> f64 {
     PER_OCTAVE * (LONGEST_PERIOD / period).log2()
 }
 
 /// Index of the bin of the widest spacing that is looked for (40.3 px).
 ///
-/// The network was trained with this bin and with this number of candidates.
+/// The network that reads the spacing was trained with this bin and with [`CANDIDATES`].
 pub(super) const FIRST: usize = 16;
 /// Number of candidate spacings, from the widest down to the closest (4 px).
 pub(super) const CANDIDATES: usize = 81;
 
-/// Returns the spacing, px, of candidate `k`.
+/// Returns the spacing, in px, of candidate `k`, which may have a fraction; candidate 0 is the
+/// widest.
 pub(super) fn candidate(k: f64) -> f64 {
     LONGEST_PERIOD / ((FIRST as f64 + k) / PER_OCTAVE).exp2()
 }

@@ -1,31 +1,31 @@
 use crate::geometry::Point;
 use serde::{Deserialize, Serialize};
 
-/// A map of the cone spacing in px: a smooth function of place.
+/// A map of the cone spacing in px: a smooth function of position.
 ///
-/// It has values on a grid of nodes, between which their logarithm is interpolated bilinearly.
-/// Beyond the outermost nodes, their values continue outwards.
+/// The map has values at the nodes of a grid. Between nodes, the logarithm of the spacing is
+/// interpolated bilinearly; beyond the outermost nodes, it stays constant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpacingMap {
-    /// Places of the columns of nodes, px, rising.
+    /// Positions x of the columns of nodes in px, in rising order.
     x: Vec<f64>,
-    /// Places of the rows of nodes, px, rising.
+    /// Positions y of the rows of nodes in px, in rising order.
     y: Vec<f64>,
     /// Natural logarithms of the spacings in px at the nodes, row by row.
     log: Vec<f64>,
 }
 
 impl SpacingMap {
-    /// Returns the map of one spacing, px, that holds everywhere.
+    /// Returns the map of a single `spacing`, in px, that holds everywhere.
     pub fn constant(spacing: f64) -> Self {
         Self { x: vec![0.], y: vec![0.], log: vec![spacing.ln()] }
     }
 
-    /// Returns the map of the spacings, px, at the nodes `x` × `y` (both rising, not empty), row by
-    /// row.
+    /// Returns the map with the given spacings (px), row by row, at the nodes `x` × `y`.
     ///
-    /// A node without a spacing takes the mean logarithm of its nearest nodes that have one. If no
-    /// node has one, the map is constant at `otherwise`.
+    /// `x` and `y` must be rising and not empty. A node without a spacing takes the mean logarithm
+    /// of its neighbours; this is repeated, outwards from the known nodes, until every node has a
+    /// spacing. If no node has a spacing, the map is constant at `otherwise`.
     pub(in crate::detect) fn on_grid(
         x: Vec<f64>,
         y: Vec<f64>,
@@ -115,14 +115,15 @@ impl SpacingMap {
         self.y.iter_mut().for_each(|y| *y += down);
     }
 
-    /// Scales all places and spacings by `times`, from px of means over blocks to px of the image.
+    /// Converts all positions and spacings from px of means over blocks of `times` × `times` px to
+    /// px of the image.
     pub(in crate::detect) fn enlarge(&mut self, times: f64) {
         self.x.iter_mut().chain(&mut self.y).for_each(|x| *x = (*x + 0.5) * times - 0.5);
         self.log.iter_mut().for_each(|log| *log += times.ln());
     }
 
-    /// Returns the largest absolute change of the logarithm from the map `earlier`, over the nodes
-    /// of this map.
+    /// Returns the largest absolute difference between the logarithms of this map and of the map
+    /// `earlier`, at the nodes of this map.
     pub(in crate::detect) fn change_from(&self, earlier: &Self) -> f64 {
         let mut largest = 0f64;
         for (j, &y) in self.y.iter().enumerate() {
@@ -135,7 +136,8 @@ impl SpacingMap {
     }
 }
 
-/// Calls `visit(index, is_diagonal)` for the up to eight neighbours of node `k`.
+/// Calls `visit(index, is_diagonal)` for each of the up to eight neighbours of node `k` in a grid
+/// of `columns` × `rows`.
 fn around(k: usize, columns: usize, rows: usize, mut visit: impl FnMut(usize, bool)) {
     let (i, j) = (k % columns, k / columns);
     for v in j.saturating_sub(1)..(j + 2).min(rows) {
@@ -149,7 +151,7 @@ fn around(k: usize, columns: usize, rows: usize, mut visit: impl FnMut(usize, bo
 
 /// Returns the index of the node before a place and the fraction of the way to the next node.
 ///
-/// Beyond either end, that is the outermost node and 0.
+/// Beyond either end of the nodes, the result is the outermost node and 0.
 fn between(nodes: &[f64], place: f64) -> (usize, f64) {
     let after = nodes.partition_point(|n| *n <= place);
     match after {

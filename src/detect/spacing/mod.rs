@@ -1,5 +1,5 @@
-//! Cone spacing: first from Yellott's ring, then from the density of the detections, and from place
-//! to place where it varies.
+//! Cone spacing: first from Yellott's ring in the power spectrum, then from the density of the
+//! detections. If the spacing varies from place to place, the result is a map.
 
 mod bins;
 mod fourier;
@@ -20,8 +20,8 @@ pub use ring::{RingEstimate, RingProfile};
 pub(super) use ring_network::weights as ring_weights;
 pub(super) use rings::Rings;
 
-/// Smallest and largest spacing that is looked for, in px.
+/// Smallest and largest cone spacing that is looked for, in px.
 ///
-/// Closer cones are not resolved. Wider ones are looked for in means of pixels (see
-/// [`WIDEST_SPACING`](super::WIDEST_SPACING)).
+/// Closer cones are not resolved. Cones farther apart are looked for in means over blocks of pixels
+/// (see [`WIDEST_SPACING`](super::WIDEST_SPACING)).
 pub const SPACING_RANGE: (f64, f64) = (4., 40.);

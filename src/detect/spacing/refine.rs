@@ -1,10 +1,11 @@
 //! Refines the spacing by the density of the detections: s = √(2A/(√3 n)) for n cones on the area
 //! A.
 //!
-//! 1. The density of the whole image gives one spacing, held within e^±0.35 of the ring's.
+//! 1. The density over the entire image gives one spacing, which is kept within a factor of e^±0.35
+//!    of the ring's spacing.
 //! 2. If there are enough cones, a square of about 80 cones around every node of a grid gives a
-//!    local spacing, held in the same way.
-//! 3. The local spacings are smoothed; where they differ too little, the single spacing stays.
+//!    local spacing, which is kept within the same factor of the ring's.
+//! 3. The local spacings are smoothed. If they differ too little, the single spacing stays.
 
 use super::{SPACING_RANGE, SpacingMap};
 use crate::geometry::Point;
@@ -12,28 +13,32 @@ use crate::geometry::index::BucketGrid;
 use crate::image::EmptyPixels;
 use crate::mosaic::hexagonal_spacing;
 
-/// Distance from the border, in px, below which cones are left out of the count.
+/// Width, in px, of the strip along the border of an image in which cones are not counted.
 ///
-/// Filters see only half of such cones.
+/// Filters see only half of a cone on the border.
 pub const BORDER: f64 = 7.;
 
-/// Largest logarithm by which detections may move the spacing from the ring's: a factor of e^±0.35.
+/// Largest change of the logarithm of the spacing that detections may cause, relative to the ring's
+/// spacing: a factor of e^±0.35.
 ///
 /// Detections that suggest a larger change are not to be trusted.
 const TRUST: f64 = 0.35;
 
-/// Number of cones, approximately, over which a local density is counted.
+/// Approximate number of cones in a square in which a local density is counted.
 const COUNTED: f64 = 80.;
-/// Number of cones below which one spacing serves the whole image, because local counts would be
-/// noise.
+/// Least number of cones in an image for which local spacings are computed.
+///
+/// With fewer, local counts would be noise, so one spacing serves the entire image.
 const ENOUGH_CONES: usize = 320;
-/// Distance between the nodes of a map, in spacings.
+/// Distance between neighbouring nodes of a map, in spacings.
 const NODE_STEP: f64 = 4.;
 /// Smallest fraction of a square that must have been imaged for its count to be used.
 const IMAGED: f64 = 0.4;
-/// Ratio of the largest to the smallest spacing below which all spacings count as the same.
+/// Least ratio of the largest to the smallest spacing of a map; a map with a smaller ratio is
+/// replaced by a single spacing.
 ///
-/// Local counts scatter as much, and filters tolerate a spacing that far off their own.
+/// Local counts scatter by about as much, and filters tolerate a spacing that differs from their
+/// own by such a factor.
 pub(in crate::detect) const EVEN: f64 = 1.2;
 
 /// Spacing from which a search starts.
@@ -41,15 +46,17 @@ pub(in crate::detect) const EVEN: f64 = 1.2;
 pub(in crate::detect) struct Start {
     /// Spacing from place to place.
     pub map: SpacingMap,
-    /// Lower limit, px, of the spacing that detections may give to the whole image.
+    /// Least spacing, in px, that the density of the detections may give to the entire image.
     pub least: f64,
 }
 
 impl Start {
-    /// Returns another start if the density of `centres`, found from this one, contradicts it.
+    /// Returns another start if the density of `centres`, the cones found from this start,
+    /// contradicts it.
     ///
-    /// That is so if the spacing by density lies farther off than detections may move the spacing.
-    /// The other start is that spacing, the same everywhere.
+    /// The density contradicts the start if its spacing differs from the typical spacing of the
+    /// start by more than a factor of e^±0.35, the largest change that detections may cause. The
+    /// other start has the spacing by density everywhere.
     pub(in crate::detect) fn contradicted_by(
         &self,
         centres: &[Point],
@@ -65,8 +72,9 @@ impl Start {
 
 /// Returns the spacing by the density of `centres` in an image of `width` × `height` px.
 ///
-/// Cones and area are counted inside the border of 7 px, or of a quarter of the shorter side if
-/// that is less. Without any cone, one is assumed.
+/// Cones and area are counted without a strip along the border, which is 7 px wide or a quarter of
+/// the shorter side if that is less. Pixels that were not imaged (`empty`) are deducted from the
+/// area in proportion. If there is no cone, one is assumed.
 fn density_spacing(
     centres: &[Point],
     width: usize,
@@ -82,21 +90,21 @@ fn density_spacing(
     hexagonal_spacing(inside.max(1), area * imaged)
 }
 
-/// Returns a spacing held within e^±0.35 of the ring's, which also stands in where there is no
-/// density.
+/// Returns the spacing by density, limited to within a factor of e^±0.35 of the ring's, or the
+/// ring's spacing if there is no density.
 fn trusted(by_density: Option<f64>, ring_spacing: f64) -> f64 {
     let by_density = by_density.unwrap_or(ring_spacing);
     ring_spacing * (by_density / ring_spacing).ln().clamp(-TRUST, TRUST).exp()
 }
 
-/// Returns the spacing by the local density of `centres`.
+/// Returns the map of the spacing by the local density of `centres`.
 ///
-/// The density is counted in squares of about 80 cones that stay inside the border, and the spacing
-/// is held within e^±0.35 of that at the start. The map is constant where the spacing is even
-/// (within 20 %) or the cones are fewer than 320.
+/// Around each node, the density is counted in a square of about 80 cones that stays inside the
+/// border, and the spacing is kept within a factor of e^±0.35 of the spacing in `start`. The map is
+/// constant if the spacings differ by less than 20 % or there are fewer than 320 cones.
 ///
-/// If the density of the whole image gives less than the least spacing, more than the cones was
-/// counted. All spacings are then raised by the factor that is missing.
+/// A spacing of the entire image below `start.least` shows that more than the cones was counted.
+/// All spacings by density are then multiplied by the factor that raises it to `start.least`.
 pub(in crate::detect) fn refined_map(
     centres: &[Point],
     width: usize,
@@ -137,7 +145,7 @@ pub(in crate::detect) fn refined_map(
     if high / low < EVEN { constant() } else { map }
 }
 
-/// A square that was moved so far that it lies inside the image's border.
+/// A square of an image, in px, moved and if necessary shrunk to lie inside the border.
 struct Square {
     left: f64,
     top: f64,
@@ -158,8 +166,8 @@ impl Square {
     }
 }
 
-/// Points of an image in buckets, so that those in a square are counted without a look at all of
-/// them.
+/// Points of an image in a grid of buckets, so that counting the points in a square does not visit
+/// all of them.
 struct Cells {
     points: BucketGrid<Point>,
     width: f64,
@@ -176,8 +184,8 @@ impl Cells {
         Self { points, width, height }
     }
 
-    /// Returns the square with this middle and half-side, moved and shrunk to stay inside the
-    /// border.
+    /// Returns the square with the given middle and half-side (px), moved and if necessary shrunk
+    /// to stay inside the border.
     fn square(&self, middle: Point, half: f64) -> Square {
         let ends = |middle: f64, length: f64| {
             let border = BORDER.min(length / 4.) - 0.5;

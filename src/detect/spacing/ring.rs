@@ -1,7 +1,8 @@
-//! Spacing from Yellott's ring: cones that keep their distance put a ring into the power spectrum.
+//! Spacing from Yellott's ring: cones that keep a distance from each other put a ring into the
+//! power spectrum.
 //!
 //! 1. The spectrum of a flattened image under a Hann window is summed over angle into bins of
-//!    log-frequency, once in all directions and once each along and across x.
+//!    log-frequency: once over all directions, once along x and once across x.
 //! 2. A small network (`ring_network`) gives every candidate spacing its odds.
 //! 3. The most probable candidate, refined by a parabola, is the spacing.
 //!
@@ -15,42 +16,48 @@ use std::sync::OnceLock;
 
 /// Side of the Fourier transform, in px.
 pub(super) const SIZE: usize = 512;
-/// Smallest number of periods across the image with which a ring can be told from uneven
-/// illumination.
-pub(in crate::detect) const PERIODS: f64 = 5.;
-/// Probability of a true spacing below the least one that a count may show.
+/// Least number of times that a spacing must fit into the shorter side of the image to be a
+/// candidate.
 ///
-/// Below that spacing, more cones are more likely noise. A smaller probability is better by .0002
-/// on marked images (split detector) and worse by up to .03 on noisy simulated ones.
+/// With fewer periods, a ring cannot be told from uneven illumination.
+pub(in crate::detect) const PERIODS: f64 = 5.;
+/// Probability that the true spacing is below [`RingEstimate::least`], the least spacing that a
+/// count of cones may show.
+///
+/// If more cones are counted than that spacing allows, some of them are more likely noise. A
+/// smaller probability gives results that are better by .0002 on marked split-detector images, and
+/// worse by up to .03 on noisy simulated images.
 const CLOSER: f64 = 0.15;
-/// Factor of the true spacing, up or down, within which a spacing counts as right.
+/// Factor, up or down, by which a spacing may differ from the true one and still count as right.
 const RIGHT: f64 = 1.15;
 /// Band of a spectrum, in cycles per spacing, that holds the power of the ring.
 const RING_BAND: (f64, f64) = (0.8, 1.4);
-/// Frequency, in cycles per spacing, around which there is hardly anything but noise.
+/// Frequency, in cycles per spacing, around which noise is measured.
+///
+/// Cones have no detail this fine, so there is hardly anything but noise.
 const FINEST: f64 = 2.6;
-/// Factor by which the band around `FINEST` extends up and down.
+/// Factor between the middle of the band around [`FINEST`] and either end of the band.
 const FINEST_BAND: f64 = 1.15;
-/// Clarity from which on an image has hardly any noise.
+/// Least clarity ([`RingProfile::clarity`]) of an image with hardly any noise.
 pub(in crate::detect) const CLEAR: f64 = 6.2;
-/// Number of places around the ring at which spectra are compared.
+/// Number of frequencies around the ring at which [`RingProfile::around`] gives the power.
 pub(in crate::detect) const AROUND: usize = 15;
 
 /// Radially averaged power spectrum of an image over log-frequency, and the spacing it shows.
 ///
-/// The power is a logarithm in 24 bins per octave from 1/64 to 1/2 cycles per px. Cones that keep
-/// their distance put a ring into the spectrum, here a peak near the frequency 1 / spacing (Yellott
-/// 1983, <https://doi.org/10.1126/science.6867716>).
+/// The spectrum is the logarithm of power in 24 bins per octave from 1/64 to 1/2 cycles per px.
+/// Cones that keep a distance from each other put a ring into it, here a peak near the frequency 1
+/// / spacing (Yellott 1983, <https://doi.org/10.1126/science.6867716>).
 pub struct RingProfile {
     /// Natural logarithm of the mean power in every bin, over all directions.
     all: [f32; BINS],
-    /// Logarithm of the odds of each candidate to be the spacing, up to a constant.
+    /// Logarithm of the odds, up to a constant, that each candidate is the cone spacing.
     ///
-    /// It is minus infinity for candidates too wide for the part that was transformed.
+    /// It is minus infinity for candidates too wide for the image that was transformed.
     scores: [f32; CANDIDATES],
 }
 
-/// The spacing by the ring, and how sure it is.
+/// Cone spacing estimated from the ring in the spectrum of an image, with its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RingEstimate {
     /// Cone spacing in px.
@@ -58,21 +65,24 @@ pub struct RingEstimate {
     /// Probability, 0–1, judged by the spectrum alone, that the spacing is within 15 % of the true
     /// one.
     pub confidence: f64,
-    /// Spacing, px, below which the true one lies with a probability of 15 %; at most `spacing`.
+    /// Lower limit of the spacing in px: with a probability of 15 %, the true spacing is below it.
+    /// At most `spacing`.
     pub least: f64,
 }
 
-/// One term of the transform, and its shares in the sums.
+/// One term of the Fourier transform, and how its power is shared among bins and directions.
 struct Term {
     /// Index in the transform's order of storage.
     index: u32,
     /// Lower of the two bins that share the term.
     bin: u16,
-    /// Share of the upper bin.
+    /// Fraction (0–1) of the power that the upper of the two bins receives.
     upper_share: f32,
-    /// Share of the term that runs along x: fx² / f².
+    /// Fraction (0–1) of the power that counts as along x: fx² / f².
     along_x: f32,
-    /// Number of terms that it stands for: the half of the spectrum with fx < 0 mirrors this one.
+    /// Number of terms of the full spectrum that this term stands for.
+    ///
+    /// It is 2 for a term with a mirror image at fx < 0, which is not stored, and otherwise 1.
     weight: f32,
 }
 
@@ -105,7 +115,7 @@ fn terms() -> &'static [Term] {
     })
 }
 
-/// Returns a Hann window of this length, without the zeros at its ends.
+/// Returns a Hann window of `length` values, without the zeros at its ends.
 fn hann(length: usize) -> Vec<f32> {
     let step = std::f64::consts::TAU / (length + 1) as f64;
     (1..=length).map(|k| (0.5 - 0.5 * (step * k as f64).cos()) as f32).collect()
@@ -118,7 +128,7 @@ pub(super) type Power = [[f64; BINS + 3]; 3];
 
 /// Returns the power of a flattened plane under a Hann window, summed into bins.
 ///
-/// A plane larger than 512 px is cropped to its upper left.
+/// Of a plane larger than 512 px, only the upper left 512 × 512 px are used.
 pub(super) fn power_of(flat: &Plane) -> Power {
     let (h, w) = flat.dim();
     let (taper_y, taper_x) = (hann(h.min(SIZE)), hann(w.min(SIZE)));
@@ -140,7 +150,8 @@ pub(super) fn power_of(flat: &Plane) -> Power {
     sums
 }
 
-/// Returns the weight of all terms in each bin, by which sums become means.
+/// Returns the sum of the weights of all terms in each bin; sums of power are divided by it to give
+/// means.
 fn bin_weights() -> &'static [[f64; BINS + 3]; 3] {
     static WEIGHTS: OnceLock<[[f64; BINS + 3]; 3]> = OnceLock::new();
     WEIGHTS.get_or_init(|| {
@@ -199,7 +210,8 @@ impl RingProfile {
         RingEstimate { spacing, confidence: self.probability_near(spacing), least: self.least().min(spacing) }
     }
 
-    /// Returns the most probable spacing, px, that differs from `spacing` by at most `factor`.
+    /// Returns the most probable spacing, in px, that differs from `spacing` by at most the given
+    /// factor, up or down.
     pub(super) fn spacing_near(&self, spacing: f64, factor: f64) -> f64 {
         self.peak_among(|s| (s / spacing).ln().abs() <= factor.ln())
     }
@@ -248,10 +260,11 @@ impl RingProfile {
         self.scores.iter().map(move |s| odds(*s) / sum)
     }
 
-    /// Returns the clarity of the image, given its spacing in px.
+    /// Returns the clarity of the image, given its cone spacing in px.
     ///
-    /// It is the natural logarithm of the ratio of the power around the ring to that of detail
-    /// finer than any cone: above 6 on a clear image, 2 where noise is as strong as the cones.
+    /// The clarity is the natural logarithm of the ratio of the power around the ring to that of
+    /// detail finer than any cone: above 6 on a clear image, 2 where noise is as strong as the
+    /// cones.
     pub fn clarity(&self, spacing: f64) -> f64 {
         // bands are several bins wide, so none is empty
         let mean = |low: f64, high: f64| {
@@ -264,11 +277,11 @@ impl RingProfile {
         mean(RING_BAND.0, RING_BAND.1) - mean(finest / FINEST_BAND, finest * FINEST_BAND)
     }
 
-    /// Returns the natural logarithm of the power around the ring of the given spacing, px, above
-    /// the mean of all bins.
+    /// Returns the natural logarithm of the power at 15 frequencies around the ring of the given
+    /// spacing (px), less the mean over all bins.
     ///
-    /// The places run from 1.5 octaves below the ring's frequency to two above in steps of a
-    /// quarter octave; each is the mean of five bins.
+    /// The frequencies run from 1.5 octaves below the ring's to two octaves above it, in steps of a
+    /// quarter octave. Each value is the mean over five bins.
     pub fn around(&self, spacing: f64) -> [f64; AROUND] {
         const STEP: f64 = PER_OCTAVE / 4.;
         let ring = bin_of(spacing);

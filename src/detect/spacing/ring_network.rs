@@ -1,4 +1,4 @@
-//! A small network that reads the spacing off a spectrum.
+//! A small network that estimates the cone spacing from a power spectrum.
 //!
 //! It consists of three convolutions along log-frequency, so that a ring looks the same at any
 //! spacing. It was trained by `scripts/train-ring` on hand-marked and simulated images of all
@@ -7,7 +7,7 @@
 use super::bins::{BINS, CANDIDATES, FIRST};
 use std::sync::OnceLock;
 
-/// Number of bins that a convolution takes in.
+/// Number of neighbouring bins that each output of a convolution depends on.
 const TAPS: usize = 25;
 /// Numbers of channels into and out of the convolutions.
 ///
@@ -34,10 +34,10 @@ pub(in crate::detect) const fn weights() -> &'static [u8] {
 /// The channels of a spectrum or of a layer's output, one after the other.
 type Channels = Vec<[f32; BINS]>;
 
-/// Returns the logarithm of the odds of each candidate to be the spacing, up to a constant.
+/// Returns the logarithm of the odds, up to a constant, that each candidate is the cone spacing.
 ///
-/// Candidates run from the widest to the closest. `log_power` holds the power in all directions,
-/// along x and across x.
+/// Candidates run from the widest to the closest. `log_power` holds the logarithm of the power over
+/// all directions, along x and across x.
 pub(super) fn scores(log_power: [&[f32; BINS]; 3]) -> [f32; CANDIDATES] {
     static WEIGHTS: OnceLock<Vec<f32>> = OnceLock::new();
     let mut weights =

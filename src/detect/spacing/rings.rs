@@ -4,25 +4,25 @@ use crate::detect::flatten;
 use crate::image::{EmptyPixels, Plane, crop};
 use rayon::prelude::*;
 
-/// Largest factor by which a local spacing may differ from that of the whole image.
+/// Largest factor by which a local spacing may differ from that of the entire image.
 const LOCAL: f64 = 2.;
-/// Smallest fraction of a tile that must have been imaged for it to count.
+/// Smallest fraction of a tile that must have been imaged for the tile to be measured.
 const IMAGED: f64 = 0.5;
 
-/// Yellott's ring all over an image, from overlapping tiles of 512 px.
+/// Yellott's ring in all parts of an image, measured in overlapping tiles of 512 px.
 ///
-/// The power of the tiles is averaged for the ring of the whole image (Welch 1967,
+/// The power of the tiles is averaged for the ring of the entire image (Welch 1967,
 /// <https://doi.org/10.1109/TAU.1967.1161901>).
 pub(in crate::detect) struct Rings {
     whole: RingProfile,
-    /// First pixels of the columns of tiles.
+    /// Index of the first pixel of each column of tiles.
     columns: Vec<usize>,
-    /// First pixels of the rows of tiles.
+    /// Index of the first pixel of each row of tiles.
     rows: Vec<usize>,
-    /// Profile of each tile, row by row; `None` where too little was imaged.
+    /// Profile of each tile, row by row, or `None` if too little of the tile was imaged.
     tiles: Vec<Option<RingProfile>>,
-    /// Flattened tile that stands for the image: the one with the largest imaged part and, among
-    /// equals, the one nearest to the middle.
+    /// Flattened tile that stands for the image: the tile with the largest imaged part and, among
+    /// equals, the one nearest to the middle of the image.
     sample: Plane,
     height: usize,
     width: usize,
@@ -70,7 +70,7 @@ impl Rings {
         Self { whole, columns, rows, tiles, sample, height, width }
     }
 
-    /// Returns the ring of the whole image.
+    /// Returns the ring of the entire image.
     pub(in crate::detect) const fn whole(&self) -> &RingProfile {
         &self.whole
     }
@@ -80,9 +80,9 @@ impl Rings {
         &self.sample
     }
 
-    /// Returns the spacing from place to place, smoothed.
+    /// Returns the smoothed map of the spacing from place to place.
     ///
-    /// For every tile it is the most probable one within a factor of two of the whole image's.
+    /// The spacing of a tile is the most probable one within a factor of two of the entire image's.
     pub(in crate::detect) fn map(&self) -> SpacingMap {
         let whole = self.whole.spacing().spacing;
         if self.tiles.len() == 1 {
@@ -98,9 +98,9 @@ impl Rings {
     }
 }
 
-/// Returns the first pixel of every tile along a side.
+/// Returns the first pixel of every tile along a side of `length` px.
 ///
-/// A short side has one tile, a long side tiles that overlap by half or more.
+/// A side of up to 512 px has one tile; the tiles of a longer side overlap by at least half.
 fn tile_starts(length: usize) -> Vec<usize> {
     if length <= SIZE {
         return vec![0];

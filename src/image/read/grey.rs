@@ -3,12 +3,12 @@
 use crate::image::Plane;
 use ndarray::Array2;
 
-/// Use of the alpha sample of a pixel.
+/// Treatment of the alpha (opacity) sample of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Alpha {
-    /// Alpha is absent or already multiplied in.
+    /// No treatment: alpha is absent or already multiplied in.
     None,
-    /// Alpha that grey must be multiplied by.
+    /// Multiplication of grey by alpha, which is stored but not yet multiplied in.
     Straight,
 }
 
@@ -19,20 +19,22 @@ pub(super) struct Layout {
     pub(super) width: usize,
     /// Height of the picture in px.
     pub(super) height: usize,
-    /// Number of samples per pixel, at least one; those after the colour and the alpha are ignored.
+    /// Number of samples per pixel, at least one; samples after the colour or grey and the alpha
+    /// are ignored.
     pub(super) channels: usize,
-    /// `true` if three colour samples come first, `false` if one grey sample does.
+    /// `true` if every pixel begins with a red, a green and a blue sample, `false` if it begins
+    /// with a single grey sample.
     pub(super) colour: bool,
-    /// Use of the sample after the colour.
+    /// Treatment of the alpha sample, which follows the colour or grey.
     pub(super) alpha: Alpha,
     /// `true` if the samples are stored plane by plane, `false` if pixel by pixel.
     pub(super) planar: bool,
 }
 
 impl Layout {
-    /// Returns the grey plane of samples that `value` turns into numbers.
+    /// Returns the samples as a grey plane; `value` turns a sample into a number.
     ///
-    /// `None` if there are fewer samples than there should be.
+    /// Returns `None` if there are fewer samples than the layout needs.
     pub(super) fn grey<T: Copy>(&self, samples: &[T], value: impl Fn(T) -> f32) -> Option<Plane> {
         let pixels = self.width.checked_mul(self.height)?;
         let colours = if self.colour { 3 } else { 1 };

@@ -52,7 +52,7 @@ pub(in crate::image) fn decode(bytes: &[u8], name: &str) -> Result<Plane, ImageE
     grey.ok_or_else(|| ImageError::Damaged { name: name.to_owned(), format: "PNG", reason })
 }
 
-/// Returns the width and the height, which stand first in the first chunk.
+/// Returns the width and the height in the header of a PNG file, or `None` if there is no header.
 ///
 /// They are read here because the decoder gives no plain message if one of them is 0.
 fn size_in_header(bytes: &[u8]) -> Option<(u32, u32)> {

@@ -56,9 +56,9 @@ fn open(bytes: &[u8]) -> Result<Source<'_>, TiffError> {
     Ok(Decoder::new(Cursor::new(bytes))?.with_limits(limits))
 }
 
-/// Returns the number of pages that are pictures of their own.
+/// Returns the number of pages in the file, without smaller versions and masks of another page.
 ///
-/// A page that cannot be parsed counts, since it is there.
+/// A page that cannot be parsed counts, too.
 fn count_pages(decoder: &mut Source) -> usize {
     let mut pages = 1;
     while decoder.more_images() {
@@ -71,12 +71,13 @@ fn count_pages(decoder: &mut Source) -> usize {
     pages
 }
 
-/// Returns the value of a tag; `None` if it is missing or of another type.
+/// Returns the value of a tag, or `None` if the tag is missing or of another type.
 fn tag<T: TryFrom<u64>>(decoder: &mut Source, tag: Tag) -> Option<T> {
     decoder.find_tag_unsigned(tag).ok().flatten()
 }
 
-/// Returns the first value of a tag that may have several.
+/// Returns the first value of a tag that may have several, or `None` if the tag is missing or of
+/// another type.
 fn first(decoder: &mut Source, tag: Tag) -> Option<u16> {
     decoder.find_tag_unsigned_vec::<u16>(tag).ok().flatten()?.first().copied()
 }
@@ -134,8 +135,9 @@ fn read_samples(decoder: &mut Source, place: &Place) -> Result<DecodingResult, I
     Ok(samples)
 }
 
-/// Unpacks samples of fewer than 8 bits, the most significant first; every row begins with a new
-/// byte.
+/// Unpacks samples of fewer than 8 bits, from the most significant bits of each byte to the least.
+///
+/// Every row begins with a new byte.
 fn unpack(packed: &[u8], bits: u16, width: usize, height: usize) -> Vec<u8> {
     let bits = usize::from(bits);
     let row_bytes = (width * bits).div_ceil(8);
@@ -194,9 +196,10 @@ fn palette_to_grey(bytes: &[u8], decoder: &mut Source, place: &Place) -> Result<
     grey.ok_or_else(|| place.too_few())
 }
 
-/// Returns a copy of the file whose directory at `offset` says BlackIsZero.
+/// Returns a copy of the file in which the directory at `offset` declares the samples as grey
+/// (BlackIsZero).
 ///
-/// `None` if that directory has no photometric interpretation.
+/// Returns `None` if that directory has no photometric interpretation.
 fn called_grey(bytes: &[u8], offset: u64) -> Option<Vec<u8>> {
     let little = bytes.starts_with(b"II");
     let big_tiff = bytes.get(if little { 2 } else { 3 }) == Some(&b'+');
@@ -226,28 +229,28 @@ fn called_grey(bytes: &[u8], offset: u64) -> Option<Vec<u8>> {
     Some(copy)
 }
 
-/// Place of an error: the file that it is about.
+/// File that an error is about.
 struct Place<'a> {
     name: &'a str,
 }
 
 impl Place<'_> {
-    /// Returns the error of a damaged file.
+    /// Returns the error for a damaged file; `reason` says what is wrong with it.
     fn damaged(&self, reason: String) -> ImageError {
         ImageError::Damaged { name: self.name.to_owned(), format: "TIFF", reason }
     }
 
-    /// Returns the error of a file of a kind that is not read.
+    /// Returns the error for a file of a kind that is not read; `reason` names the kind.
     fn unsupported(&self, reason: String) -> ImageError {
         ImageError::Unsupported { name: self.name.to_owned(), format: "TIFF", reason }
     }
 
-    /// Returns the error of a file with too few pixels.
+    /// Returns the error for a file that holds fewer pixels than its header says.
     fn too_few(&self) -> ImageError {
         self.damaged("fewer pixels than its header says".to_owned())
     }
 
-    /// Returns the error that stands for one of the decoder.
+    /// Converts an error of the decoder into one that names the file and a remedy.
     fn failed(&self, error: TiffError) -> ImageError {
         match error {
             TiffError::FormatError(TiffFormatError::InvalidDimensions(width, height)) => {

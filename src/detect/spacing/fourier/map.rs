@@ -7,18 +7,18 @@ use std::f64::consts::TAU;
 
 /// Number of tiles that begin within the side of one tile: tiles overlap by three quarters.
 const PER_SIDE: usize = 4;
-/// Largest factor by which the ring of a tile may differ from that of the image.
+/// Largest factor by which the spacing of a tile may differ from that of the entire image.
 const LOCAL: f64 = 2.;
 
-/// Options of a map of the spacing.
+/// Options of a map of the modal spacing, see [`fourier_map`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FourierMapOptions {
-    /// Side of a tile, in spacings of the whole image: 6–60, default 12.
+    /// Side of a tile, in spacings of the entire image: 6–60, default 12.
     ///
-    /// A tile of 12 spacings holds some 160 cones, of which the Hann window leaves the weight of a
-    /// seventh.
+    /// A tile of 12 spacings holds some 160 cones. The Hann window reduces their total weight to
+    /// that of a seventh of them.
     pub side: f64,
-    /// Directions of the waves that are evaluated.
+    /// Directions of the waves from which the spacing is measured.
     pub sector: Sector,
 }
 
@@ -29,36 +29,38 @@ impl Default for FourierMapOptions {
 }
 
 impl FourierMapOptions {
-    /// Checks that the side is in its range.
+    /// Checks that `side` is between 6 and 60 spacings.
     ///
     /// # Errors
-    /// If the side is out of its range.
+    /// If `side` is outside 6–60.
     pub fn validate(&self) -> Result<(), DetectError> {
         if (6. ..=60.).contains(&self.side) { Ok(()) } else { Err(DetectError::TileSide(self.side)) }
     }
 }
 
-/// The modal spacing of an image from place to place.
+/// Modal spacing of an image from place to place, as [`fourier_map`] finds it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FourierMap {
     /// Side of the tiles in px.
     pub side: usize,
-    /// Columns of the tiles' middles, px, rising.
+    /// Positions x of the middles of the tiles in px, in rising order.
     pub x: Vec<f64>,
-    /// Rows of the tiles' middles, px, rising.
+    /// Positions y of the middles of the tiles in px, in rising order.
     pub y: Vec<f64>,
-    /// Spacing that each tile shows by itself, row by row; `None` where it has no ring or too
-    /// little was imaged.
+    /// Spacing that each tile shows by itself, row by row, or `None` if a tile has no ring or too
+    /// little of it was imaged.
     pub tiles: Vec<Option<FourierSpacing>>,
-    /// Hexagonal spacing in px from place to place.
+    /// Hexagonal spacing in px from place to place: the distance between neighbouring cones in a
+    /// triangular lattice.
     ///
-    /// At the middle of a tile, it is the mean logarithm of the tiles around, weighted by the
-    /// square of their confidence and by a Hann window that reaches one side of a tile in either
-    /// direction along x and y.
+    /// At the middle of a tile, the logarithm of the spacing is the mean over the tiles around. A
+    /// tile is weighted by the square of its confidence and by a Hann window that falls to 0 at a
+    /// distance of one tile side along x and along y.
     pub spacing: SpacingMap,
-    /// Mean confidence, 0–1, of the tiles around each middle, row by row.
+    /// Mean confidence, 0–1, of the tiles around the middle of each tile, row by row.
     ///
-    /// The weights are those of the Hann window alone. Tiles without a ring count as 0.
+    /// The tiles are weighted by a Hann window that falls to 0 at a distance of one tile side along
+    /// x and along y. Tiles without a ring count as 0.
     pub confidence: Vec<f64>,
 }
 
@@ -67,14 +69,14 @@ pub struct FourierMap {
 /// A tile has a side of twelve spacings ([`FourierMapOptions::side`]), but at least 24 px and at
 /// most the shorter side of the image. `whole` is the result of
 /// [`fourier_spacing`](super::fourier_spacing) for the image. Only spacings within a factor of two
-/// of its modal spacing are found. Where cones are much farther apart than on average, too few of
-/// them fill a tile: beyond that factor, the map is not to be trusted.
+/// of the modal spacing in `whole` are found. Where cones are much farther apart than on average, a
+/// tile holds too few of them: beyond a factor of two, the map is not to be trusted.
 ///
 /// At a spacing of 9 px, 1024 × 1024 px take .75 s on two cores, 4096 × 4096 px 17 s.
 ///
 /// # Errors
 /// If an option is out of its range, the image is too small, its pixels are all the same or one is
-/// not a number, or the whole image has no ring.
+/// not a number, or the entire image has no ring.
 pub fn fourier_map(
     image: &Plane,
     whole: &FourierEstimate,

@@ -11,8 +11,8 @@
 //! - The background is a cubic polynomial over log-frequency, fitted together with the ring by
 //!   least squares. In the paper it is two exponentials, fitted by descent from a guess, followed
 //!   by a walk to the next peak.
-//! - The confidence is the share of what the background leaves that the ring explains. In the paper
-//!   it is the height of the peak in the range of the residual.
+//! - The confidence is the fraction of the variance left by the background that the ring explains.
+//!   In the paper it is the height of the peak relative to the range of the residual.
 //!
 //! The method does not depend on the modality. The degree of the background, the width of the ring
 //! and the lowest frequency were chosen among nine combinations on every third or fourth of the
@@ -36,50 +36,53 @@ use serde::{Deserialize, Serialize};
 
 /// Longest side of a tile in px.
 const LONGEST: usize = 512;
-/// Number of pixels above which the tiles of an image do not overlap.
+/// Largest number of pixels of an image whose tiles overlap.
 ///
-/// There are then at least 16 tiles, whose mean is steady without overlap.
+/// A larger image has at least 16 tiles, whose mean is steady without overlap.
 const LARGE: usize = 16 * LONGEST * LONGEST;
-/// Smallest fraction of a tile that must have been imaged for it to count.
+/// Smallest fraction of a tile that must have been imaged for the tile to be measured.
 const IMAGED: f64 = 0.5;
 
-/// The modal spacing of an image, or of a part of it.
+/// Modal spacing of an image or of a part of it: the period of the waves at which its spectrum has
+/// a ring.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FourierSpacing {
-    /// Modal spacing 1/f in px, with f the modal frequency: the distance of the rows of a
-    /// triangular lattice.
+    /// Modal spacing 1/f in px, with f the modal frequency: the distance between neighbouring rows
+    /// of a triangular lattice.
     pub row_spacing: f64,
-    /// Distance, px, of neighbouring cones in the triangular lattice with these rows: 2/√3 of
-    /// `row_spacing`.
+    /// Distance, in px, between neighbouring cones in a triangular lattice whose rows are
+    /// `row_spacing` apart: 2/√3 of `row_spacing`.
     ///
     /// Such a lattice has 2/(√3 spacing²) cones per px². Mosaics less regular than a lattice are
     /// denser than that.
     pub spacing: f64,
-    /// Share, 0–1, of the variance of the profile about its background that the ring explains.
+    /// Confidence, 0–1: the fraction of the profile's variance about its background that the ring
+    /// explains.
     ///
-    /// The part that it would explain of noise at three standard deviations is subtracted: noise
-    /// has 0.
+    /// The amount that a ring would explain in mere noise, at three standard deviations, is
+    /// subtracted first, so noise has a confidence of 0.
     pub confidence: f64,
 }
 
-/// The modal spacing of an image, by the direction of the waves.
+/// Modal spacing of an image, measured from waves in all directions and in two sectors of
+/// directions.
 ///
-/// In a mosaic that is not stretched the three spacings agree, since the first peaks of a lattice
-/// lie on one circle, whatever its orientation. In the confocal images on which [`fourier_spacing`]
-/// was measured, the spacings sideways are 6.5 % wider than those up and down. The ellipse of the
+/// If a mosaic is not stretched, the three spacings agree, since the first peaks of a lattice lie
+/// on one circle, whatever its orientation. In the confocal images on which [`fourier_spacing`] was
+/// measured, the spacings sideways are 6.5 % wider than those up and down. The ellipse of the
 /// marks' neighbours ([`crate::stats::NeighbourEllipse`]) is stretched in the same way, by 8.4 %.
 ///
-/// A split detector shows cones by their slope in one direction; there, the two directions say
-/// nothing about a stretch.
+/// A split detector shows cones by their slope in one direction; in such images, the two sectors
+/// say nothing about a stretch.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FourierEstimate {
     /// Side, px, of the tiles whose spectra are averaged.
     pub side: usize,
-    /// Spacing from all directions; `None`, here and below, if the profile has no ring.
+    /// Spacing from waves in all directions, or `None` if their profile has no ring.
     pub all: Option<FourierSpacing>,
-    /// Spacing from waves within 45° of the y axis.
+    /// Spacing from waves within 45° of the y axis, or `None` if their profile has no ring.
     pub row: Option<FourierSpacing>,
-    /// Spacing from waves within 45° of the x axis.
+    /// Spacing from waves within 45° of the x axis, or `None` if their profile has no ring.
     pub cell: Option<FourierSpacing>,
 }
 
@@ -87,8 +90,8 @@ pub struct FourierEstimate {
 ///
 /// The spacing lies between 4 and 40 px; the row spacing is at most a fifth of the shorter side.
 /// Tiles are as large as the image allows, up to 512 px, and overlap by half; beyond 4 megapixels
-/// they only touch. Pixels that were not imaged are filled in, and tiles that are mostly such
-/// pixels are left out unless all tiles are.
+/// they only touch. Pixels that were not imaged are filled in. Tiles of which less than half was
+/// imaged are left out, unless this is true of all tiles.
 ///
 /// A mosaic has a ring because its patches of lattice are turned every way. A single perfect
 /// lattice has six points instead, which the mean of logarithms hardly shows: it may be missed.
@@ -96,15 +99,15 @@ pub struct FourierEstimate {
 /// The accuracy is measured by `tests/it/fourier_spacing.rs` against the spacing of the lattice
 /// with the density of the marks:
 ///
-/// - Of 200 confocal images all are within 15 %, on average 3.5 % too wide (standard deviation
-///   1.6 %). The ring of the marks themselves ([`modal_spacing`](crate::stats::modal_spacing)) is
-///   3.0 % too wide (1.9 %), because mosaics are no lattices.
-/// - Of 184 split-detector images 84 % are within 15 % (on average −2.9 %, standard deviation
-///   5.5 %), as many as by the ring of the marks.
+/// - Of 200 confocal images all are within 15 %, on average 3.5 % too wide (standard deviation 1.6
+///   %). The ring of the marks themselves ([`modal_spacing`](crate::stats::modal_spacing)) is 3.0 %
+///   too wide (1.9 %), because mosaics are no lattices.
+/// - Of 184 split-detector images 84 % are within 15 % (on average −2.9 %, standard deviation 5.5
+///   %), as many as by the ring of the marks.
 ///
 /// # Errors
-/// If a side is below [`MIN_SIDE`](crate::detect::MIN_SIDE), all pixels are the same, or one is not
-/// a number.
+/// If a side is below [`MIN_SIDE`](crate::detect::MIN_SIDE), if all pixels are the same, or if a
+/// pixel is not a number.
 pub fn fourier_spacing(image: &Plane) -> Result<FourierEstimate, DetectError> {
     check(image)?;
     let empty = EmptyPixels::of(image);
@@ -134,9 +137,10 @@ fn estimate(image: &Plane, empty: Option<&EmptyPixels>) -> FourierEstimate {
     FourierEstimate { side, all, row, cell }
 }
 
-/// Returns the profiles of the tiles with their first pixels in these columns and rows, row by row.
+/// Returns the profiles of the tiles whose first pixels lie in the given columns and rows, row by
+/// row.
 ///
-/// A tile has none if too little of it was imaged.
+/// The profile of a tile is `None` if too little of the tile was imaged.
 fn profiles(
     image: &Plane,
     polar: &Polar,
@@ -156,7 +160,7 @@ fn profiles(
 
 /// Returns the first pixels of tiles of `side` px that cover a length from end to end.
 ///
-/// There is one at least every `side`/`per_side` px.
+/// Neighbouring tiles begin at most `side`/`per_side` px apart.
 fn starts(length: usize, side: usize, per_side: usize) -> Vec<usize> {
     let room = length.saturating_sub(side);
     let steps = room.div_ceil((side / per_side).max(1));

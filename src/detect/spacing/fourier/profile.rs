@@ -1,7 +1,7 @@
 //! Radial profile of the power spectrum of a square tile.
 //!
-//! 1. The tile is taken less its mean, under a Hann window along both axes, and padded with zeros.
-//! 2. The logarithm of the power of its transform is averaged over angle, in sectors.
+//! 1. Subtract the mean of the tile, multiply by a Hann window along both axes, and pad with zeros.
+//! 2. Average the logarithm of the power of the transform over angle, in sectors.
 //!
 //! The logarithm comes before the mean, so that a few strong terms do not dominate it.
 
@@ -10,7 +10,8 @@ use crate::image::{Plane, Spectrum, crop, fast_length, signed_frequency};
 /// Zero-padding factor of the transform: tiles are padded to this multiple of their side, which
 /// interpolates the spectrum.
 const PADDING: usize = 2;
-/// Smallest power, as a fraction of the mean: a term without power has no logarithm.
+/// Least power, as a fraction of the mean, to which all lower values are raised: a power of 0 has
+/// no logarithm.
 const FLOOR: f32 = 1e-12;
 
 /// Directions of the spectrum over which the power is averaged.
@@ -38,25 +39,26 @@ impl Sector {
     }
 }
 
-/// Mean decimal logarithms of power in the three sectors, at radii that are one cycle per `size` px
-/// apart.
+/// Mean decimal logarithms of the power in each of the three sectors, at radii of 0, 1, 2 … cycles
+/// per side of the transform.
 pub(super) type Profile = [Vec<f64>; 3];
 
-/// One term of the transform, and its shares in the profile.
+/// One term of the Fourier transform, and how it is shared among radii and sectors.
 struct Term {
     /// Index in the transform's order of storage.
     index: u32,
     /// Lower of the two radii that share the term.
     radius: u16,
-    /// Share of the upper radius.
+    /// Fraction (0–1) of the term that the upper of the two radii receives.
     upper_share: f32,
     /// `true` if the term belongs to the row sector.
     row: bool,
-    /// Number of terms that it stands for.
+    /// Number of terms of the full spectrum that this term stands for: 2 if its mirror image is not
+    /// stored, otherwise 1.
     weight: f32,
 }
 
-/// The spectrum of square tiles of one size in polar coordinates.
+/// Prepared transform of square tiles of one size to spectra in polar coordinates.
 pub(super) struct Polar {
     /// Side of a tile in px.
     pub side: usize,
@@ -66,7 +68,7 @@ pub(super) struct Polar {
     taper: Vec<f32>,
     /// Terms of the transform inside its largest circle.
     terms: Vec<Term>,
-    /// Sum of the weights at each radius of each sector.
+    /// Sum of the weights of all terms at each radius, for each sector.
     weights: Profile,
 }
 
@@ -88,7 +90,7 @@ impl Polar {
                     radius: radius as u16,
                     upper_share: radius.fract() as f32,
                     row: fy.abs() > kx as f64,
-                    // the half with fx < 0 mirrors this one
+                    // the half with fx < 0 is not stored: it mirrors this one
                     weight: if kx == 0 || 2 * kx == size { 1. } else { 2. },
                 });
             }
@@ -99,7 +101,7 @@ impl Polar {
         Self { side, size, taper, terms, weights }
     }
 
-    /// Returns the profile of the tile of an image whose first pixel is (`left`, `top`).
+    /// Returns the profile of the tile of `image` that begins in column `left` and row `top`.
     pub fn profile(&self, image: &Plane, top: usize, left: usize) -> Profile {
         let mut tile = crop(image, top, left, self.side, self.side);
         let mean = (tile.iter().map(|v| f64::from(*v)).sum::<f64>() / tile.len() as f64) as f32;
@@ -133,7 +135,7 @@ fn summed(terms: &[Term], radii: usize, value: impl Fn(&Term) -> f32) -> Profile
     sums
 }
 
-/// Returns the mean of profiles; `None` without any.
+/// Returns the mean of `profiles`, or `None` if there are none.
 pub(super) fn mean(profiles: &[Profile]) -> Option<Profile> {
     let (first, others) = profiles.split_first()?;
     let mut mean = first.clone();

@@ -1,29 +1,31 @@
 //! Least-squares fit of a background and a ring to the profile of a spectrum.
 //!
 //! Over the logarithm of frequency, from three periods per tile to half a cycle per px, the
-//! logarithm of power is modelled as a cubic polynomial plus a Gaussian. All but the Gaussian's
-//! place is linear, so every place is tried and no starting guess is needed.
+//! logarithm of power is modelled as a cubic polynomial plus a Gaussian. All parameters but the
+//! Gaussian's position are linear, so every position is tried and no starting guess is needed.
 //!
-//! 1. Orthonormal polynomials over the places of the profile are prepared once, and for every place
-//!    that is tried the normalised part of the Gaussian that they leave.
-//! 2. The square of its product with the profile is what the Gaussian explains beyond the
-//!    background.
-//! 3. The highest peak of that over all places, refined by a parabola, is the ring.
+//! 1. Prepare orthonormal polynomials over the frequencies of the profile once. Prepare also, for
+//!    every position to be tried, the component of the Gaussian that is orthogonal to these
+//!    polynomials, normalised.
+//! 2. The square of the scalar product of this component with the profile is the sum of squares
+//!    that the Gaussian explains beyond the background.
+//! 3. The position with the highest local maximum of this sum, refined by a parabola, is the ring.
 
 use super::FourierSpacing;
 use crate::detect::SPACING_RANGE;
 use crate::geometry::lattice_dual;
 use std::ops::RangeInclusive;
 
-/// Number of places per octave of frequency at which profiles are fitted.
+/// Number of frequencies per octave at which a profile is read for the fit.
 const PER_OCTAVE: f64 = 24.;
-/// Number of places per octave of frequency at which rings are tried.
+/// Number of frequencies per octave at which a ring is tried.
 const TRIED_PER_OCTAVE: f64 = 48.;
 /// Lowest frequency of the fit, in periods per tile.
 ///
-/// Slower waves are illumination, and what the Hann window leaves of the mean.
+/// Slower waves are uneven illumination, and what the Hann window leaves of the mean.
 const FIRST: f64 = 3.;
-/// Smallest number of periods per tile with which a ring can be told from the background.
+/// Least number of periods per tile of a ring that is tried: slower rings cannot be told from the
+/// background.
 const PERIODS: f64 = 5.;
 /// Degree of the polynomial that models the background.
 const DEGREE: usize = 3;
@@ -37,12 +39,13 @@ const WIDTH: f64 = 0.12;
 pub(super) struct RingFit {
     /// Side of the tiles in px.
     side: f64,
-    /// Places at which profiles are read: a radius, and the share of the next one.
+    /// Positions at which profiles are read: the index of a radius, and the weight (0–1) of the
+    /// next radius.
     places: Vec<(usize, f64)>,
-    /// Orthonormal polynomials over these places.
+    /// Orthonormal polynomials over the frequencies at `places`, which model the background.
     background: Vec<Vec<f64>>,
-    /// Rings that are tried: the logarithm of frequency (cycles per px), and the normalised part of
-    /// the ring that the background leaves.
+    /// Rings that are tried, each with two values: the natural logarithm of its frequency (cycles
+    /// per px), and its component orthogonal to `background`, normalised.
     rings: Vec<(f64, Vec<f64>)>,
 }
 
@@ -50,9 +53,11 @@ pub(super) struct RingFit {
 ///
 /// The power of noise is exponentially distributed.
 const SCATTER: f64 = 0.3102;
-/// Number of neighbouring terms of a tile's transform, along a line, that a Hann window makes one.
+/// Number of neighbouring terms of a tile's transform, along a line, that a Hann window makes so
+/// alike that they count as one.
 const CORRELATED: f64 = 1.5;
-/// Number of standard deviations of the scatter of power within which a ring does not count.
+/// Number of standard deviations of the scatter of noise that a ring must exceed to have any
+/// confidence.
 const DEVIATIONS: f64 = 3.;
 
 impl RingFit {
@@ -82,11 +87,12 @@ impl RingFit {
         Self { side: side as f64, places, background, rings }
     }
 
-    /// Returns the ring of a profile, among these hexagonal spacings in px.
+    /// Returns the ring of a profile whose hexagonal spacing (px) lies in `spacings`, or `None` if
+    /// there is no ring.
     ///
-    /// `None` if there is no ring: nowhere strictly between the ends does a ring explain more of
-    /// the profile than beside it. `part` is the number of tiles that the profile is a mean over,
-    /// times the fraction of all directions.
+    /// There is no ring if the part of the profile that a ring explains has no local maximum
+    /// strictly inside `spacings`. `part` is the number of tiles averaged in the profile, times the
+    /// fraction of all directions that its sector covers.
     pub fn ring(&self, profile: &[f64], part: f64, spacings: RangeInclusive<f64>) -> Option<FourierSpacing> {
         let at = |&(k, share): &(usize, f64)| profile[k] + share * (profile[k + 1] - profile[k]);
         let values: Vec<f64> = self.places.iter().map(at).collect();
@@ -114,11 +120,12 @@ impl RingFit {
         })
     }
 
-    /// Returns the sum of squares that a ring explains, on average, of noise in the profile of one
-    /// tile.
+    /// Returns the sum of squares that a ring explains, on average, in the profile of one tile of
+    /// noise.
     ///
-    /// That is the variance of the mean over the terms on a circle, half of which mirrors the
-    /// other, times the number of places of the profile that share these terms.
+    /// The sum is a product of two factors. The first is the variance of the mean over the terms on
+    /// a circle, half of which mirrors the other half. The second is the number of frequencies of
+    /// the profile that share these terms.
     fn chance(&self, frequency: f64) -> f64 {
         let radius = frequency * self.side;
         let variance = SCATTER * CORRELATED / (std::f64::consts::PI * radius);
@@ -128,7 +135,7 @@ impl RingFit {
     }
 }
 
-/// Returns a vector less its components along the orthonormal `others`, normalised to length 1;
+/// Returns a vector less its components along the orthonormal `others`, normalised to length 1, or
 /// `None` if nothing is left.
 fn without(mut vector: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64>> {
     let before = dot(&vector, &vector);
