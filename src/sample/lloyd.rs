@@ -19,10 +19,10 @@ use rand::Rng;
 pub struct Lloyd {
     /// Number of times all points are moved.
     pub steps: usize,
-    /// Relative density that weights the centroids; `None` for an even one.
+    /// Relative density that weights the centroids, or `None` for an even density.
     ///
-    /// The density of the points goes with its square root, as in centroidal tessellations in the
-    /// plane.
+    /// The density of the points becomes proportional to the square root of this density, as in
+    /// centroidal tessellations in the plane.
     pub density: Option<Density>,
 }
 
