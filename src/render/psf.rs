@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-/// Samples of the table per unit of distance, which is one full width at half maximum.
+/// Number of samples in the table per full width at half maximum of the pattern.
 const PER_WIDTH: usize = 64;
 /// Distance at which the pattern is cut off, in full widths at half maximum.
 ///
