@@ -115,8 +115,8 @@ impl Polygon {
         self.shape.area
     }
 
-    /// Returns the upright rectangle that equals this polygon, or `None` if the polygon is no
-    /// rectangle.
+    /// Returns the upright rectangle that equals this polygon, or `None` if the polygon is not an
+    /// upright rectangle.
     pub fn as_rectangle(&self) -> Option<Rectangle> {
         let b = self.bounds();
         let [ring] = self.rings() else { return None };

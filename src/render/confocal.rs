@@ -15,7 +15,8 @@ use rand::{Rng, RngExt};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Fraction of the light of neighbouring cones that interferes; intensities of the rest add up.
+/// Fraction of the light of neighbouring cones that interferes; the intensities of the remaining
+/// light add up.
 const COHERENCE: f64 = 0.35;
 /// Full width at half maximum of a Gaussian divided by its standard deviation.
 const WIDTH_PER_SIGMA: f64 = 2.354_820_045;

@@ -109,7 +109,8 @@ impl Density {
 
     /// Returns points of this density that are spread evenly over the rectangle `bounds`.
     ///
-    /// For a linear gradient, a low-discrepancy sequence with a random start is bent (Roberts 2018,
+    /// For a linear gradient, a low-discrepancy sequence with a random start is bent to the density
+    /// (Roberts 2018,
     /// <https://extremelearning.com.au/unreasonable-effectiveness-of-quasirandom-sequences/>, the
     /// analogue of the golden ratio in the plane). For a radial gradient, Vogel's spiral is spaced
     /// by the density.

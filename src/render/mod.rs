@@ -120,11 +120,11 @@ pub fn render(points: &[Point], options: &RenderOptions, rng: &mut dyn Rng) -> R
     Ok(picture(points, options, rng)?.image)
 }
 
-/// Draws the image of [`render`] and returns it with the points on imaged pixels and their
+/// Draws the same image as [`render`] and returns it with the points on imaged pixels and their
 /// visibility.
 ///
 /// # Errors
-/// Those of [`render`].
+/// The errors of [`render`].
 pub fn picture(
     points: &[Point],
     options: &RenderOptions,
@@ -197,8 +197,8 @@ fn expose(
 
 /// Multiplies the image by an uneven illumination of mean 1.
 ///
-/// Half of its variance comes from a field that spans the image (vignetting, tilt), and half from a
-/// field that spans a few cones (vessels and the layers above).
+/// Half of the variance of the illumination comes from a field that spans the image (vignetting,
+/// tilt), and half from a field that spans a few cones (vessels and the layers above).
 fn illuminate(image: &mut Plane, options: &RenderOptions, spacing: f64, rng: &mut dyn Rng) {
     let (height, width) = image.dim();
     let mut field = |cell| SlowField::new(width, height, cell, rng).plane(width, height);

@@ -14,7 +14,7 @@ use rand::Rng;
 use rayon::prelude::*;
 use serde::Serialize;
 
-/// Number of relaxation steps; more make larger crystals and a higher regularity.
+/// Number of relaxation steps; more steps make larger crystals and a higher regularity.
 const STEPS: usize = 30;
 /// Distance, in spacings, below which cones push each other away.
 const REACH: f64 = 1.25;
@@ -66,7 +66,7 @@ pub struct MosaicOptions {
     /// Shape of the gradient, which tells in which direction the density changes.
     #[serde(rename = "gradient_shape")]
     pub shape: GradientShape,
-    /// Spacing along y over spacing along x at the same density, 0.5 to 2.
+    /// Ratio of the spacing along y to the spacing along x, 0.5 to 2; the density stays the same.
     pub anisotropy: f64,
     /// Standard deviation of the final displacement in x and in y, 0 to 0.5 local spacings.
     ///

@@ -8,7 +8,8 @@ const MAX_SIDE: usize = 16_384;
 /// Largest number of pixels of a simulated image: 2²⁶, about 1 GB while it is made.
 const MAX_PIXELS: usize = 1 << 26;
 
-/// Shape of the spot that a cone's light makes; all have the same full width at half maximum.
+/// Shape of the spot that a cone's light makes; all shapes have the same full width at half
+/// maximum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PointSpread {

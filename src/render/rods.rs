@@ -75,7 +75,7 @@ pub(super) fn between(
 
 /// Returns the least distance between two rods, in spacings, at which the rods asked for find room.
 ///
-/// The distance x solves rods · x² = PARKED · (cell − π (d + x)²/4), as the centre of a rod keeps
+/// The distance x solves rods · x² = PARKED · (CELL − π (d + x)²/4), as the centre of a rod keeps
 /// x/2 away from the edge of a cone of diameter d.
 fn closest(options: &RenderOptions) -> f64 {
     let d = options.diameter;

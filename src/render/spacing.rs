@@ -8,9 +8,9 @@ use std::num::NonZero;
 /// Ratio of the hexagonal spacing to the mean distance of the three nearest neighbours in a cone
 /// mosaic.
 const SPACING_PER_NEIGHBOUR_DISTANCE: f64 = 1.09;
-/// Least spacing assigned to a cone, in px, as happens in clusters of cones.
+/// Least spacing that is assigned to a cone, in px; cones in tight clusters get it.
 const MIN_SPACING: f64 = 1.;
-/// Largest spacing assigned to a cone, in px, as happens far from other cones.
+/// Largest spacing that is assigned to a cone, in px; cones far from all others get it.
 const MAX_SPACING: f64 = 1000.;
 /// Number of points over which a cone's spacing is averaged: the cone and its ring of six
 /// neighbours.

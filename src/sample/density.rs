@@ -38,7 +38,7 @@ impl Density {
     /// x and y run from 0 to 1 across the bounds of the window.
     ///
     /// # Errors
-    /// Those of [`Density::new`].
+    /// The errors of [`Density::new`].
     pub fn from_fn(columns: usize, rows: usize, f: impl Fn(f64, f64) -> f64) -> Result<Self, RasterError> {
         let middle = |i: usize, count: usize| (i as f64 + 0.5) / count as f64;
         let values: Vec<f64> = (0..rows)

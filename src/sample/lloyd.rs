@@ -17,7 +17,7 @@ use rand::Rng;
 /// (1999), <https://doi.org/10.1137/S0036144599352836>.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lloyd {
-    /// Number of times all points are moved.
+    /// Number of times that all points are moved to the centroids of their Voronoi cells.
     pub steps: usize,
     /// Relative density that weights the centroids, or `None` for an even density.
     ///

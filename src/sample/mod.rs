@@ -4,8 +4,8 @@
 //! every window, so the pattern has no border of its own; a bounded window then cuts the pattern
 //! off as an image cuts off a mosaic. A polygon is cut out of a pattern that fills its bounds.
 //!
-//! A new sampler is one new file here, plus its module, its name and its place in the registry
-//! `SAMPLERS` below.
+//! To add a sampler, add a file here, declare its module, re-export its type and enter it in the
+//! registry `SAMPLERS` below.
 //!
 //! # Examples
 //! ```
@@ -87,7 +87,7 @@ static SAMPLERS: &[&dyn Sampler] = &[
     &Deering::DEFAULT,
 ];
 
-/// Returns every sampler there is.
+/// Returns all samplers, in the order in which they are listed.
 pub fn samplers() -> &'static [&'static dyn Sampler] {
     SAMPLERS
 }

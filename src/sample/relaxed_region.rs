@@ -24,7 +24,7 @@ pub(super) struct Region {
 }
 
 impl Region {
-    /// Creates the region of a frame's bounds.
+    /// Creates the region that fills a frame.
     pub(super) fn new(frame: &Frame, density: Option<&Density>) -> Self {
         let domain = match frame.torus {
             true => Domain::Torus { width: frame.width, height: frame.height },
@@ -36,7 +36,7 @@ impl Region {
     /// Creates the region of a polygon, or `None` if the polygon is not convex.
     ///
     /// # Errors
-    /// Those of [`Frame::new`].
+    /// The errors of [`Frame::new`].
     pub(super) fn convex(
         n: usize,
         polygon: &Polygon,

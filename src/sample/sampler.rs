@@ -89,7 +89,7 @@ pub trait Sampler: fmt::Debug + Send + Sync {
     /// The default implementation reports nothing.
     ///
     /// # Errors
-    /// Those of [`Sampler::fill`].
+    /// The errors of [`Sampler::fill`].
     fn fill_watched(
         &self,
         n: usize,
@@ -103,7 +103,7 @@ pub trait Sampler: fmt::Debug + Send + Sync {
     /// Returns the points of [`Sampler::sample_watched`] without reporting progress.
     ///
     /// # Errors
-    /// Those of [`Sampler::sample_watched`].
+    /// The errors of [`Sampler::sample_watched`].
     fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         self.sample_watched(n, window, rng, &mut |_, _| ())
     }

@@ -35,7 +35,7 @@ impl<T> BucketGrid<T> {
         (column.min(self.columns - 1), row.min(self.rows - 1))
     }
 
-    /// Adds an item; the grid holds fewer than 2³² − 1 items.
+    /// Adds an item at `place`; the grid must hold fewer than 2³² − 1 items.
     pub(crate) fn insert(&mut self, place: Point, thing: T) {
         let (column, row) = self.cell(place);
         let last = &mut self.last[row * self.columns + column];

@@ -53,7 +53,8 @@ impl NeighbourTree {
         found.into_iter().map(|f| (f.item as usize, f.distance))
     }
 
-    /// Returns the indices of the `n` nearest points whose squared distance is at most `limit`.
+    /// Returns the indices of at most `n` points, the nearest ones at a squared distance of at most
+    /// `limit`.
     ///
     /// The search does not go round a torus, so it is meant for the open plane.
     pub(crate) fn nearest_within(

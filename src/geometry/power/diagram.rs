@@ -14,7 +14,8 @@ pub struct PowerCell {
     pub mass: f64,
     /// Centre of mass of the cell, or the site itself if the site has no cell.
     ///
-    /// On a torus, the centre is that next to the site, so it may lie beyond the edges.
+    /// On a torus, the image of the centre nearest to the site is given, which may lie beyond the
+    /// edges.
     pub centroid: [f64; 2],
     /// Second moment of the cell's area about its own centroid, divided by the square of the area,
     /// whatever the density.

@@ -82,7 +82,7 @@ impl Domain {
         }
     }
 
-    /// Returns the vector from one place to another, by the shortest way round a torus.
+    /// Returns the vector from `from` to `to`, by the shortest way round a torus.
     #[inline]
     pub fn towards(&self, from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);

@@ -36,7 +36,7 @@ pub(super) struct Solved {
 ///
 /// The search starts from `weights`. If a cell is nearly empty with them, the search starts from a
 /// half, a quarter or an eighth of the weights, and at last from zero. It ends early if rounding
-/// lets no step succeed; [`Solved::error`] says how near it came.
+/// lets no step succeed; [`Solved::error`] then holds the deviation that is left.
 pub(super) fn solve(
     sites: &mut PowerSites<'_>,
     weights: &mut Vec<f64>,

@@ -27,7 +27,7 @@ use rand::Rng;
 /// The number of steps decides how regular the pattern is. In the unit square the regularity index
 /// (all points, population deviation; means of 5 to 60 seeds) is 12.6 at n = 1050 after 3 steps,
 /// 17.8 after 9, and 22.1 after the 20 that reproduce the paper's tables. At n = 1024 it is 25.4 at
-/// rest by the tolerance of .00285 spacings (some 61 steps), and 26.3 by .001 (some 200 steps).
+/// rest with the tolerance of .00285 spacings (some 61 steps), and 26.3 with .001 (some 200 steps).
 /// `run` and `compare` use 20 steps.
 ///
 /// Source: de Goes, Breeden, Ostromoukhov and Desbrun (2012),

@@ -10,7 +10,7 @@ use rand::Rng;
 const RADIUS: f64 = 0.75;
 /// Relative enlargement of the radius, so that rounding cannot bring points nearer than the radius.
 const MARGIN: f64 = 1e-9;
-/// Largest number of patterns begun; each one but the last was full before the last point.
+/// Largest number of attempts; each attempt ends early if the torus is full before the last point.
 const ATTEMPTS: usize = 200;
 
 /// Uniform darts, each kept if no dart kept before is nearer than r, until exactly n are kept.

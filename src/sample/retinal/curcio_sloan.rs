@@ -25,7 +25,7 @@ use std::f64::consts::SQRT_2;
 /// jitter in sides of the uncompressed cell.
 ///
 /// **Eccentricity**: there is no such parameter, as the abstract gives no numbers for the
-/// dependence on the place. Set `compression` and `jitter` for the place; they hold over the whole
+/// dependence on the place. Set `compression` and `jitter` for the place; they hold over the entire
 /// window.
 ///
 /// Rows lie along the compressed diagonal, which is along x, at a random offset. The number of

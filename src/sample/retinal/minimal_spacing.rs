@@ -8,8 +8,8 @@ use crate::sample::normal_deviate::truncated;
 use crate::sample::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use rand::{Rng, RngExt};
 
-/// Largest deviation of a minimal distance from the mean, in standard deviations; others are drawn
-/// again.
+/// Largest deviation of a minimal distance from the mean, in standard deviations; larger deviations
+/// are drawn again.
 const DEVIATIONS: f64 = 4.;
 /// Least distance between human cones in the periphery, in mm: the middle of the 6–8 µm of Curcio
 /// and Sloan (1992).

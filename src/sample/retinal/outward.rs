@@ -8,8 +8,8 @@ use crate::sample::{Frame, SampleError};
 use rand::{Rng, RngExt};
 use std::f64::consts::{PI, TAU};
 
-/// Factors by which the sides of the grown pattern exceed those of the window that should hold n
-/// points: at first, and once more for each further attempt.
+/// Factors for the sides of the grown pattern: its excess over the window that should hold n points
+/// in the first attempt, and its growth in each further attempt.
 const BEYOND: [f64; 2] = [1.1, 1.3];
 /// Largest number of attempts before the pattern counts as too small.
 const ATTEMPTS: usize = 12;

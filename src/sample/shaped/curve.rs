@@ -17,7 +17,7 @@ const STEP: f64 = 0.02;
 /// distant pairs are left to chance.
 pub(super) const REACH: f64 = 6.;
 /// Range of distances, in spacings, over which a measured pair correlation function gives way to
-/// the one that follows from the spectrum.
+/// the function that follows from the spectrum.
 const BLEND: [f64; 2] = [2., 2.4];
 /// Standard deviation of the kernel that smooths measured functions, in spacings
 /// ([`crate::stats::PcfOptions`]).
@@ -82,7 +82,7 @@ impl TargetCurve {
         Ok(Self { g: transformed(rows), spectrum: Some(rows.to_vec()) })
     }
 
-    /// Creates the target with power 0 below `frequency` (in √λ) and 1 above.
+    /// Creates the target of step blue noise: power 0 below `frequency` (in √λ) and 1 above.
     ///
     /// g(r) = 1 − f J₁(2πfr)/r (Heck et al. 2013, eq. 8,
     /// <https://doi.org/10.1145/2487228.2487233>).

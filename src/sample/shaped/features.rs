@@ -12,9 +12,10 @@ use std::f64::consts::TAU;
 
 /// Distance between the spline's nodes along r, in spacings.
 const NODE: f64 = 0.1;
-/// Least distance, in spacings, in the weight of an excess of pairs.
+/// Distance, in spacings, below which pairs are weighted as if they were at this distance.
 ///
-/// Pairs nearer than this are few, so an excess of them is weighted as at this distance.
+/// The weight of an excess of pairs is one over their distance, but nearer pairs are too few for
+/// that.
 const NEAR: f64 = 0.15;
 
 /// Mean and standard deviation of nearest-neighbour distances, in hexagonal spacings.
@@ -28,10 +29,11 @@ pub struct NearestTarget {
 
 /// Goals for the features of a pattern, with one weight per feature.
 ///
-/// The weights bring all features to about the unit of g, so that a miss of .01 means the same for
-/// each feature. Slot 0 of `goal` and `weight` belongs to the spline's node at −[`NODE`], and slot
-/// k + 1 to node k; slots of nodes that are not controlled have weight 0. The mean and the mean
-/// square of the nearest-neighbour distances follow, and then the annuli of waves.
+/// The weights bring all features to about the unit of g (the pair correlation function), so that a
+/// miss of .01 means the same for each feature. Slot 0 of `goal` and `weight` belongs to the
+/// spline's node at −[`NODE`], and slot k + 1 to node k; slots of nodes that are not controlled
+/// have weight 0. The mean and the mean square of the nearest-neighbour distances follow, and then
+/// the annuli of waves.
 pub(super) struct Features {
     goal: Vec<f64>,
     weight: Vec<f64>,

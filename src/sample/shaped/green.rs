@@ -20,8 +20,8 @@ const SPECTRUM: [f64; 17] =
 
 /// Mean and standard deviation of the nearest-neighbour distances on the torus, in spacings.
 ///
-/// The mean, and its ratio to the standard deviation, are those of the two green sets that Lanaro
-/// et al. measured (means .343 and .352, ratios 1.376 and 1.425).
+/// The mean, and its ratio to the standard deviation, lie between those of the two green sets that
+/// Lanaro et al. measured (means .343 and .352, ratios 1.376 and 1.425).
 const NEAREST: NearestTarget = NearestTarget { mean: 0.348, sd: 0.2495 };
 
 static SHAPED: LazyLock<Shaped> =
@@ -29,8 +29,8 @@ static SHAPED: LazyLock<Shaped> =
 
 /// Green noise: clusters at a typical distance, so that the power gathers in a ring.
 ///
-/// It is [`Shaped`] with the curves of the patterns of Ahmed et al. (2015). The term is that of
-/// Lau, Arce & Gallagher (1998, “Green-noise digital halftoning”).
+/// The points are made by [`Shaped`] with the curves of the patterns of Ahmed et al. (2015). The
+/// term is that of Lau, Arce & Gallagher (1998, “Green-noise digital halftoning”).
 pub static GREEN: Noise = Noise {
     name: "green",
     about: "clusters at a typical distance, a ring of power at 0.62 √n: by optimisation towards the PCF and spectrum of Ahmed et al. (2015); exactly n",

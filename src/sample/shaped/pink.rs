@@ -19,9 +19,9 @@ const SPECTRUM: [f64; 17] =
 
 /// Mean and standard deviation of the nearest-neighbour distances on the torus, in spacings.
 ///
-/// The mean is that of the two pink sets that Lanaro et al. measured (.372 and .378). The ratio of
-/// the mean to the standard deviation lies between the ratios of the two sets (1.48 and 1.50) and
-/// that of the mean over many patterns.
+/// The mean lies between those of the two pink sets that Lanaro et al. measured (.372 and .378).
+/// The ratio of the mean to the standard deviation lies between the ratios of the two sets (1.48
+/// and 1.50) and that of the mean over many patterns.
 const NEAREST: NearestTarget = NearestTarget { mean: 0.376, sd: 0.2615 };
 
 static SHAPED: LazyLock<Shaped> =
@@ -29,7 +29,7 @@ static SHAPED: LazyLock<Shaped> =
 
 /// Pink noise: power falls with frequency, and points gather in clouds.
 ///
-/// It is [`Shaped`] with the curves of the patterns of Ahmed et al. (2015).
+/// The points are made by [`Shaped`] with the curves of the patterns of Ahmed et al. (2015).
 pub static PINK: Noise = Noise {
     name: "pink",
     about: "clouds, power that falls up to 0.65 √n: by optimisation towards the PCF and spectrum of Ahmed et al. (2015); exactly n",

@@ -14,9 +14,11 @@ const HIGHEST: f64 = 0.25;
 /// The longest waves are taken, annulus by annulus; the first annulus is taken in any case.
 const MOST: usize = 256;
 
-/// Long waves on a torus of area A, grouped in annuli, and the power that each annulus is to have.
+/// Long waves on a torus, grouped in annuli of similar frequency, with the power wanted for each
+/// annulus.
 ///
-/// The hexagonal spacing is 1. Annulus k holds the waves whose frequency, times √A, rounds to k.
+/// The hexagonal spacing is 1. With A the area of the torus, annulus k holds the waves whose
+/// frequency, times √A, rounds to k.
 pub(super) struct LongWaves {
     /// Integer wave numbers (kx, ky), annulus by annulus. Of two opposite waves, only one is
     /// listed.
