@@ -15,24 +15,26 @@ const SHIFTS: usize = 48;
 const ROWS_PER_SHIFT: usize = 20;
 /// Number of directions in half a turn over which the covariance is averaged.
 const DIRECTIONS: usize = 360;
-/// Number of steps of the radius at which that average is tabulated.
+/// Number of steps of the radius at which the average over directions is tabulated.
 const RADII: usize = 512;
 
 /// Set covariance of a window: the area |W ∩ (W + h)| that the window has in common with itself
 /// shifted by h.
 ///
-/// It is tabulated at 97 × 49 shifts up to the sides of the window's bounds (the rest follows from
-/// symmetry) and bilinear between them. Every entry is summed over up to 960 rows, exact along x.
-/// Relative to the area of the window the result is exact for upright rectangles and within 10⁻³
-/// for other windows; the tests measure that.
+/// The area is tabulated at 97 × 49 shifts up to the sides of the window's bounds (the rest follows
+/// from symmetry), and interpolated bilinearly in between. Every entry is summed over up to 960
+/// rows, exact along x. Relative to the area of the window, the result is exact for upright
+/// rectangles and within 10⁻³ for other windows, as the tests measure.
 #[derive(Clone, Debug)]
 pub struct SetCovariance {
     area: f64,
-    /// Tabulated step of the shift along x and y.
+    /// Step between tabulated shifts along x and y.
     step: (f64, f64),
-    /// Areas row by row. Shifts along x begin at −[`SHIFTS`] in each row, those along y at 0.
+    /// Common area at each tabulated shift, row by row: shifts along x run from −[`SHIFTS`] to
+    /// [`SHIFTS`] steps in each row, shifts along y from 0.
     table: Vec<f64>,
-    /// Means over directions, at radii from 0 to the diagonal of the bounds.
+    /// Averages of the covariance over all directions, at radii from 0 to the diagonal of the
+    /// bounds.
     means: Vec<f64>,
     diagonal: f64,
 }
@@ -100,8 +102,9 @@ impl SetCovariance {
         self.means[k] + (at - k as f64) * (self.means[k + 1] - self.means[k])
     }
 
-    /// Averages the covariance over all directions of a shift by `r`. Half a turn is enough, as
-    /// opposite shifts have equal overlap.
+    /// Averages the covariance over all directions of a shift by `r`.
+    ///
+    /// Half a turn is enough, as opposite shifts have equal overlap.
     fn mean_of_directions(&self, r: f64) -> f64 {
         let directions = (0..DIRECTIONS).map(|k| (k as f64 + 0.5) / DIRECTIONS as f64 * PI);
         directions.map(|angle| self.share(r * angle.cos(), r * angle.sin())).sum::<f64>() / DIRECTIONS as f64
@@ -109,7 +112,7 @@ impl SetCovariance {
 }
 
 /// Returns the length that the intervals `a` and the intervals `b` shifted by `shift` have in
-/// common; both lists rise.
+/// common; both lists must be in rising order.
 fn common(a: &[(f64, f64)], b: &[(f64, f64)], shift: f64) -> f64 {
     let (mut i, mut j, mut length) = (0, 0, 0.);
     while i < a.len() && j < b.len() {

@@ -1,6 +1,6 @@
 use super::Point;
 
-/// Number of edges in a leaf.
+/// Number of edges in a leaf of the tree.
 const LEAF: usize = 4;
 
 /// Straight piece of an outline.
@@ -27,7 +27,7 @@ impl Edge {
     }
 }
 
-/// Upright box around edges.
+/// Upright bounding box of edges.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     pub(super) x0: f64,
@@ -73,11 +73,11 @@ impl Extent {
     }
 }
 
-/// Edges below a binary tree of bounding boxes.
+/// Edges in a binary tree of bounding boxes, for fast queries by place.
 ///
 /// Edges that follow each other along an outline lie near each other, so the tree halves their
-/// sequence and nothing needs sorting. A query at one place takes time logarithmic in the number of
-/// edges, plus the edges that matter to it.
+/// sequence and no sorting is needed. A query at one place takes time logarithmic in the number of
+/// edges, plus the time for the edges that the query concerns.
 #[derive(Debug)]
 pub(super) struct EdgeTree {
     edges: Vec<Edge>,
@@ -104,7 +104,9 @@ impl EdgeTree {
         &self.edges
     }
 
-    /// Visits the edges, with their indices, in all boxes that `wanted` accepts, until `visit`
+    /// Calls `visit(index, edge)` for all edges in the boxes that `wanted` accepts.
+    ///
+    /// Nodes below a box that is not accepted are skipped. The search ends as soon as `visit`
     /// returns `false`.
     pub(super) fn visit(
         &self,
@@ -137,7 +139,7 @@ impl EdgeTree {
         }
     }
 
-    /// Returns the distance from `p` to the nearest edge; infinite without edges.
+    /// Returns the distance from `p` to the nearest edge, or infinity if there are no edges.
     pub(super) fn distance(&self, p: Point) -> f64 {
         let mut best = f64::INFINITY;
         let mut stack = [(0usize, 0f64); 64];

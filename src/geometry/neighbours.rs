@@ -4,20 +4,23 @@ use rayon::prelude::*;
 use serde::Serialize;
 use std::num::NonZero;
 
-/// Number of points from which on the search uses all threads.
+/// Least number of points for which the search runs on all threads.
 const SPREAD_FROM: usize = 8192;
 
-/// Nearest other point of every point; both lists are empty for fewer than two points.
+/// Nearest neighbour of every point, in the order of the points.
+///
+/// Both lists are empty for fewer than two points.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct NearestNeighbours {
-    /// Distance to the nearest other point, in the unit of the coordinates; 0 where points
-    /// coincide.
+    /// Distance from each point to the nearest other point, in the unit of the coordinates; 0 if
+    /// the two coincide.
     pub distances: Vec<f64>,
-    /// Index of the nearest other point; any one of them if several are equally near.
+    /// Index of the nearest other point of each point; any one of them if several are equally near.
     pub indices: Vec<usize>,
 }
 
-/// Finds the nearest neighbour of every point by k-d tree, taking the short way round on a torus.
+/// Finds the nearest neighbour of every point with a k-d tree, taking the short way round on a
+/// torus.
 ///
 /// The result is empty for fewer than two points, and if a coordinate is not finite.
 pub fn nearest_neighbours(points: &[Point], window: &Window) -> NearestNeighbours {
@@ -59,7 +62,8 @@ pub fn distances_to_nearest(places: &[Point], points: &[Point], window: &Window)
     places.par_iter().map(distance).collect()
 }
 
-/// Builds the k-d tree; `None` if a coordinate is not finite or there are too many points.
+/// Builds the k-d tree, or returns `None` if a coordinate is not finite or there are too many
+/// points.
 fn planted(points: &[Point], window: &Window) -> Option<NeighbourTree> {
     if points.iter().any(|p| !p.is_finite()) {
         return None;

@@ -4,13 +4,13 @@ use super::{Point, Rectangle, SetCovariance, WindowError};
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, OnceLock};
 
-/// Rings that enclose no window.
+/// Reason why rings do not make a polygon.
 #[derive(Clone, Debug, thiserror::Error, PartialEq)]
 pub enum PolygonError {
-    /// Rings that enclose no area.
+    /// The rings enclose no area.
     #[error("the polygon has no area: give at least three corners that do not lie on a line")]
     NoArea,
-    /// Corner with a coordinate that is not finite.
+    /// A corner has a coordinate that is not finite.
     #[error("a corner of the polygon is ({x}, {y}): coordinates must be finite numbers")]
     NotFinite {
         /// Horizontal coordinate of the corner.
@@ -18,7 +18,7 @@ pub enum PolygonError {
         /// Vertical coordinate of the corner.
         y: f64,
     },
-    /// Edges that cross, so that inside and outside cannot be told apart.
+    /// Edges cross, so that inside and outside cannot be told apart.
     #[error(
         "the outline of the polygon crosses itself at ({x:.3}, {y:.3}): give its corners in order, and rings that do not cross"
     )]
@@ -57,8 +57,8 @@ struct Shape {
 impl Polygon {
     /// Builds the polygon that `rings` enclose.
     ///
-    /// A last corner that repeats the first, a corner that repeats the one before it, and rings
-    /// without area are dropped.
+    /// A corner that repeats the corner before it, a last corner that repeats the first one, and
+    /// rings without area are dropped.
     ///
     /// # Errors
     /// Fails if no area is left, a corner is not finite, or edges cross.
@@ -68,8 +68,8 @@ impl Polygon {
         if let Some(p) = crossing(&tree) {
             return Err(PolygonError::Crosses { x: p.x, y: p.y });
         }
-        // after the check for crossings: a figure of eight has no area, but its fault should be
-        // named
+        // rings without area are dropped only after the check for crossings: a figure of eight has
+        // no area, but the error should name its crossing
         let rings: Vec<Ring> = rings.into_iter().filter(|ring| signed_area(ring) != 0.).collect();
         // the depth of a ring is the number of other rings around it
         let trees: Vec<EdgeTree> =
@@ -86,8 +86,8 @@ impl Polygon {
         Self::from_oriented(oriented.collect())
     }
 
-    /// Builds a polygon from rings known not to cross, outer rings with positive and holes with
-    /// negative area.
+    /// Builds a polygon from rings that are known not to cross; outer rings must have positive
+    /// area, and holes negative area.
     fn from_oriented(rings: Vec<Ring>) -> Result<Self, PolygonError> {
         let tree = EdgeTree::new(edges_of(&rings));
         let area: f64 = rings.iter().map(|ring| signed_area(ring)).sum();
@@ -100,7 +100,7 @@ impl Polygon {
         Ok(Self { shape: Arc::new(Shape { rings, tree, bounds, area, covariance: OnceLock::new() }) })
     }
 
-    /// Returns the rings: outer rings have positive area, holes negative.
+    /// Returns the rings of the polygon: outer rings have positive area, holes negative area.
     pub fn rings(&self) -> &[Ring] {
         &self.shape.rings
     }
@@ -115,7 +115,8 @@ impl Polygon {
         self.shape.area
     }
 
-    /// Returns the upright rectangle that equals this polygon, if there is one.
+    /// Returns the upright rectangle that equals this polygon, or `None` if the polygon is not an
+    /// upright rectangle.
     pub fn as_rectangle(&self) -> Option<Rectangle> {
         let b = self.bounds();
         let [ring] = self.rings() else { return None };
@@ -146,11 +147,10 @@ impl Polygon {
         if self.contains(p) { distance } else { -distance }
     }
 
-    /// Returns the fraction of the circle of radius `d` around `p`, a point inside, that lies in
-    /// the polygon.
+    /// Returns the fraction of the circle of radius `d` around `p` that lies in the polygon.
     ///
-    /// The crossings with the outline divide the circle into arcs; an arc counts if its middle lies
-    /// in the polygon.
+    /// `p` must lie inside the polygon. The crossings with the outline divide the circle into arcs;
+    /// an arc counts if its middle lies in the polygon.
     pub fn share_of_circle(&self, p: Point, d: f64) -> f64 {
         let mut angles: Vec<f64> = Vec::new();
         self.shape.tree.visit_circle(p, d, |edge| {
@@ -185,8 +185,8 @@ impl Polygon {
         share / tau
     }
 
-    /// Writes the intervals of x, in rising order, in which the horizontal line at `y` runs inside
-    /// the polygon.
+    /// Writes to `chords` the intervals of x, in rising order, in which the horizontal line at `y`
+    /// runs inside the polygon.
     pub(crate) fn chords(&self, y: f64, chords: &mut Vec<(f64, f64)>) {
         let mut crossings: Vec<f64> = Vec::new();
         self.shape.tree.visit(
@@ -212,8 +212,8 @@ impl Polygon {
     /// Returns nodes (place on the outline, weight) such that Σ weight · F(place) is the integral
     /// of ∂F/∂x over the polygon (Green's theorem).
     ///
-    /// Pieces of edges no longer than `step` are integrated by Gauss's rule of 8 nodes, which is
-    /// exact to rounding if F varies slowly over a step.
+    /// Edges are divided into pieces no longer than `step`. Each piece is integrated by Gauss's
+    /// rule of 8 nodes, which is exact to rounding if F varies slowly over a step.
     pub(crate) fn boundary_rule(&self, step: f64) -> Vec<(Point, f64)> {
         let mut nodes = Vec::new();
         for edge in self.shape.tree.edges() {
@@ -235,12 +235,12 @@ impl Polygon {
         nodes
     }
 
-    /// Returns the part of the polygon inside `frame`; `None` if nothing is left.
+    /// Returns the part of the polygon inside `frame`, or `None` if nothing is left.
     ///
-    /// Each ring is cut at the four edges in turn (Sutherland & Hodgman 1974,
+    /// Each ring is cut at the four edges of the frame in turn (Sutherland & Hodgman 1974,
     /// <https://doi.org/10.1145/360767.360802>). Parts of a ring that come apart stay joined by
-    /// edges that run to and fro along the frame: these enclose nothing, and no path out of the
-    /// polygon meets them first.
+    /// edges that run to and fro along the frame. These edges enclose nothing, and no path out of
+    /// the polygon meets them first.
     pub fn within(&self, frame: &Rectangle) -> Option<Self> {
         let b = self.bounds();
         if frame.x0() <= b.x0() && frame.y0() <= b.y0() && frame.x1() >= b.x1() && frame.y1() >= b.y1() {
@@ -259,7 +259,7 @@ impl Polygon {
     /// Multiplies all coordinates by `factor`, a positive number.
     ///
     /// # Errors
-    /// Fails if the result is beyond the range of numbers.
+    /// Fails if a coordinate or the area of the result is too large or too small for an `f64`.
     pub fn scaled(&self, factor: f64) -> Result<Self, PolygonError> {
         let times = |p: &Point| Point::new(p.x * factor, p.y * factor);
         Self::new(self.rings().iter().map(|ring| ring.iter().map(times).collect()).collect())

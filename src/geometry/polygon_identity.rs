@@ -4,7 +4,8 @@ use super::{Point, Polygon, PolygonError};
 use std::hash::{Hash, Hasher};
 
 impl Polygon {
-    /// Returns the bit patterns of all rings: the number of corners, then their coordinates.
+    /// Returns the bit patterns of all rings: for each ring, the number of corners and then their
+    /// coordinates.
     fn bits(&self) -> impl Iterator<Item = u64> {
         let rings = self.rings().iter();
         rings.flat_map(|r| {
@@ -13,7 +14,7 @@ impl Polygon {
         })
     }
 
-    /// Returns bytes that two polygons share only if they are equal.
+    /// Returns bytes that are the same for two polygons only if the polygons are equal.
     pub(crate) fn bytes(&self) -> Vec<u8> {
         self.bits().flat_map(u64::to_le_bytes).collect()
     }

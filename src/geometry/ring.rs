@@ -45,9 +45,9 @@ pub(super) fn place(tree: &EdgeTree, p: Point) -> Place {
     }
 }
 
-/// Returns whether the ring of `tree` surrounds `ring`, which must not cross it.
+/// Returns whether the ring of `tree` surrounds `ring`; the two rings must not cross.
 ///
-/// The first corner or middle of an edge that does not lie on the ring of `tree` decides.
+/// The first corner or middle of an edge of `ring` that does not lie on the ring of `tree` decides.
 pub(super) fn surrounds(tree: &EdgeTree, ring: &Ring) -> bool {
     let next = ring.iter().cycle().skip(1);
     let places =
@@ -55,8 +55,9 @@ pub(super) fn surrounds(tree: &EdgeTree, ring: &Ring) -> bool {
     places.map(|p| place(tree, p)).find(|p| *p != Place::Border) == Some(Place::Inside)
 }
 
-/// Returns the point at which two edges cross, or `None`; the ends of each must lie strictly on
-/// either side of the other.
+/// Returns a point at which two edges cross, or `None` if no edges cross.
+///
+/// Two edges cross if the ends of each edge lie strictly on opposite sides of the other edge.
 pub(super) fn crossing(tree: &EdgeTree) -> Option<Point> {
     for (i, edge) in tree.edges().iter().enumerate() {
         let extent = Extent::of(edge);
@@ -93,17 +94,17 @@ pub(super) fn edges_of(rings: &[Ring]) -> Vec<Edge> {
         .collect()
 }
 
-/// Returns the signed area of a ring, half the sum of cross products.
+/// Returns the signed area of a ring: half the sum of the cross products of successive corners.
 ///
-/// These are taken relative to the first corner, as polygons far from the origin would lose digits
-/// to cancellation.
+/// The corners are taken relative to the first one, as polygons far from the origin would lose
+/// digits to cancellation.
 pub(super) fn signed_area(ring: &[Point]) -> f64 {
     let Some(&o) = ring.first() else { return 0. };
     let cross = |a: &Point, b: &Point| (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
     ring.windows(2).map(|w| cross(&w[0], &w[1])).sum::<f64>() / 2.
 }
 
-/// Removes repeated corners, and rings left with fewer than three corners.
+/// Removes repeated corners, and then rings with fewer than three corners.
 ///
 /// # Errors
 /// Fails if a coordinate is not finite or no ring is left.
@@ -112,7 +113,7 @@ pub(super) fn tidy(rings: Vec<Ring>) -> Result<Vec<Ring>, PolygonError> {
         return Err(PolygonError::NotFinite { x: p.x, y: p.y });
     }
     let tidied = rings.into_iter().map(|mut ring| {
-        // −0 is 0, so that equal polygons have equal bytes
+        // −0 becomes 0, so that equal polygons have equal bytes
         ring.iter_mut().for_each(|p| *p = Point::new(p.x + 0., p.y + 0.));
         ring.dedup();
         while ring.len() > 1 && ring.first() == ring.last() {
@@ -126,7 +127,8 @@ pub(super) fn tidy(rings: Vec<Ring>) -> Result<Vec<Ring>, PolygonError> {
 
 /// Returns the part of a ring in which `depth` is not negative.
 ///
-/// `edge` moves a crossing exactly onto the cutting line.
+/// `depth` is a linear function of the place, and 0 on the cutting line. `edge` moves a computed
+/// crossing exactly onto that line.
 pub(super) fn cut(ring: &[Point], depth: impl Fn(Point) -> f64, edge: impl Fn(Point) -> Point) -> Ring {
     let mut kept = Vec::with_capacity(ring.len() + 4);
     for (&a, &b) in ring.iter().zip(ring.iter().cycle().skip(1)) {

@@ -3,7 +3,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// Bounds that make no rectangle: a side that is not finite or not positive.
+/// Error for bounds that do not make a rectangle, because a side is not finite or not positive.
 #[derive(Debug, Error, PartialEq)]
 #[error(
     "the window [{x0}, {x1}] × [{y0}, {y1}] has no area: give X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1, all finite"
@@ -55,11 +55,11 @@ impl Rectangle {
     pub const fn y1(&self) -> f64 {
         self.y1
     }
-    /// Returns the horizontal side.
+    /// Returns the width, x1 − x0.
     pub const fn width(&self) -> f64 {
         self.x1 - self.x0
     }
-    /// Returns the vertical side.
+    /// Returns the height, y1 − y0.
     pub const fn height(&self) -> f64 {
         self.y1 - self.y0
     }
@@ -81,16 +81,17 @@ impl Rectangle {
     }
 }
 
-/// Region in which points could have been observed; statistics take their edge correction from it.
+/// Region in which points could have been observed, which decides the edge correction of
+/// statistics.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Window {
     /// Upright rectangle outside which nothing is known: an imaged field, a cropped picture.
     Rectangle(Rectangle),
-    /// Rectangle without a border, whose opposite edges are the same place; made by periodic
-    /// samplers.
+    /// Rectangle without a border, whose opposite edges are the same place; patterns from periodic
+    /// samplers have such a window.
     Torus(Rectangle),
-    /// Area outside whose rings, and within whose holes, nothing is known: the imaged area of a
+    /// Polygon outside which, and within the holes of which, nothing is known: the imaged area of a
     /// montage, or a region drawn by hand.
     Polygon(Polygon),
 }
@@ -104,8 +105,9 @@ impl Window {
         Rectangle::new(x0, y0, x1, y1).map(Self::Rectangle)
     }
 
-    /// Creates the window that `rings` enclose; see [`Polygon::new`]. Four corners of an upright
-    /// rectangle make a rectangle.
+    /// Creates the window that `rings` enclose; see [`Polygon::new`].
+    ///
+    /// If the rings are a single upright rectangle, the window is a [`Window::Rectangle`].
     ///
     /// # Errors
     /// Fails if the rings enclose no area, a corner is not finite, or edges cross.
@@ -123,7 +125,7 @@ impl Window {
         Self::Torus(Rectangle { x0: 0., y0: 0., x1: 1., y1: 1. })
     }
 
-    /// Creates the window of a whole image of `width` × `height` px.
+    /// Creates the window of an entire image of `width` × `height` px.
     ///
     /// It is `[−.5, width − .5] × [−.5, height − .5]`, since (0, 0) is the centre of the top-left
     /// pixel.
@@ -150,8 +152,10 @@ impl Window {
         }
     }
 
-    /// Returns the length of the border, that of holes included, in units of the coordinates; 0 on
-    /// a torus, which has no border.
+    /// Returns the length of the border, including the borders of holes, in units of the
+    /// coordinates.
+    ///
+    /// The result is 0 on a torus, which has no border.
     pub fn perimeter(&self) -> f64 {
         match self {
             Self::Rectangle(r) => 2. * (r.width() + r.height()),
@@ -170,7 +174,7 @@ impl Window {
         matches!(self, Self::Torus(_))
     }
 
-    /// Returns the rings that bound a polygon; none for a rectangle or torus.
+    /// Returns the rings that bound a polygon, or no rings for a rectangle or torus.
     pub fn rings(&self) -> &[Ring] {
         match self {
             Self::Polygon(polygon) => polygon.rings(),
@@ -186,7 +190,8 @@ impl Window {
         }
     }
 
-    /// Returns the distance to the border: negative outside, infinite on a torus.
+    /// Returns the distance from a point to the border: negative if the point lies outside,
+    /// infinite on a torus.
     pub fn border_distance(&self, p: Point) -> f64 {
         match self {
             Self::Rectangle(r) => r.border_distance(p),
@@ -195,7 +200,7 @@ impl Window {
         }
     }
 
-    /// Returns the [`Self::border_distance`] of many points.
+    /// Returns the distance from each point to the border, see [`Self::border_distance`].
     pub fn border_distances(&self, points: &[Point]) -> Vec<f64> {
         match self {
             Self::Polygon(_) => points.par_iter().map(|&p| self.border_distance(p)).collect(),
@@ -203,8 +208,8 @@ impl Window {
         }
     }
 
-    /// Returns the part of the window inside `frame`, as a window with a border; `None` if nothing
-    /// is left.
+    /// Returns the part of the window inside `frame`, as a window with a border, or `None` if
+    /// nothing is left.
     pub fn within(&self, frame: &Rectangle) -> Option<Self> {
         match self {
             Self::Rectangle(r) | Self::Torus(r) => {
@@ -218,7 +223,7 @@ impl Window {
     /// Multiplies all coordinates by `factor`, for instance to convert px to µm.
     ///
     /// # Errors
-    /// Fails if the result is beyond the range of numbers.
+    /// Fails if a coordinate or the area of the result is too large or too small for an `f64`.
     pub fn scaled(&self, factor: f64) -> Result<Self, PolygonError> {
         let rectangle = |r: &Rectangle| {
             let [x0, y0, x1, y1] = [r.x0(), r.y0(), r.x1(), r.y1()].map(|v| v * factor);
@@ -252,7 +257,7 @@ impl Window {
 }
 
 impl From<Polygon> for Window {
-    /// Makes a rectangle if the polygon is one.
+    /// Makes a [`Window::Rectangle`] if the polygon is an upright rectangle.
     fn from(polygon: Polygon) -> Self {
         match polygon.as_rectangle() {
             Some(rectangle) => Self::Rectangle(rectangle),

@@ -15,17 +15,19 @@ use rand::{Rng, RngExt};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Fraction of the light of neighbouring cones that interferes; intensities of the rest add up.
+/// Fraction of the light of neighbouring cones that interferes; the intensities of the remaining
+/// light add up.
 const COHERENCE: f64 = 0.35;
 /// Full width at half maximum of a Gaussian divided by its standard deviation.
 const WIDTH_PER_SIGMA: f64 = 2.354_820_045;
 /// Distance at which a spot is cut off, in standard deviations of its intensity.
 const CUT: f64 = 4.;
-/// Width of a rod's spot, relative to the distance of the rods.
+/// Width of a rod's spot divided by the distance between rods.
 const ROD: f64 = 0.6;
-/// Width of the small peaks of a multimodal cone, in widths of its spot.
+/// Width of each small peak of a multimodal cone, in widths of an ordinary cone's spot.
 const PEAK: f64 = 0.45;
-/// Distance of these peaks from the cone's centre, in widths of its spot, before a random factor.
+/// Distance of the small peaks of a multimodal cone from its centre, in widths of an ordinary
+/// cone's spot, before a random factor.
 const PEAK_OFFSET: f64 = 0.4;
 
 /// Draws cones and rods as waveguides that send light back through a point-spread function.
@@ -79,7 +81,7 @@ impl Light {
         Self { psf: options.psf, intensity: plane(), real: plane(), imaginary: plane() }
     }
 
-    /// Adds a spot of this full width at half maximum, in px, and this peak intensity.
+    /// Adds a spot of the given full width at half maximum (in px), peak intensity and phase.
     fn add_spot(&mut self, p: Point, width: f64, peak: f64, phase: f64) {
         let (sin, cos) = phase.sin_cos();
         let amplitude = peak.sqrt();
@@ -136,7 +138,8 @@ impl Light {
         }
     }
 
-    /// Returns the intensity that a detector sees, partly from summed amplitudes.
+    /// Returns the intensity that a detector sees: a mixture of summed intensities and summed
+    /// amplitudes.
     fn seen(mut self) -> Plane {
         let coherence = COHERENCE as f32;
         let (real, imaginary) = (&self.real, &self.imaginary);
@@ -147,9 +150,10 @@ impl Light {
     }
 }
 
-/// Returns the pixels of an axis within `reach` of `centre`, or `None` if there are none.
+/// Returns the pixels of an axis that are at most `reach` px from `centre`, or `None` if there are
+/// none.
 ///
-/// `side` is the number of pixels of the axis.
+/// `side` is the number of pixels along the axis.
 pub(super) fn span(centre: f64, reach: f64, side: usize) -> Option<Range<usize>> {
     let first = (centre - reach).ceil().max(0.);
     let last = (centre + reach).floor().min(side as f64 - 1.);

@@ -29,14 +29,14 @@ pub(super) struct Rectangle {
 
 /// Density of a mosaic from place to place.
 ///
-/// Places are those of the isotropic frame: the image, with its pixels stretched until the mosaic
-/// has the same spacing along x and y.
+/// Places are given in the isotropic frame: the image, stretched until the mosaic has the same
+/// spacing along x and y.
 pub(super) struct Density {
     /// Width of the isotropic frame, in px.
     pub(super) width: f64,
     /// Height of the isotropic frame, in px.
     pub(super) height: f64,
-    /// Factor from x of the image to x of the frame; y is divided by it.
+    /// Factor from x in the image to x in the isotropic frame; y is divided by it.
     stretch: f64,
     spacing: f64,
     gradient: f64,
@@ -56,9 +56,9 @@ impl Density {
         }
     }
 
-    /// Takes a point from the isotropic frame to the image.
+    /// Converts a point of the isotropic frame to the image.
     ///
-    /// In both, the centre of pixel (0, 0) is half a pixel from the corner.
+    /// In the frame as in the image, the centre of pixel (0, 0) is half a pixel from the corner.
     pub(super) fn stretched(&self, p: Point) -> Point {
         if self.stretch == 1. {
             return p;
@@ -66,7 +66,7 @@ impl Density {
         Point::new((p.x + 0.5) / self.stretch - 0.5, (p.y + 0.5) * self.stretch - 0.5)
     }
 
-    /// Returns the local hexagonal spacing, in px.
+    /// Returns the local hexagonal spacing at `p`, in px.
     pub(super) fn spacing_at(&self, p: Point) -> f64 {
         match self.shape {
             GradientShape::Linear => self.spacing / self.relative_density(p.x).sqrt(),
@@ -85,9 +85,9 @@ impl Density {
         }
     }
 
-    /// Returns the density of a linear gradient at x, relative to the mean of the image.
+    /// Returns the density of a linear gradient at x, relative to the mean density of the image.
     ///
-    /// Beyond the image it is that of the image's edge.
+    /// Beyond the image, the density at its edge is returned.
     fn relative_density(&self, x: f64) -> f64 {
         let log = self.gradient.ln();
         let t = ((x + 0.5) / self.width).clamp(0., 1.);
@@ -100,15 +100,17 @@ impl Density {
         Point::new(0.5 * self.width - 0.5, 0.5 * self.height - 0.5)
     }
 
-    /// Returns the spacing of a radial gradient at a distance from the middle.
+    /// Returns the spacing of a radial gradient at distance `radius` from the middle of the image,
+    /// in px.
     fn spacing_at_radius(&self, radius: f64) -> f64 {
         let reach = 0.5 * self.width.max(self.height);
         self.spacing * (1. + (self.gradient.sqrt() - 1.) * (radius / reach).min(1.))
     }
 
-    /// Spreads points of this density evenly over a rectangle, so that each cell has its share.
+    /// Returns points of this density that are spread evenly over the rectangle `bounds`.
     ///
-    /// For a linear gradient, a low-discrepancy sequence with a random start is bent (Roberts 2018,
+    /// For a linear gradient, a low-discrepancy sequence with a random start is bent to the density
+    /// (Roberts 2018,
     /// <https://extremelearning.com.au/unreasonable-effectiveness-of-quasirandom-sequences/>, the
     /// analogue of the golden ratio in the plane). For a radial gradient, Vogel's spiral is spaced
     /// by the density.
@@ -146,7 +148,7 @@ impl Density {
         }
     }
 
-    /// Returns the cumulative number of cones by distance from the middle.
+    /// Returns the number of cones within each distance from the middle, up to `farthest`.
     fn within_radius(&self, farthest: f64) -> Cumulative {
         Cumulative::new(farthest, |r| TAU * r / (CELL * self.spacing_at_radius(r).powi(2)))
     }
@@ -161,7 +163,8 @@ impl Density {
                 (Rectangle { x0: -0.5, y0: -0.5, x1, y1 }, (self.width * self.height / cell).round() as usize)
             }
             GradientShape::Radial => {
-                // a square around the disc that holds the same cones at the density of the middle
+                // a square around the disc that would hold the same cones at the density of the
+                // middle
                 let half = (cell * self.within_radius(self.corner()).total() / PI).sqrt();
                 let square = Rectangle { x0: -half, y0: -half, x1: half, y1: half };
                 (square, (4. * half * half / cell).round() as usize)
@@ -173,8 +176,10 @@ impl Density {
         0.5 * self.width.hypot(self.height)
     }
 
-    /// Moves the points of a uniform pattern to their places in the mosaic; those that leave the
-    /// frame are dropped.
+    /// Moves the points of a uniform pattern to their places in the mosaic.
+    ///
+    /// With a radial gradient, points that would lie farther out than the corners of the image are
+    /// dropped.
     pub(super) fn bent(&self, points: &[Point]) -> Vec<Point> {
         match self.shape {
             GradientShape::Linear if self.gradient == 1. => points.to_vec(),
@@ -219,7 +224,7 @@ impl Cumulative {
         self.sums[SAMPLES]
     }
 
-    /// Returns the place where the integral reaches `sum`.
+    /// Returns the place up to which the integral is `sum`.
     fn place(&self, sum: f64) -> f64 {
         let i = self.sums.partition_point(|&c| c <= sum).clamp(1, SAMPLES) - 1;
         let within = (sum - self.sums[i]) / (self.sums[i + 1] - self.sums[i]);

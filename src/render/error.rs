@@ -7,15 +7,15 @@ pub enum RenderError {
     /// An option lies outside its range.
     #[error("{option} is {value}: it must be from {low} to {high} {unit}")]
     OutOfRange {
-        /// Name of the field.
+        /// Name of the option that is out of its range.
         option: &'static str,
-        /// Value that the field had.
+        /// Value that the option had.
         value: f64,
         /// Smallest value that is allowed.
         low: f64,
         /// Largest value that is allowed.
         high: f64,
-        /// Unit of all three values.
+        /// Unit of `value`, `low` and `high`.
         unit: &'static str,
     },
     /// The image would have more pixels than are allowed.
@@ -33,9 +33,9 @@ pub enum RenderError {
     NotFinite {
         /// Index of the point, from 0.
         index: usize,
-        /// Value of its x coordinate.
+        /// Value of the point's x coordinate.
         x: f64,
-        /// Value of its y coordinate.
+        /// Value of the point's y coordinate.
         y: f64,
     },
     /// The nearest neighbours of the points could not be found.
@@ -59,7 +59,7 @@ pub enum RenderError {
     },
 }
 
-/// Refuses a value that is outside [low, high] or not a number.
+/// Returns an error if `value` is not in the range from `low` to `high`.
 pub(super) fn check(
     option: &'static str,
     value: f64,

@@ -12,8 +12,8 @@ pub(super) fn normal(rng: &mut dyn Rng) -> f64 {
 
 /// Smooth Gaussian random field of mean 0 and variance 1.
 ///
-/// It is a sum of cubic B-splines over random knots, so its cost does not grow with its correlation
-/// length.
+/// It is a sum of cubic B-splines over knots with random values, so its cost does not grow with its
+/// correlation length.
 pub(super) struct SlowField {
     knots: Array2<f64>,
     cell: f64,
@@ -30,7 +30,7 @@ impl SlowField {
         Self { knots: values, cell }
     }
 
-    /// Returns the field at (x, y), in px; beyond the image it is that of the border.
+    /// Returns the field at (x, y), in px; beyond the image, the value at the border is returned.
     pub(super) fn at(&self, x: f64, y: f64) -> f64 {
         let (rows, columns) = self.knots.dim();
         self.sum(&Knots::around(x / self.cell, columns), &Knots::around(y / self.cell, rows))
@@ -57,7 +57,7 @@ impl SlowField {
     }
 }
 
-/// The four knots that determine the field at a place along one axis, with their weights.
+/// Four knots that determine the field at a place along one axis, with their weights.
 struct Knots {
     first: usize,
     weights: [f64; 4],
@@ -76,7 +76,8 @@ impl Knots {
     }
 }
 
-/// Returns the weights of the four knots around a place at fraction `t` of the cell.
+/// Returns the weights of the four knots around a place at fraction `t` of the way between the
+/// middle two.
 fn cubic_b_spline(t: f64) -> [f64; 4] {
     let u = 1. - t;
     [
@@ -105,16 +106,16 @@ pub(super) fn smoothed_deviation(sigma: f64) -> f64 {
 
 /// Convolves with a Gaussian of standard deviation `sigma` px; the image is mirrored at its border.
 pub(super) fn smooth(plane: &Plane, sigma: f64) -> Plane {
-    // A narrower Gaussian does not reach the next pixel.
+    // a narrower Gaussian does not extend to the next pixel
     if sigma < NARROWEST { plane.clone() } else { crate::image::gaussian(plane, sigma) }
 }
 
-/// Standard deviation, in px, below which a Gaussian stays within a pixel.
+/// Standard deviation, in px, below which a Gaussian is taken to stay within a pixel.
 const NARROWEST: f64 = 0.15;
 
 /// Returns samples of a Gaussian with sum 1, from −⌈4σ⌉ to ⌈4σ⌉.
 ///
-/// Where σ is too small to reach the next pixel, the only sample is 1.
+/// If σ is too small for the Gaussian to extend to the next pixel, the only sample is 1.
 fn gaussian(sigma: f64) -> Vec<f32> {
     if sigma < NARROWEST {
         return vec![1.];

@@ -12,17 +12,19 @@ use rand::Rng;
 
 /// Width of the soft edge of a disc, in spacings.
 const EDGE: f64 = 0.1;
-/// Distance of the outline from the edge of a disc, and its standard deviation, in spacings.
+/// Distance between the edge of a disc and its outline, and the standard deviation of the outline's
+/// profile, in spacings.
 const OUTLINE: f64 = 0.07;
-/// Diameter of a rod's disc, relative to the distance of the rods.
+/// Diameter of a rod's disc divided by the distance between rods.
 const ROD: f64 = 0.7;
-/// Standard deviation of the height at which a cell is cut, relative to the height of the section.
+/// Standard deviation of the height at which a cell is cut, relative to the mean height of the
+/// section.
 ///
-/// Heights are in half axes above the widest place of the inner segments.
+/// Heights are measured from the widest place of the inner segments, in half axes.
 const UNEVEN_SECTION: f64 = 0.25;
 
-/// Returns the size of each cell in the section, relative to its widest place; 0 for cells that the
-/// section misses.
+/// Returns the size of each cell in the section relative to its widest place, or 0 if the section
+/// misses the cell.
 pub(super) fn section(count: usize, options: &RenderOptions, rng: &mut dyn Rng) -> Vec<f64> {
     if options.section == 0. {
         return vec![1.; count];
@@ -106,9 +108,9 @@ pub(super) fn signal(
 struct Disc {
     centre: Point,
     radius: f64,
-    /// Length that the widths of edge and outline are multiples of.
+    /// Local spacing in px, of which the widths of edge and outline are multiples.
     scale: f64,
-    /// Height at the centre over the ground.
+    /// Height of the disc's centre over the ground.
     peak: f64,
     /// Amplitudes of the second harmonic of the outline, along x and y.
     oval: [f64; 2],
@@ -121,7 +123,8 @@ struct Section {
     discs: Plane,
     outlines: Plane,
     inside: Plane,
-    /// Change of height over one radius, to the right and downwards.
+    /// Change of a disc's height over one radius, to the right and downwards, relative to the
+    /// height.
     shading: [f64; 2],
 }
 

@@ -1,10 +1,10 @@
 //! Simulated retinal images with known places of the cones.
 //!
-//! [`cone_mosaic`] makes places for cones, [`render`] makes an image of places from anywhere, and
+//! [`cone_mosaic`] makes places for cones, [`render`] makes an image of given places, and
 //! [`simulate`] does both. The simulation covers what decides whether a detector works: the size of
-//! a cone relative to the distance of its neighbours, scatter of brightness, dim cones, structure
-//! that is not a cone, uneven illumination, blur and noise. Sizes follow the local spacing, so a
-//! density gradient looks like one.
+//! a cone relative to the distance to its neighbours, scatter of brightness, dim cones, structure
+//! that is not a cone, uneven illumination, blur and noise. Sizes follow the local spacing, so the
+//! cones of a sparser place are also larger.
 //!
 //! Judging detectors by simulated cones with known places follows Mariotti and Devaney (2015),
 //! <https://doi.org/10.1364/JOSAA.32.000497>.
@@ -53,8 +53,8 @@ pub struct Simulation {
 
 /// Makes a mosaic by [`cone_mosaic`] and an image of it.
 ///
-/// Cones beyond the border shine into the image, as they do in a real one, but are not among those
-/// returned. The size of the image is that of `image`; that of `mosaic` is not used.
+/// Cones beyond the border shine into the image, as in a real image, but are not returned. The size
+/// of the image is taken from `image`; the size in `mosaic` is not used.
 ///
 /// # Errors
 /// If an option is out of its range.
@@ -91,7 +91,7 @@ pub fn simulate(
 /// Draws the image of cones at `points`, with grey values in [0, 1].
 ///
 /// Coordinates are in px; (0, 0) is the centre of the top-left pixel. Points beyond the border are
-/// welcome: the light that they cast into the image is drawn.
+/// allowed: the light that they cast into the image is drawn.
 ///
 /// 1. The size of each cone follows from its neighbours, and its height is drawn.
 /// 2. The modality turns cones, and rods between them, into a signal.
@@ -101,7 +101,7 @@ pub fn simulate(
 ///
 /// # Errors
 /// If an option is out of its range, a coordinate is not finite, or there are fewer than four
-/// points and the options name no spacing.
+/// points and `options.spacing` is `None`.
 ///
 /// # Examples
 /// ```
@@ -120,11 +120,11 @@ pub fn render(points: &[Point], options: &RenderOptions, rng: &mut dyn Rng) -> R
     Ok(picture(points, options, rng)?.image)
 }
 
-/// Draws the image of [`render`] and returns it with the points on imaged pixels and their
+/// Draws the same image as [`render`] and returns it with the points on imaged pixels and their
 /// visibility.
 ///
 /// # Errors
-/// Those of [`render`].
+/// The errors of [`render`].
 pub fn picture(
     points: &[Point],
     options: &RenderOptions,
@@ -195,10 +195,10 @@ fn expose(
     image
 }
 
-/// Multiplies the image by 1 + drift.
+/// Multiplies the image by an uneven illumination of mean 1.
 ///
-/// Half the variance of the drift spans the image (vignetting, tilt), and half spans a few cones
-/// (vessels and the layers above).
+/// Half of the variance of the illumination comes from a field that spans the image (vignetting,
+/// tilt), and half from a field that spans a few cones (vessels and the layers above).
 fn illuminate(image: &mut Plane, options: &RenderOptions, spacing: f64, rng: &mut dyn Rng) {
     let (height, width) = image.dim();
     let mut field = |cell| SlowField::new(width, height, cell, rng).plane(width, height);

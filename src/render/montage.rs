@@ -1,19 +1,19 @@
-//! Montages: an image seen through overlapping tiles, each turned and of its own brightness.
+//! Montages: an image seen through overlapping tiles, each turned and with a brightness of its own.
 
 use super::RenderOptions;
 use super::field::normal;
 use crate::image::{Plane, fill_rows};
 use rand::{Rng, RngExt};
 
-/// Side of a tile, relative to the pitch of the tiles.
+/// Side of a tile divided by the distance between neighbouring tiles on the grid (the pitch).
 const OVERLAP: f64 = 1.3;
-/// Standard deviation of a tile's distance from its place along each axis, in pitches.
+/// Standard deviation of a tile's displacement from its grid place along each axis, in pitches.
 const STRAY: f64 = 0.06;
-/// Largest turn of a tile, in radians: 5°.
+/// Largest rotation of a tile, in radians: 5°.
 const TURN: f64 = 0.087;
 /// Standard deviation of the logarithm of a tile's brightness.
 const GAIN: f64 = 0.08;
-/// Probability that a place at the border of the montage has no tile, where one may be missing.
+/// Probability that a tile is left out, for those places at the border where a tile may be missing.
 const GAPS: f64 = 0.3;
 /// Darkest value of an imaged pixel: one grey of an 8-bit file, so that black means not imaged.
 const DARKEST: f32 = 1. / 255.;
@@ -24,7 +24,7 @@ struct Tile {
     y: f64,
     cos: f64,
     sin: f64,
-    /// Half of its side, in px.
+    /// Half of the tile's side, in px.
     half: f64,
     gain: f32,
 }
@@ -37,18 +37,18 @@ impl Tile {
     }
 }
 
-/// Tiles of a montage on a grid of places, the uppermost last.
+/// Tiles of a montage on a grid of places; later tiles lie on top of earlier ones.
 pub(super) struct Montage {
     tiles: Vec<Tile>,
-    /// Centre of the first place of the grid along x, in px.
+    /// Centre of the first column of the grid along x, in px.
     x0: f64,
-    /// Centre of the first place of the grid along y, in px.
+    /// Centre of the first row of the grid along y, in px.
     y0: f64,
-    /// Distance of the places, in px.
+    /// Distance between neighbouring places of the grid, in px.
     pitch: f64,
     columns: usize,
     rows: usize,
-    /// Index of the tile at each place of the grid, row by row.
+    /// Index of the tile at each place of the grid, row by row, or `None` if the tile is left out.
     at: Vec<Option<usize>>,
 }
 
@@ -56,7 +56,8 @@ impl Montage {
     /// Lays tiles on a grid that fills the image, with some of the outermost left out.
     pub(super) fn new(options: &RenderOptions, rng: &mut dyn Rng) -> Self {
         let (w, h) = (options.width as f64, options.height as f64);
-        // The outermost tiles keep a distance from the border: what they overlap and stray.
+        // The outer edges of the outermost tiles lie on the border of the image, before the tiles
+        // stray.
         let pitch = w.max(h) / (options.montage as f64 + OVERLAP - 1.);
         let count = |side: f64| ((side / pitch - OVERLAP + 1.).round() as usize).max(1);
         let (columns, rows) = (count(w), count(h));
@@ -84,9 +85,9 @@ impl Montage {
         Self { tiles, x0, y0, pitch, columns, rows, at }
     }
 
-    /// Returns the uppermost tile at a place, or `None` if none covers it.
+    /// Returns the uppermost tile at (x, y), or `None` if no tile covers that place.
     fn tile(&self, x: f64, y: f64) -> Option<&Tile> {
-        // Only tiles within two places of the grid can reach here.
+        // only tiles within two places of the grid can cover (x, y)
         let near = |v: f64, from: f64, count: usize| {
             let place = (v - from) / self.pitch;
             let low = (place - 2.).floor().clamp(0., count as f64) as usize;
@@ -101,12 +102,12 @@ impl Montage {
             .find(|tile| tile.covers(x, y))
     }
 
-    /// Returns whether anything was imaged at a place, in px.
+    /// Returns whether a tile covers the pixel nearest to (x, y), in px.
     pub(super) fn covers(&self, x: f64, y: f64) -> bool {
         self.tile(x.round(), y.round()).is_some()
     }
 
-    /// Returns the image as the montage shows it: 0 where no tile lies.
+    /// Returns the image as the montage shows it; pixels outside all tiles are 0.
     pub(super) fn applied(&self, image: &Plane) -> Plane {
         let (height, width) = image.dim();
         fill_rows(height, width, |y, row| {

@@ -1,8 +1,8 @@
 //! Simulated cone mosaics: patches of triangular lattice with defects between them.
 //!
 //! 1. Spread points of the wanted density evenly, and displace them until their order is forgotten.
-//! 2. Move them for a few steps of soft repulsion within the local spacing.
-//! 3. Displace each at random.
+//! 2. For 30 steps, let points push each other away that are nearer than 1.25 local spacings.
+//! 3. Displace each point at random.
 
 use super::RenderError;
 use super::density::{Density, Rectangle};
@@ -14,32 +14,33 @@ use rand::Rng;
 use rayon::prelude::*;
 use serde::Serialize;
 
-/// Number of relaxation steps; more make larger crystals and a higher regularity.
+/// Number of relaxation steps; more steps make larger crystals and a higher regularity.
 const STEPS: usize = 30;
 /// Distance, in spacings, below which cones push each other away.
 const REACH: f64 = 1.25;
-/// Displacement of a cone in one step for a unit of push, in spacings.
+/// Displacement of a cone per step and per unit of push, in local spacings.
 const STIFFNESS: f64 = 0.3;
 /// Standard deviation, in spacings, of the displacement that makes evenly spread points forget
 /// their order.
 const FORGET: f64 = 0.3;
-/// Distance beyond the image up to which cones are made, in spacings, so that the bounds have no
-/// effect inside.
+/// Width of the margin around the image in which cones are made too, in spacings.
+///
+/// The margin keeps effects of its outer bounds away from the image.
 const MARGIN: f64 = 4.;
-/// Distance beyond the image from which a cone still shines into it, in spacings.
+/// Distance from the image within which cones still shine into it, in spacings.
 const SURROUNDINGS: f64 = 2.;
 
 /// Direction in which the density of a mosaic changes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GradientShape {
-    /// The logarithm of the density is linear in x, from the left edge to the right edge.
+    /// Density that changes from the left edge to the right edge; its logarithm is linear in x.
     #[default]
     Linear,
-    /// The density changes from the middle of the image outwards, as around the fovea.
+    /// Density that changes from the middle of the image outwards, as around the fovea.
     ///
-    /// The spacing changes in proportion to the distance up to half the longer side, and is
-    /// constant beyond.
+    /// The spacing changes linearly with the distance from the middle, up to half the longer side
+    /// of the image, and is constant beyond.
     Radial,
 }
 
@@ -52,18 +53,20 @@ pub struct MosaicOptions {
     /// Height of the image, 1 to 16384 px.
     #[serde(skip)]
     pub height: usize,
-    /// Hexagonal spacing, 2 to 1000 px: that of the mean density or, with a radial gradient, that
-    /// in the middle.
+    /// Hexagonal spacing of the cones, 2 to 1000 px: at the mean density or, with a radial
+    /// gradient, in the middle of the image.
     pub spacing: f64,
-    /// Ratio of densities, 1/20 to 20; 1 is uniform.
+    /// Ratio of the densities at the two ends of the gradient, 1/20 to 20; 1 gives a uniform
+    /// density.
     ///
-    /// It is the density at the left edge over that at the right edge, or the density in the middle
-    /// over that half the longer side away from it.
+    /// With a linear gradient, it is the density at the left edge divided by the density at the
+    /// right edge. With a radial gradient, it is the density in the middle divided by the density
+    /// at half the longer side away from the middle.
     pub gradient: f64,
-    /// Direction in which the density changes.
+    /// Shape of the gradient, which tells in which direction the density changes.
     #[serde(rename = "gradient_shape")]
     pub shape: GradientShape,
-    /// Spacing along y over spacing along x at the same density, 0.5 to 2.
+    /// Ratio of the spacing along y to the spacing along x, 0.5 to 2; the density stays the same.
     pub anisotropy: f64,
     /// Standard deviation of the final displacement in x and in y, 0 to 0.5 local spacings.
     ///
@@ -89,7 +92,7 @@ impl MosaicOptions {
     /// Checks that every field is in its range.
     ///
     /// # Errors
-    /// If a field is not; the error names the first one, with its range.
+    /// If a field is out of its range; the error names the first such field and its range.
     pub fn validate(&self) -> Result<(), RenderError> {
         validate_size(self.width, self.height)?;
         check("spacing", self.spacing, (2., 1000.), "px")?;
@@ -107,14 +110,14 @@ pub(super) fn in_image(p: Point, width: usize, height: usize) -> bool {
 
 /// Makes the places of cones in an image, in px, where (0, 0) is the centre of the top-left pixel.
 ///
-/// They form patches of triangular lattice in every direction with defects between them, as
-/// repelling discs do when they freeze without time to crystallise. First, points of the wanted
-/// density are spread evenly; a few steps of soft repulsion within the local spacing follow, and
-/// then jitter.
+/// The cones form patches of triangular lattice, turned in all directions, with defects between
+/// them, as repelling discs do when they freeze without time to crystallise. First, points of the
+/// wanted density are spread evenly; a few steps of soft repulsion within the local spacing follow,
+/// and then jitter.
 ///
-/// At uniform density and the default jitter, the mean nearest-neighbour distance is .83 s (s is
-/// the hexagonal spacing) and the regularity index is 9 to 10, as in real confocal images. At a
-/// jitter of 0.11 they are .79 s and 8, as in real split-detector images.
+/// With uniform density and the default jitter, the mean nearest-neighbour distance is .83 s (s is
+/// the hexagonal spacing) and the regularity index is 9 to 10, as in real confocal images. With a
+/// jitter of 0.11 these values are .79 s and 8, as in real split-detector images.
 ///
 /// # Errors
 /// If an option is out of its range.
@@ -124,7 +127,7 @@ pub fn cone_mosaic(options: &MosaicOptions, rng: &mut dyn Rng) -> Result<Vec<Poi
     Ok(points)
 }
 
-/// Makes the places of [`cone_mosaic`], and those of the cones beyond the border that shine into
+/// Makes the places of [`cone_mosaic`], and also those of cones beyond the border that shine into
 /// the image.
 pub(super) fn with_surroundings(
     options: &MosaicOptions,
@@ -150,7 +153,8 @@ pub(super) fn with_surroundings(
     Ok(points)
 }
 
-/// Displaces cones at random, and takes them from the isotropic frame to the image.
+/// Displaces cones at random, and converts them from the isotropic frame of [`Density`] to the
+/// image.
 fn jitter(points: &mut [Point], density: &Density, options: &MosaicOptions, rng: &mut dyn Rng) {
     for p in points {
         if options.jitter > 0. {
@@ -161,7 +165,7 @@ fn jitter(points: &mut [Point], density: &Density, options: &MosaicOptions, rng:
     }
 }
 
-/// Pattern of uniform density, such as a sampler's, that is bent into the mosaic described by
+/// Conversion of a pattern of uniform density, such as a sampler makes, into a mosaic with given
 /// options.
 pub struct Pattern {
     density: Density,
@@ -171,7 +175,7 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// Creates the description of the pattern that such a mosaic needs.
+    /// Creates the conversion for the mosaic that `options` describe.
     ///
     /// # Errors
     /// If an option is out of its range.
@@ -183,19 +187,21 @@ impl Pattern {
         Ok(Self { density, options: options.clone(), window, count })
     }
 
-    /// Returns the number of points that the pattern needs.
+    /// Returns the number of points that the uniform pattern must have.
     pub const fn count(&self) -> usize {
         self.count
     }
 
-    /// Returns the window that the pattern must fill.
+    /// Returns the window that the uniform pattern must fill.
     pub const fn window(&self) -> &Window {
         &self.window
     }
 
-    /// Returns the points in the image that the pattern becomes, in px.
+    /// Converts a uniform pattern into the mosaic and returns the points that lie in the image, in
+    /// px.
     ///
-    /// A gradient stretches cells along its direction.
+    /// `points` must fill [`Pattern::window`]. A gradient of density stretches cells along its
+    /// direction.
     pub fn bent(&self, points: &[Point], rng: &mut dyn Rng) -> Vec<Point> {
         let mut points = self.density.bent(points);
         jitter(&mut points, &self.density, &self.options, rng);
@@ -204,7 +210,7 @@ impl Pattern {
     }
 }
 
-/// Image with a margin around it, in the isotropic frame.
+/// Image with a margin around it, in the isotropic frame of [`Density`].
 struct Field {
     bounds: Rectangle,
     /// Side of the squares in which neighbours are sought, in px.
@@ -224,13 +230,13 @@ impl Field {
         Self { bounds, cell: REACH * widest }
     }
 
-    /// Returns the point, moved back to the bounds if it lies outside.
+    /// Returns the point, moved to the nearest place of the bounds if it lies outside.
     fn held(&self, p: Point) -> Point {
         let Rectangle { x0, y0, x1, y1 } = self.bounds;
         Point::new(p.x.clamp(x0, x1), p.y.clamp(y0, y1))
     }
 
-    /// Moves every point away from those within `REACH`, all at the same time.
+    /// Moves every point away from the points that are nearer than [`REACH`], all at the same time.
     fn repelled(&self, points: &[Point], density: &Density) -> Vec<Point> {
         let Rectangle { x0, y0, x1, y1 } = self.bounds;
         let columns = ((x1 - x0) / self.cell) as usize + 1;

@@ -6,12 +6,13 @@ use crate::image::Plane;
 use rand::Rng;
 use rand_distr::{Distribution, Poisson};
 
-/// Mean number of photons from which a normal distribution stands for the Poisson distribution.
+/// Least mean number of photons for which a normal distribution replaces the Poisson distribution.
 const MANY_PHOTONS: f64 = 100.;
 
 /// Adds photon and detector noise, smoothed as registration smooths it.
 ///
-/// Photons have the share q of the variance noise² at mid-grey. One photon makes 2 q noise² of the
+/// Photon noise has the share q of the variance noise² at mid-grey. One photon makes 2 q noise² of
+/// the
 /// full range of grey, so a pixel of grey value v gets Poisson(v / 2 q noise²) · 2 q noise², which
 /// has the variance 2 q v noise².
 pub(super) fn add(image: &mut Plane, options: &RenderOptions, rng: &mut dyn Rng) {
@@ -30,7 +31,7 @@ pub(super) fn add(image: &mut Plane, options: &RenderOptions, rng: &mut dyn Rng)
     image.zip_mut_with(&noise, |value, &n| *value += gain * n);
 }
 
-/// Draws a Poisson deviate of the given mean, and subtracts the mean.
+/// Draws a Poisson deviate of the given mean and returns its difference from the mean.
 fn deviation_of_photons(mean: f64, rng: &mut dyn Rng) -> f64 {
     if mean >= MANY_PHOTONS {
         return mean.sqrt() * normal(rng);

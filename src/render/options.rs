@@ -8,11 +8,12 @@ const MAX_SIDE: usize = 16_384;
 /// Largest number of pixels of a simulated image: 2²⁶, about 1 GB while it is made.
 const MAX_PIXELS: usize = 1 << 26;
 
-/// Shape of the spot that a cone's light makes; all have the same full width at half maximum.
+/// Shape of the spot that a cone's light makes; all shapes have the same full width at half
+/// maximum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PointSpread {
-    /// Gaussian spot, which aberrations and registration leave.
+    /// Gaussian spot, as aberrations and the registration of frames leave it.
     Gaussian,
     /// Airy pattern of a clear round pupil, with its rings.
     Airy,
@@ -20,101 +21,105 @@ pub enum PointSpread {
 
 /// Options for the simulated image of a mosaic.
 ///
-/// The unit s is the local hexagonal spacing of the cones. [`RenderOptions::new`] gives values for
-/// each modality that look like real images of it; [`Default`] gives those of the confocal one.
+/// “Spacings” are hexagonal spacings of the cones: the local one for the sizes of cones, the median
+/// one for vessels and blur. [`RenderOptions::new`] gives, for each modality, values that make the
+/// image look real; [`Default`] gives the values for confocal images.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RenderOptions {
     /// Kind of image: confocal, split detector or histology.
     pub modality: Modality,
-    /// Sign of the contrast; `Negative` is the photographic negative, before noise.
+    /// Sign of the contrast; `Negative` inverts the grey values before noise is added.
     pub polarity: Polarity,
     /// Width of the image, 1 to 16384 px.
     pub width: usize,
     /// Height of the image, 1 to 16384 px.
     pub height: usize,
-    /// Spacing taken for every cone, 2 to 1000 px; with `None`, each cone's own follows from its
-    /// neighbours.
+    /// Spacing assumed for every cone, 2 to 1000 px, or `None` to derive the spacing at each cone
+    /// from its neighbours.
     pub spacing: Option<f64>,
-    /// Shape of a confocal spot; other modalities have none.
+    /// Shape of a cone's spot in confocal images; other modalities do not use it.
     pub psf: PointSpread,
-    /// Size of a cone, 0.1 to 1.5 s.
+    /// Size of a cone, 0.1 to 1.5 local hexagonal spacings.
     ///
-    /// Confocal: full width at half maximum of its spot. Split detector and histology: diameter of
-    /// its inner segment.
+    /// In confocal images, this is the full width at half maximum of a cone's spot; in
+    /// split-detector and histological images, the diameter of a cone's inner segment.
     pub diameter: f64,
-    /// Coefficient of variation of the cones' sizes beyond what their distances explain, 0 to 0.5.
+    /// Coefficient of variation of the cones' sizes that is added to the variation of their
+    /// spacings, 0 to 0.5.
     pub size_scatter: f64,
     /// Grey value where there is no cone, 0 to 1.
     pub brightness: f64,
-    /// Height of the average cone over its surround, 0 to 1 of the full range of grey.
+    /// Brightness of the average cone above its surround, 0 to 1 of the full range of grey.
     pub contrast: f64,
     /// Coefficient of variation of the cones' contrast (log-normal), 0 to 2.
     pub scatter: f64,
-    /// Fraction of cones nearly without contrast (0 to 0.3 of a cone's), 0 to 1.
+    /// Fraction of cones whose contrast is reduced to between 0 and 0.3 of its value, 0 to 1.
     pub dim: f64,
     /// Fraction of cones that are not drawn at all, 0 to 1.
     pub missing: f64,
     /// Fraction of confocal cones that show several small peaks instead of one spot, 0 to 1.
     pub multimodal: f64,
-    /// Number of rods per cone, 0 to 30, in the room that the cones leave.
+    /// Number of rods per cone, 0 to 30; rods fill the room between the cones.
     pub rods: f64,
     /// Contrast of a rod relative to that of a cone, 0 to 2.
     pub rod_contrast: f64,
     /// Direction of light and shade, -360 to 360 degrees clockwise from x.
     ///
-    /// Split detector: from the dark to the bright side of a cone. Histology: towards the bright
-    /// side.
+    /// In split-detector images, it points from the dark to the bright side of a cone; in
+    /// histological images, towards the bright side of a disc. Confocal images do not use it.
     pub orientation: f64,
-    /// Split detector: excess brightness of the middle of an average cone over its surround, -2 to
-    /// 2 contrasts.
+    /// Excess brightness of the middle of an average cone over its surround in split-detector
+    /// images, -2 to 2 times the contrast.
     pub lean: f64,
-    /// Split detector: length of a cone across the direction of light and shade over that along it,
-    /// 0.5 to 2.
+    /// Ratio of a cone's length across the direction of light and shade to its length along that
+    /// direction, in split-detector images, 0.5 to 2.
     pub elongation: f64,
-    /// Histology: rise and fall of a disc from one side to the other relative to its height, 0 to
-    /// 2.
+    /// Strength of the rise and fall of brightness across a disc in histological images, 0 to 2
+    /// times the height of the disc.
     ///
     /// Large values give Nomarski contrast.
     pub shading: f64,
-    /// Histology: depth of the dark outline, 0 to 3 contrasts.
+    /// Depth of the dark outline of discs in histological images, 0 to 3 times the contrast.
     pub outline: f64,
-    /// Histology: standard deviation of the grain within the discs, 0 to 2 contrasts.
+    /// Standard deviation of the grain within the discs of histological images, 0 to 2 times the
+    /// contrast.
     ///
     /// The grain stands for mitochondria in an electron micrograph.
     pub granules: f64,
-    /// Histology: height of the section above the widest place of the inner segments, 0 to 0.95 of
-    /// their half axis.
+    /// Height of the section above the widest place of the inner segments in histological images, 0
+    /// to 0.95 of their half axis.
     ///
-    /// The segments are taken as ellipsoids. Above 0, cells are cut at different heights and differ
-    /// in size.
+    /// The segments are taken as ellipsoids. If the section lies above the widest place, cells are
+    /// cut at different heights and differ in size.
     pub section: f64,
-    /// Standard deviation of structure that is not a cone, 0 to 2 times the contrast: haze, rods,
-    /// grain of the tissue.
+    /// Standard deviation of structure that is not a cone (haze, rods, grain of the tissue), 0 to 2
+    /// times the contrast.
     pub texture: f64,
     /// Standard deviation of the illumination relative to its mean, 0 to 1.
     pub drift: f64,
     /// Number of blood vessels that enter the image from its border and branch, 0 to 50.
     ///
-    /// They are shadows; in a split detector they are a relief.
+    /// Vessels are shadows; in split-detector images they are a relief.
     pub vessels: usize,
-    /// Width of a vessel's trunk, 0.5 to 50 s.
+    /// Width of a vessel where it enters the image, 0.5 to 50 median spacings of the cones.
     pub vessel_width: f64,
-    /// Fraction of the light that the middle of a vessel takes, 0 to 1.
+    /// Fraction of the light that is lost in the middle of a vessel, 0 to 1.
     pub vessel_depth: f64,
-    /// Standard deviation of an additional Gaussian blur (defocus, motion), 0 to 1 s.
+    /// Standard deviation of an additional Gaussian blur (defocus, motion), 0 to 1 median spacings
+    /// of the cones.
     pub blur: f64,
     /// Standard deviation of the noise of a pixel at mid-grey, 0 to 0.5 of the full range of grey.
     pub noise: f64,
-    /// Fraction of that noise's variance at mid-grey that is due to photons, 0 to 1.
+    /// Fraction of the variance of the noise at mid-grey that is due to photons, 0 to 1.
     ///
-    /// Photon noise is Poisson, with a variance proportional to the grey value. The rest is the
-    /// detector's: Gaussian, the same everywhere.
+    /// Photon noise is Poisson, with a variance proportional to the grey value. The rest is
+    /// detector noise: Gaussian, and equally strong everywhere.
     pub photons: f64,
     /// Standard deviation of the Gaussian that correlates the noise of neighbouring pixels, 0 to 4
     /// px.
     ///
-    /// Averaging registered frames resamples them, which correlates their noise. 0 is white noise.
-    /// The noise of a pixel stays as `noise` says.
+    /// Averaging registered frames resamples them, which correlates their noise. 0 gives white
+    /// noise. The standard deviation of a pixel's noise stays `noise`.
     pub grain: f64,
     /// Number of tiles along the longer side of a montage, 0 to 64; 0 and 1 give a single frame.
     ///
@@ -124,7 +129,7 @@ pub struct RenderOptions {
 }
 
 impl RenderOptions {
-    /// Returns values that look like real images of the modality, 150 × 150 px.
+    /// Returns options that make a 150 × 150 px image of the given modality look real.
     pub const fn new(modality: Modality) -> Self {
         let common = Self {
             modality,
@@ -197,7 +202,7 @@ impl RenderOptions {
     /// Checks that every field is in its range.
     ///
     /// # Errors
-    /// If a field is not; the error names the first one, with its range.
+    /// If a field is out of its range; the error names the first such field and its range.
     pub fn validate(&self) -> Result<(), RenderError> {
         validate_size(self.width, self.height)?;
         if let Some(spacing) = self.spacing {
@@ -247,7 +252,8 @@ impl Default for RenderOptions {
     }
 }
 
-/// Refuses images without a pixel, and those that would not fit into memory.
+/// Returns an error if an image has no pixel, or more than [`MAX_SIDE`] px on a side, or more than
+/// [`MAX_PIXELS`] px.
 pub(super) fn validate_size(width: usize, height: usize) -> Result<(), RenderError> {
     check("width", width as f64, (1., MAX_SIDE as f64), "px")?;
     check("height", height as f64, (1., MAX_SIDE as f64), "px")?;

@@ -1,23 +1,23 @@
 use super::{GradientShape, MosaicOptions, PointSpread, RenderOptions};
 use crate::image::Modality;
 
-/// Kind of retinal image, as a starting point for options.
+/// Named set of options that imitates one kind of retinal image.
 #[derive(Clone, Copy, Debug)]
 pub struct Preset {
     /// Name that users type.
     pub name: &'static str,
-    /// One line about the image.
+    /// Description of the image in one line.
     pub about: &'static str,
     make: fn() -> (MosaicOptions, RenderOptions),
 }
 
 impl Preset {
-    /// Returns the preset of that name, or `None` if there is none.
+    /// Returns the preset called `name`, or `None` if there is no such preset.
     pub fn named(name: &str) -> Option<&'static Self> {
         PRESETS.iter().find(|p| p.name == name)
     }
 
-    /// Returns the options of the mosaic, with the size of the image, and those of its image.
+    /// Returns the options of the mosaic and the options of its image; both have the same size.
     pub fn options(&self) -> (MosaicOptions, RenderOptions) {
         let (mosaic, image) = (self.make)();
         (MosaicOptions { width: image.width, height: image.height, ..mosaic }, image)

@@ -3,11 +3,11 @@
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-/// Samples of the table per unit of distance, which is one full width at half maximum.
+/// Number of samples in the table per full width at half maximum of the pattern.
 const PER_WIDTH: usize = 64;
 /// Distance at which the pattern is cut off, in full widths at half maximum.
 ///
-/// It lies behind the second ring, where the intensity is below 0.5 % of its maximum.
+/// The cut lies beyond the second ring, where the intensity is below 0.5 % of its maximum.
 pub(super) const AIRY_CUT: f64 = 3.1;
 /// Twice the v at which (2 J₁(v) / v)² = ½: the full width at half maximum in units of v.
 const WIDTH: f64 = 3.232_679;

@@ -10,18 +10,19 @@ use std::f64::consts::TAU;
 
 /// Area of a cone's cell, in squared spacings: √3/2.
 const CELL: f64 = 0.866_025_403_784_438_6;
-/// Closest distance of two rods, as a share of the spacing of a lattice of the same density.
+/// Least distance between two rods, as a share of the spacing of a triangular lattice of the same
+/// density.
 ///
-/// It is about where random placing stops.
+/// Random placing without overlap stops at about this distance.
 const CLOSEST: f64 = 0.75;
-/// Discs of diameter 1 per unit of area that random placing without overlap achieves.
+/// Number of discs of diameter 1 per unit of area that random placing without overlap achieves.
 ///
-/// Random sequential adsorption in the plane (Rényi's car parking) covers .547; the tries below
-/// leave out a part of it.
+/// Random sequential adsorption in the plane (Rényi's car parking) covers .547 of the area; the
+/// limited number of tries achieves only a part of it.
 const PARKED: f64 = 0.6;
-/// Least room that the cones are taken to leave to rods, in squared spacings per cone.
+/// Least room that the cones are assumed to leave to rods, in squared spacings per cone.
 const LEAST_ROOM: f64 = 0.1;
-/// Number of places tried per rod wanted.
+/// Number of places tried per rod asked for.
 const TRIES: f64 = 6.;
 /// Coefficient of variation of the rods' heights.
 const SCATTER: f64 = 0.5;
@@ -29,7 +30,7 @@ const SCATTER: f64 = 0.5;
 /// Rod that lies between cones.
 pub(super) struct Rod {
     pub(super) centre: Point,
-    /// Distance of the rods around it, in px.
+    /// Typical distance between this rod and the rods around it, in px.
     pub(super) pitch: f64,
     /// Height over the surround, relative to the average cone.
     pub(super) height: f64,
@@ -37,7 +38,7 @@ pub(super) struct Rod {
 
 /// Places rods at random in the room that the cones leave, without overlap.
 ///
-/// Their distance follows from their number and from that room.
+/// The distance between rods follows from their number and from the room that the cones leave.
 pub(super) fn between(
     points: &[Point],
     cells: &CellSizes,
@@ -72,10 +73,10 @@ pub(super) fn between(
     rods
 }
 
-/// Returns the closest distance of two rods, in spacings, at which as many as asked for find room.
+/// Returns the least distance between two rods, in spacings, at which the rods asked for find room.
 ///
-/// With this distance x, the centre of a rod keeps x/2 away from a cone of diameter d. x solves
-/// rods · x² = PARKED · (cell − π (d + x)²/4).
+/// The distance x solves rods · x² = PARKED · (CELL − π (d + x)²/4), as the centre of a rod keeps
+/// x/2 away from the edge of a cone of diameter d.
 fn closest(options: &RenderOptions) -> f64 {
     let d = options.diameter;
     let parked = PARKED * TAU / 8.;
@@ -86,10 +87,12 @@ fn closest(options: &RenderOptions) -> f64 {
 
 /// Discs that must not overlap, in a grid of squares.
 ///
-/// The squares are at least as wide as any two discs reach.
+/// The side of a square is at least the largest distance at which a rod can touch another disc, so
+/// only adjacent squares are searched.
 struct Discs {
     side: f64,
-    /// Numbers of columns and rows of squares over the image.
+    /// Numbers of columns and of rows of squares that cover the image, without the ring of squares
+    /// around it.
     counts: [usize; 2],
     discs: BucketGrid<(Point, f64)>,
 }
@@ -110,7 +113,7 @@ impl Discs {
 
     /// Adds a disc if it overlaps no other, and returns whether it was added.
     ///
-    /// Nothing is free beyond one square around the image.
+    /// A disc whose centre lies beyond the ring of squares around the image is never added.
     fn insert_if_free(&mut self, p: Point, radius: f64) -> bool {
         let inside = |v: f64, count: usize| v > -self.side && v < (count as f64) * self.side;
         let free = inside(p.x, self.counts[0])

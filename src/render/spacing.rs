@@ -1,26 +1,27 @@
-//! Local spacing at each cone, which determines its size.
+//! Local spacing at each cone, which determines the size of the cone.
 
 use super::{RenderError, RenderOptions};
 use crate::geometry::Point;
 use crate::geometry::index::NeighbourTree;
 use std::num::NonZero;
 
-/// Hexagonal spacing divided by the mean distance of the three nearest neighbours, in a cone
+/// Ratio of the hexagonal spacing to the mean distance of the three nearest neighbours in a cone
 /// mosaic.
 const SPACING_PER_NEIGHBOUR_DISTANCE: f64 = 1.09;
-/// Smallest spacing for which cones are drawn, in px; cones in clusters are taken to have it.
+/// Least spacing that is assigned to a cone, in px; cones in tight clusters get it.
 const MIN_SPACING: f64 = 1.;
-/// Largest spacing for which cones are drawn, in px; cones far from others are taken to have it.
+/// Largest spacing that is assigned to a cone, in px; cones far from all others get it.
 const MAX_SPACING: f64 = 1000.;
 /// Number of points over which a cone's spacing is averaged: the cone and its ring of six
 /// neighbours.
 const RING: NonZero<usize> = NonZero::<usize>::MIN.saturating_add(6);
 
-/// Spacings and nearest-neighbour distances that limit the sizes of cones.
+/// Local spacing and nearest-neighbour distance of each cone, which determine the sizes of cones.
 pub(super) struct CellSizes {
     /// Local hexagonal spacing at each cone, in px.
     pub(super) spacing: Vec<f64>,
-    /// Distance of each cone to its nearest neighbour, in px; infinite for a cone alone.
+    /// Distance between each cone and its nearest neighbour, in px; infinite if there is no other
+    /// cone.
     pub(super) nearest: Vec<f64>,
     /// Median spacing, in px, which is the scale of everything that is not a cone.
     pub(super) typical: f64,
@@ -42,7 +43,8 @@ impl CellSizes {
     }
 }
 
-/// Returns, for each point, the index and distance of the `RING` nearest points, itself first.
+/// Returns, for each point, the indices and distances of the [`RING`] nearest points, the point
+/// itself first.
 fn nearest_neighbours(points: &[Point]) -> Result<Vec<Vec<(usize, f64)>>, RenderError> {
     if points.is_empty() {
         return Ok(Vec::new());
@@ -59,7 +61,7 @@ fn nearest_neighbours(points: &[Point]) -> Result<Vec<Vec<(usize, f64)>>, Render
     Ok(neighbours.collect())
 }
 
-/// Returns the local spacing at each point from the distances of its neighbours.
+/// Returns the local spacing at each point from the distances to its neighbours.
 ///
 /// Unlike a density, the mean distance of the three nearest neighbours is as good at the border of
 /// a mosaic as inside. Averaging it over the ring of neighbours removes irregularity and keeps a

@@ -9,16 +9,16 @@ use crate::geometry::Point;
 use crate::image::Plane;
 use rand::Rng;
 
-/// Diameter of a rod's dome, relative to the distance of the rods.
+/// Diameter of a rod's dome divided by the distance between rods.
 const ROD: f64 = 0.9;
-/// Relief of a vessel's flanks, in contrasts: how steep they look.
+/// Strength with which the flanks of a vessel stand out, in contrasts.
 const VESSEL_RELIEF: f64 = 0.4;
 
 /// Draws inner segments as domes (1 − ρ²)^1.5, seen by their slope along the direction of
 /// detection.
 ///
-/// Each is dark on one side and bright on the other, from −1 to 1 for the average cone. Between
-/// them lie rods, which are smaller domes, and the slope of a finer relief.
+/// Each dome is dark on one side and bright on the other, from −1 to 1 for the average cone.
+/// Between the cones lie rods, which are smaller domes, and the slope of a finer relief.
 pub(super) fn signal(
     points: &[Point],
     cells: &CellSizes,
@@ -73,8 +73,8 @@ struct Relief {
 }
 
 impl Relief {
-    /// Adds the slope of a dome; `longer` is its length across the direction of detection over that
-    /// along it.
+    /// Adds the slope of a dome; `longer` is the ratio of its length across the direction of
+    /// detection to its length along that direction.
     fn add_dome(&mut self, p: Point, radius: f64, longer: f64, peak: f64, lean: f64) {
         let (height, width) = self.plane.dim();
         let (sin, cos) = (self.sin, self.cos);

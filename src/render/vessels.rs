@@ -8,19 +8,19 @@ use crate::image::Plane;
 use rand::{Rng, RngExt};
 use std::f64::consts::{PI, TAU};
 
-/// Length of a step along a vessel, in its widths.
+/// Length of a step along a vessel, in widths of the vessel.
 const STEP: f64 = 0.25;
-/// Standard deviation of the change of direction over one width, in radians.
+/// Standard deviation of the change of direction over a length of one vessel width, in radians.
 const WINDING: f64 = 0.12;
-/// Mean length between two branchings, in widths.
+/// Mean length between two branchings, in widths of the vessel.
 const BRANCHING: f64 = 14.;
-/// Width of the narrowest branch, in spacings.
+/// Least width of a branch, in spacings; narrower branches are not drawn.
 const NARROWEST: f64 = 0.4;
 /// Widths of the two branches, relative to their stem: the cubes add up to about 1 (0.8³ + 0.79³).
 ///
 /// Source: Murray (1926), <https://doi.org/10.1073/pnas.12.3.207>.
 const BRANCHES: [f64; 2] = [0.8, 0.79];
-/// Most pieces of one tree of vessels, so that it ends.
+/// Largest number of pieces drawn for one tree of vessels, so that the drawing ends.
 const MOST_PIECES: usize = 64;
 
 /// Start of a piece of vessel, with its direction in radians and its width in px.
@@ -68,9 +68,8 @@ fn entrance(width: usize, height: usize, vessel: f64, rng: &mut dyn Rng) -> Piec
     Piece { start, heading: inwards + rng.random_range(-0.6..0.6), width: vessel }
 }
 
-/// Draws a piece of vessel, and returns its end and its direction there.
-///
-/// `None` is returned if it has left the image.
+/// Draws a piece of vessel, and returns its end and its direction there, or `None` if it left the
+/// image.
 fn draw(plane: &mut Plane, piece: &Piece, rng: &mut dyn Rng) -> Option<(Point, f64)> {
     let (height, width) = plane.dim();
     let radius = 0.5 * piece.width;
@@ -89,8 +88,8 @@ fn draw(plane: &mut Plane, piece: &Piece, rng: &mut dyn Rng) -> Option<(Point, f
             for y in rows {
                 for x in columns.clone() {
                     let (dx, dy) = ((x as f64 - p.x) / radius, (y as f64 - p.y) / radius);
-                    // Light crosses a round vessel along a chord, so its depth falls off as the
-                    // chord's length does.
+                    // Light crosses a round vessel along a chord, so the depth falls off as the
+                    // length of the chord does.
                     let chord = (1. - dx * dx - dy * dy).max(0.).sqrt() as f32;
                     let pixel = &mut plane[[y, x]];
                     *pixel = pixel.max(chord);

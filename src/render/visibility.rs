@@ -1,4 +1,4 @@
-//! Heights of the cones in a simulated image, and how well each can be seen.
+//! Heights of the cones in a simulated image, and how well each cone can be seen.
 
 use super::RenderOptions;
 use super::field::{SlowField, normal};
@@ -10,16 +10,16 @@ use serde::Serialize;
 /// Contrast, relative to the average cone, below which a cone counts as dim.
 pub(super) const DIM: f64 = 0.3;
 
-/// Class of a cone by what an observer could know of it.
+/// Class of a cone by how well an observer could see it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ConeClass {
-    /// The cone stands out.
+    /// Cone that stands out from its surround.
     Cone,
-    /// The cone has less than 0.3 of the average contrast: drawn so, behind a vessel, or cut near
-    /// its tip.
+    /// Cone with less than 0.3 of the average contrast: drawn dim, behind a vessel, or cut near its
+    /// tip.
     Dim,
-    /// The cone is not drawn at all.
+    /// Cone without contrast, such as a cone that is not drawn at all.
     Missing,
 }
 
@@ -57,8 +57,8 @@ impl Visibility {
 
 /// Draws the heights of the cones over their surround: log-normal, with mean 1.
 ///
-/// Three quarters of the variance of the logarithm are the cone's own, and one quarter is shared by
-/// its neighbours. Then dim cones lose most of their height, and missing ones all of it.
+/// Three quarters of the variance of the logarithm are the cone's own, and one quarter is shared
+/// with neighbouring cones. Then dim cones lose most of their height, and missing cones all of it.
 pub(super) fn heights(
     points: &[Point],
     cells: &CellSizes,

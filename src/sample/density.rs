@@ -2,14 +2,15 @@ use crate::geometry::power::{Domain, Raster, RasterError};
 use crate::geometry::{Point, Polygon};
 use std::sync::Arc;
 
-/// Least density, as a share of the greatest: an empty region would separate the cells on its two
-/// sides.
+/// Lower limit of the density, as a share of its greatest value; smaller values are raised to it.
+///
+/// A region of density 0 would separate the cells on its two sides.
 const LEAST: f64 = 1e-3;
 
 /// Relative density of points over the bounds of a window.
 ///
-/// It is a raster whose first cell is the upper left one, and is constant within each cell. Values
-/// below 1/1000 of the greatest are raised to that.
+/// The density is a raster, constant within each cell; the first cell is the upper left one. Values
+/// below 1/1000 of the greatest value are raised to that limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Density {
     columns: usize,
@@ -21,7 +22,8 @@ impl Density {
     /// Creates a density from values given row by row, in any unit.
     ///
     /// # Errors
-    /// If their number is not `columns` × `rows`, one is negative or not finite, or all are 0.
+    /// If the number of values is not `columns` × `rows`, a value is negative or not finite, or all
+    /// values are 0.
     pub fn new(columns: usize, rows: usize, values: &[f64]) -> Result<Self, RasterError> {
         let greatest = values.iter().copied().fold(0., f64::max);
         // the values are checked on a unit square here, so that `over` cannot fail for them later
@@ -31,12 +33,12 @@ impl Density {
     }
 
     /// Creates a density from a function of (x, y), evaluated at the centres of the cells of a
-    /// raster.
+    /// raster of `columns` × `rows` cells.
     ///
     /// x and y run from 0 to 1 across the bounds of the window.
     ///
     /// # Errors
-    /// Those of [`Density::new`].
+    /// The errors of [`Density::new`].
     pub fn from_fn(columns: usize, rows: usize, f: impl Fn(f64, f64) -> f64) -> Result<Self, RasterError> {
         let middle = |i: usize, count: usize| (i as f64 + 0.5) / count as f64;
         let values: Vec<f64> = (0..rows)
@@ -46,7 +48,7 @@ impl Density {
         Self::new(columns, rows, &values)
     }
 
-    /// Returns the density as a raster over this domain.
+    /// Returns the density as a raster over `domain`.
     pub(super) fn over(&self, domain: &Domain) -> Option<Raster> {
         Raster::new(domain, self.columns, self.rows, self.values.to_vec()).ok()
     }
@@ -54,8 +56,8 @@ impl Density {
     /// Returns the share of the density's mass that lies inside a polygon.
     ///
     /// The density is spread over the polygon's bounds, and a cell counts as inside if its centre
-    /// is. The result is at least the share of one cell of an even density, so that it can be
-    /// divided by.
+    /// lies inside. The result is at least the share of one cell of an even density, so that it is
+    /// never 0 and can be divided by.
     pub(super) fn share(&self, polygon: &Polygon) -> f64 {
         let b = polygon.bounds();
         let middle = |i: usize, count: usize, side: f64| (i as f64 + 0.5) / count as f64 * side;

@@ -4,7 +4,7 @@ use thiserror::Error;
 /// Reason why points could not be made.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SampleError {
-    /// No sampler has that name.
+    /// No sampler has the name asked for.
     #[error("there is no sampler “{name}”{hint}: there are {names}")]
     Unknown {
         /// Name that was asked for.
@@ -14,7 +14,7 @@ pub enum SampleError {
         /// Suggestion of a similar name, as a question; empty if no name is similar.
         hint: String,
     },
-    /// The sampler has no parameter of that name.
+    /// The sampler has no parameter of the given name.
     #[error("{sampler} has no parameter “{name}”{hint}: {known}")]
     UnknownParameter {
         /// Name of the sampler.
@@ -26,7 +26,7 @@ pub enum SampleError {
         /// Sentence about the parameters that can be set.
         known: String,
     },
-    /// A parameter cannot have that value.
+    /// A parameter cannot have the value asked for.
     #[error("{sampler}: {parameter}={value} is not possible: expected a number, {expected}")]
     Value {
         /// Name of the sampler.
@@ -45,12 +45,12 @@ pub enum SampleError {
     Unequal {
         /// Name of the sampler.
         sampler: &'static str,
-        /// Number of cells and points.
+        /// Number of points, each of which has one cell.
         n: usize,
-        /// Greatest relative deviation of a mass.
+        /// Greatest relative deviation of a cell's mass from the common mass.
         error: f64,
     },
-    /// More points than fit into memory.
+    /// More points were asked for than fit into memory.
     #[error("{n} points were asked for: at most {max} can be made")]
     TooMany {
         /// Number of points asked for.
@@ -66,7 +66,7 @@ pub enum SampleError {
         /// Largest ratio that is allowed.
         max: f64,
     },
-    /// The rows given as a target curve do not describe one.
+    /// The rows given as a target curve do not describe a curve.
     #[error("{what} {problem}")]
     Target {
         /// Kind of the curve, as the subject of the message.
@@ -74,7 +74,7 @@ pub enum SampleError {
         /// Description of the problem, as the predicate of the message.
         problem: String,
     },
-    /// Every attempt ran full before the last point was placed.
+    /// No attempt found room for all points.
     #[error(
         "{sampler} found room for at most {placed} of {n} points in {attempts} attempts: use another n or a wider window"
     )]
@@ -90,8 +90,9 @@ pub enum SampleError {
     },
 }
 
-/// Most edits between a name and its misspelling; names that differ by more are taken for other
-/// words.
+/// Largest number of edits at which a similar name is suggested.
+///
+/// Names that differ by more edits are taken for other words.
 const MISSPELT: usize = 3;
 
 impl SampleError {

@@ -4,20 +4,21 @@ use crate::mosaic::hexagonal_spacing;
 
 /// Largest number of points that may be asked for.
 const MAX_POINTS: usize = 100_000_000;
-/// Largest ratio of the longer to the shorter side of a window.
+/// Largest allowed ratio of the longer to the shorter side of a window's bounds.
 const MAX_ASPECT: f64 = 1e6;
 
-/// Bounds of a window, in which every sampler works: [0, width) × [0, height), from the upper left
-/// corner.
+/// Rectangle in which every sampler works: the bounds of the window, with the upper left corner
+/// moved to the origin.
 ///
-/// [`Frame::place`] takes the result into the window.
+/// Places lie in [0, width) × [0, height). [`Frame::place`] takes a place of the frame to a point
+/// of the window.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
-    /// Horizontal side, in the window's unit.
+    /// Width, in the window's unit.
     pub width: f64,
-    /// Vertical side, in the window's unit.
+    /// Height, in the window's unit.
     pub height: f64,
-    /// Opposite edges are glued together.
+    /// `true` if opposite edges are glued together.
     pub torus: bool,
     bounds: Rectangle,
 }
@@ -26,7 +27,7 @@ impl Frame {
     /// Creates the frame for the bounds of a window.
     ///
     /// # Errors
-    /// If `n` points, or a window of this shape, are beyond all samplers.
+    /// If `n` exceeds 10⁸, or one side of the bounds is more than 10⁶ times as long as the other.
     pub fn new(n: usize, window: &Window) -> Result<Self, SampleError> {
         let bounds = window.bounds();
         let (width, height) = (bounds.width(), bounds.height());
@@ -40,7 +41,10 @@ impl Frame {
         Ok(Self { width, height, torus: window.is_torus(), bounds })
     }
 
-    /// Returns the hexagonal spacing of `n` points in the frame; 0 without points.
+    /// Returns the hexagonal spacing of `n` points in the frame, or 0 if `n` is 0.
+    ///
+    /// The hexagonal spacing is the distance between neighbours in a triangular lattice of the same
+    /// density.
     pub fn spacing(&self, n: usize) -> f64 {
         hexagonal_spacing(n, self.width * self.height).unwrap_or(0.)
     }

@@ -17,12 +17,12 @@ use rand::Rng;
 /// (1999), <https://doi.org/10.1137/S0036144599352836>.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lloyd {
-    /// Number of times all points are moved.
+    /// Number of times that all points are moved to the centroids of their Voronoi cells.
     pub steps: usize,
-    /// Relative density that weights the centroids; `None` for an even one.
+    /// Relative density that weights the centroids, or `None` for an even density.
     ///
-    /// The density of the points goes with its square root, as in centroidal tessellations in the
-    /// plane.
+    /// The density of the points becomes proportional to the square root of this density, as in
+    /// centroidal tessellations in the plane.
     pub density: Option<Density>,
 }
 

@@ -1,11 +1,11 @@
 //! Random point patterns to compare mosaics with: point processes behind one trait, [`Sampler`].
 //!
-//! Every sampler works in any window. Distances in the Poisson-disk samplers are those of the torus
-//! in every window, so the pattern has no border of its own; a bounded window then cuts the pattern
+//! Every sampler works in any window. The Poisson-disk samplers measure distances on a torus in
+//! every window, so the pattern has no border of its own; a bounded window then cuts the pattern
 //! off as an image cuts off a mosaic. A polygon is cut out of a pattern that fills its bounds.
 //!
-//! A new sampler is one new file here, plus its module, its name and its place in the registry
-//! `SAMPLERS` below.
+//! To add a sampler, add a file here, declare its module, re-export its type and enter it in the
+//! registry `SAMPLERS` below.
 //!
 //! # Examples
 //! ```
@@ -87,19 +87,19 @@ static SAMPLERS: &[&dyn Sampler] = &[
     &Deering::DEFAULT,
 ];
 
-/// Returns every sampler there is.
+/// Returns all samplers, in the order in which they are listed.
 pub fn samplers() -> &'static [&'static dyn Sampler] {
     SAMPLERS
 }
 
-/// Returns the samplers with these names, each once and in the setting that mosaics are compared
-/// with.
+/// Returns the samplers with the given names, each once and in the setting that mosaics are
+/// compared with.
 ///
-/// The name `all` stands for every sampler. `none` drops all those named before it. Without any
-/// name the samplers by default are returned.
+/// The name `all` stands for every sampler. The name `none` drops all samplers named before it. If
+/// `names` is empty, the default samplers are returned, see [`samplers_by_default`].
 ///
 /// # Errors
-/// If there is no such sampler; the error lists the names.
+/// If no sampler has one of the names; the error lists all names.
 pub fn samplers_named(names: &[String]) -> Result<Vec<&'static dyn Sampler>, SampleError> {
     if names.is_empty() {
         return Ok(samplers_by_default());
@@ -123,22 +123,24 @@ pub fn samplers_named(names: &[String]) -> Result<Vec<&'static dyn Sampler>, Sam
     Ok(found)
 }
 
-/// Returns the samplers that mosaics are compared with if none are named.
+/// Returns the default samplers, with which mosaics are compared unless the user names others.
 ///
-/// Each is in the setting that mosaics are compared with.
+/// Each sampler is in the setting that mosaics are compared with, see [`as_reference`].
 pub fn samplers_by_default() -> Vec<&'static dyn Sampler> {
     SAMPLERS.iter().copied().filter(|s| s.by_default()).map(as_reference).collect()
 }
 
 /// Returns the sampler in the setting that mosaics are compared with.
+///
+/// That setting is the default one unless [`Sampler::as_reference`] returns another.
 pub fn as_reference(sampler: &'static dyn Sampler) -> &'static dyn Sampler {
     sampler.as_reference().unwrap_or(sampler)
 }
 
-/// Returns the sampler of that name.
+/// Returns the sampler called `name`.
 ///
 /// # Errors
-/// If there is none; the error lists the names and the one closest to what was asked for.
+/// If no sampler has that name; the error lists all names and suggests a similar one.
 pub fn sampler(name: &str) -> Result<&'static dyn Sampler, SampleError> {
     SAMPLERS.iter().copied().find(|s| s.name() == name).ok_or_else(|| {
         let names: Vec<&str> = SAMPLERS.iter().map(|s| s.name()).collect();
@@ -242,7 +244,8 @@ mod tests {
         let polygon = Window::polygon(vec![ring]).unwrap();
         let rectangle = Window::rectangle(0., 0., 2., 2.).unwrap();
         for s in samplers().iter().copied().map(as_reference) {
-            // the sides of the L take or leave whole rows of a lattice, which hold 12 to 40 points
+            // a side of the L includes or excludes an entire row of a lattice, which holds 12 to 40
+            // points
             let most = if matches!(s.name(), "square" | "triangular") { 30 } else { 3 };
             let n = s.sample(600, &polygon, &mut seeded(1)).unwrap().len();
             assert!(n.abs_diff(600) <= most, "{}: {n}", s.name());

@@ -1,26 +1,26 @@
 use super::{SampleError, Sampler};
 
-/// Description of one parameter of a sampler, as users read it.
+/// Description of one parameter of a sampler, as shown to users.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
     /// Name in lower case, with words joined by hyphens.
     pub name: &'static str,
-    /// Unit, or the thing counted; empty for a plain number.
+    /// Unit of the value, or the name of the things counted; empty for a plain number.
     pub unit: &'static str,
-    /// Least and greatest value, both allowed.
+    /// Least and greatest value; both are allowed.
     pub range: (f64, f64),
-    /// Restriction to whole numbers.
+    /// `true` if only integers are allowed.
     pub whole: bool,
-    /// Value that holds if none is set; `None` where that is not a number.
+    /// Default value, or `None` if the default is not a number.
     pub default: Option<f64>,
-    /// Words for the default where it is not a number.
+    /// Text shown for a default that is not a number, such as “until points rest”.
     pub unset: &'static str,
     /// Effect of the parameter, and the source of its default.
     pub meaning: &'static str,
 }
 
 impl Parameter {
-    /// Returns the range as a user reads it: “1 to 1000”, “at least 0”.
+    /// Describes the range of allowed values for users, such as “1 to 1000” or “at least 0”.
     pub fn range_in_words(&self) -> String {
         let kind = if self.whole { "whole, " } else { "" };
         match self.range {
@@ -29,7 +29,7 @@ impl Parameter {
         }
     }
 
-    /// Returns the default as a user reads it: the number to four digits, or words.
+    /// Describes the default for users: the number, with four decimals if it is long, or a text.
     pub fn default_in_words(&self) -> String {
         let Some(value) = self.default else { return self.unset.to_owned() };
         let exact = value.to_string();
@@ -47,9 +47,9 @@ impl Parameter {
     }
 }
 
-/// Row of a sampler's table of parameters: the text that users read, and access to the field.
+/// Row of a sampler's table of parameters: the text shown to users, and access to the field.
 ///
-/// The default is read from the sampler, so it stands in one place only.
+/// The row holds no default; `get` reads the default from the sampler.
 pub struct Setting<S> {
     /// Name of the parameter, see [`Parameter::name`].
     pub name: &'static str,
@@ -57,16 +57,16 @@ pub struct Setting<S> {
     pub unit: &'static str,
     /// Range of allowed values, see [`Parameter::range`].
     pub range: (f64, f64),
-    /// Restriction to whole numbers, see [`Parameter::whole`].
+    /// `true` if only integers are allowed, see [`Parameter::whole`].
     pub whole: bool,
-    /// Words for a default that is not a number, see [`Parameter::unset`]; empty if there always is
-    /// a number.
+    /// Text shown for a default that is not a number, see [`Parameter::unset`]; empty if the
+    /// default is always a number.
     pub unset: &'static str,
     /// Effect of the parameter, see [`Parameter::meaning`].
     pub meaning: &'static str,
     /// Getter that returns the present value, or `None` if it is not a number.
     pub get: fn(&S) -> Option<f64>,
-    /// Setter for a value within the range.
+    /// Setter of the value, which must lie within the range.
     pub set: fn(&mut S, f64),
 }
 
@@ -79,16 +79,16 @@ impl<S> Setting<S> {
 
 /// Sampler that has parameters.
 ///
-/// Its [`Sampler::settable`] returns `Some(self)`.
+/// Implementors return `Some(self)` from [`Sampler::settable`].
 pub trait Settable: Sampler + Clone + 'static {
-    /// Table of the parameters.
+    /// Table of the sampler's parameters.
     ///
-    /// They are set in this order: a later parameter overrules a field that an earlier one sets
-    /// besides its own.
+    /// Parameters are set in the order of the table. If two parameters set the same field, the
+    /// later one wins.
     const SETTINGS: &'static [Setting<Self>];
 }
 
-/// Description and setting of parameters, for every [`Settable`] sampler whatever its type.
+/// Access to the parameters of a sampler whatever its type, implemented for every [`Settable`] one.
 pub trait Configure {
     /// Returns the parameters, in the order of the table, with this sampler's values as defaults.
     fn described(&self) -> Vec<Parameter>;

@@ -6,23 +6,25 @@ use crate::geometry::power::{Domain, Raster};
 use crate::geometry::{Point, Polygon, Window};
 use rand::{Rng, RngExt};
 
-/// Places tried for one point before the window is said to have no room.
+/// Number of random places tried for one point before the search fails for lack of room.
 const MOST_TRIES: usize = 1_000_000;
 
-/// Region in which points are relaxed, with the density that they are to have.
+/// Region in which points are relaxed, with the density that the points are to have.
 ///
-/// It is a rectangle, a torus or a convex polygon, moved so that its bounds begin at the origin.
+/// The region is a rectangle, a torus or a convex polygon, moved so that the upper left corner of
+/// its bounds is the origin.
 pub(super) struct Region {
     pub(super) domain: Domain,
     pub(super) density: Option<Raster>,
     frame: Frame,
     polygon: Option<Polygon>,
-    /// Cumulative mass of the density's cells: each entry includes its own cell.
+    /// Cumulative sums of the density's values, cell by cell: entry i includes cell i. Empty for an
+    /// even density.
     cumulated: Vec<f64>,
 }
 
 impl Region {
-    /// Creates the region of a frame's bounds.
+    /// Creates the region that fills a frame.
     pub(super) fn new(frame: &Frame, density: Option<&Density>) -> Self {
         let domain = match frame.torus {
             true => Domain::Torus { width: frame.width, height: frame.height },
@@ -34,7 +36,7 @@ impl Region {
     /// Creates the region of a polygon, or `None` if the polygon is not convex.
     ///
     /// # Errors
-    /// If `n` points in bounds of this shape are beyond all samplers.
+    /// The errors of [`Frame::new`].
     pub(super) fn convex(
         n: usize,
         polygon: &Polygon,
@@ -58,7 +60,7 @@ impl Region {
         Self { domain, density, frame, polygon, cumulated }
     }
 
-    /// Draws `n` independent points, distributed as the density.
+    /// Draws `n` independent points whose distribution is given by the density.
     ///
     /// # Errors
     /// If [`MOST_TRIES`] places in the bounds all miss the region.
@@ -82,7 +84,7 @@ impl Region {
         self.frame.torus || (bounds && self.polygon.as_ref().is_none_or(within))
     }
 
-    /// Draws a place in the bounds, distributed as the density.
+    /// Draws a place in the bounds of the region, with the distribution given by the density.
     fn draw(&self, rng: &mut dyn Rng) -> [f64; 2] {
         let (u, v): (f64, f64) = (rng.random(), rng.random());
         let (Some(raster), Some(whole)) = (&self.density, self.cumulated.last()) else {
@@ -98,17 +100,18 @@ impl Region {
         ]
     }
 
-    /// Returns the distance of neighbours in a triangular lattice of `n` points in the region.
+    /// Returns the distance between neighbours in a triangular lattice of `n` points in the region.
     pub(super) fn spacing(&self, n: usize) -> f64 {
         crate::mosaic::hexagonal_spacing(n, self.domain.area()).unwrap_or(1.)
     }
 
-    /// Returns the middle of the bounds.
+    /// Returns the middle of the region's bounds.
     pub(super) fn centre(&self) -> [f64; 2] {
         [self.frame.width / 2., self.frame.height / 2.]
     }
 
-    /// Takes places of the region to points of the window, wrapped round a torus.
+    /// Converts places of the region to points of the window; on a torus, places beyond an edge are
+    /// wrapped round.
     pub(super) fn place(&self, points: &[[f64; 2]]) -> Vec<Point> {
         let wrapped = points.iter().map(|p| self.domain.wrapped(*p));
         wrapped.map(|[x, y]| self.frame.place(x, y)).collect()
@@ -117,7 +120,7 @@ impl Region {
 
 /// Sampler that moves points in a [`Region`] until they are regular.
 pub(super) trait Relaxes: Sampler {
-    /// Returns the density that the points are to have; `None` for an even one.
+    /// Returns the density that the points are to have, or `None` for an even density.
     fn density(&self) -> Option<&Density>;
 
     /// Returns `n` random points of `region` after relaxation, in the window's coordinates.

@@ -8,23 +8,24 @@ pub trait Sampler: fmt::Debug + Send + Sync {
     /// Returns the name that users type: lower case, words joined by hyphens.
     fn name(&self) -> &'static str;
 
-    /// Returns one line about the pattern, the parameters and the source.
+    /// Describes the pattern, the parameters and the source in one line.
     fn about(&self) -> &'static str;
 
-    /// Returns about `n` points of `frame`, in the half-open ranges of its bounds.
+    /// Places about `n` points in `frame` and returns them in the window's coordinates.
     ///
-    /// The number is exactly `n` where [`Sampler::exact`] says so. The same generator state gives
-    /// the same points.
+    /// No point lies on the right or lower edge. The number is exactly `n` if [`Sampler::exact`]
+    /// returns `true`. The same state of the generator gives the same points.
     ///
     /// # Errors
     /// If `n` is out of the method's range, or the method found no room for `n` points.
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError>;
 
-    /// Returns whether exactly the `n` points asked for are made.
+    /// Returns whether [`Sampler::fill`] makes exactly the `n` points asked for; `false` by
+    /// default.
     ///
-    /// Otherwise the number is the nearest possible one or is left to chance. The default is
-    /// `false`. A polygon is cut out of a pattern, so in a polygon only those samplers are exact
-    /// that fill it directly.
+    /// Otherwise the number is the nearest possible one or is left to chance. In a polygon, the
+    /// number is exact only if the sampler fills the polygon directly instead of cutting it out of
+    /// a larger pattern.
     fn exact(&self) -> bool {
         false
     }
@@ -34,13 +35,13 @@ pub trait Sampler: fmt::Debug + Send + Sync {
         true
     }
 
-    /// Returns whether points stand in rows along the sides of the window, so that its orientation
-    /// matters; `false` by default.
+    /// Returns whether points stand in rows along the sides of the window, so that the orientation
+    /// of the window matters; `false` by default.
     fn in_rows(&self) -> bool {
         false
     }
 
-    /// Returns the sampler as one with parameters.
+    /// Returns access to the parameters, or `None` if the sampler has no parameters.
     ///
     /// Samplers that are [`Settable`](super::Settable) return `Some(self)`.
     fn settable(&self) -> Option<&dyn Configure> {
@@ -55,38 +56,40 @@ pub trait Sampler: fmt::Debug + Send + Sync {
     /// Returns the same method with other parameters, given as (name, value).
     ///
     /// # Errors
-    /// If there is no such parameter or the value is out of its range.
+    /// If there is no parameter with one of the names, or a value is out of its range.
     fn configure(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError> {
         let name = settings.first().map_or("", |(name, _)| name);
         let none = || Err(SampleError::unknown_parameter(self.name(), name, &[]));
         self.settable().map_or_else(none, |sampler| sampler.configured(settings))
     }
 
-    /// Returns the same method for points with this density, or `None` if the method cannot vary
-    /// it.
+    /// Returns the same method for points with the given density, or `None` if the method cannot
+    /// vary the density.
     fn with_density(&self, _density: &Density) -> Option<Box<dyn Sampler>> {
         None
     }
 
     /// Returns whether mosaics are compared with this sampler unless others are named.
     ///
-    /// These are the samplers that retinas come close to, and independent points for scale. Their
-    /// mean curves come with the program (`scripts/make-curves`).
+    /// The default samplers are those that retinas come close to, and independent points for scale.
+    /// Mean curves of the default samplers come with the program (`scripts/make-curves`).
     fn by_default(&self) -> bool {
         false
     }
 
-    /// Returns the setting that mosaics are compared with, or `None` if that is the default one.
+    /// Returns the sampler in the setting that mosaics are compared with, or `None` if that is the
+    /// default setting.
     fn as_reference(&self) -> Option<&'static dyn Sampler> {
         None
     }
 
     /// Does the work of [`Sampler::fill`] and reports progress, for methods that take long.
     ///
-    /// `progress` is called with the number of steps done and the largest number there can be.
+    /// `progress` is called with the number of steps done and the largest possible number of steps.
+    /// The default implementation reports nothing.
     ///
     /// # Errors
-    /// Those of [`Sampler::fill`].
+    /// The errors of [`Sampler::fill`].
     fn fill_watched(
         &self,
         n: usize,
@@ -100,17 +103,17 @@ pub trait Sampler: fmt::Debug + Send + Sync {
     /// Returns the points of [`Sampler::sample_watched`] without reporting progress.
     ///
     /// # Errors
-    /// Those of [`Sampler::sample_watched`].
+    /// The errors of [`Sampler::sample_watched`].
     fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         self.sample_watched(n, window, rng, &mut |_, _| ())
     }
 
-    /// Returns about `n` points of `window`, by [`Sampler::fill`] for the bounds of a rectangle or
-    /// torus.
+    /// Returns about `n` points of `window` and reports progress.
     ///
-    /// A polygon is cut out of a pattern of the same density in its bounds. The number of points
-    /// inside it is left to chance: at most 32 patterns are drawn, until the number is within .5 %
-    /// of `n`, and the nearest is taken.
+    /// A rectangle or torus is filled as by [`Sampler::fill`]. A polygon is cut out of a pattern of
+    /// the same density in its bounds, so the number of points inside the polygon is left to
+    /// chance. Patterns are therefore drawn until the number is within .5 % of `n`, at most 32
+    /// times, and the one with the nearest number is used.
     ///
     /// # Errors
     /// If `n` or the window is out of the method's range, or the method found no room for the
@@ -135,7 +138,8 @@ pub trait Sampler: fmt::Debug + Send + Sync {
     }
 }
 
-/// Listener to a sampler's progress, called with the steps done and the most steps there can be.
+/// Callback for a sampler's progress, called with the number of steps done and the largest possible
+/// number of steps.
 pub type Watch<'a> = dyn FnMut(usize, usize) + 'a;
 
 /// Fills the bounds of a polygon several times and returns the cut-out whose number of points is
@@ -158,9 +162,10 @@ pub(super) fn cut(
     })
 }
 
-/// Returns the pattern, of at most `tries`, whose number of points is nearest to `n`.
+/// Draws up to `tries` patterns and returns the one whose number of points is nearest to `n`.
 ///
-/// The first pattern that is near enough (`CLOSE`) ends the search.
+/// The search ends early at a pattern whose number of points differs from `n` by at most [`CLOSE`]
+/// × `n`.
 pub(super) fn nearest_in_number(
     n: usize,
     tries: usize,
@@ -180,7 +185,8 @@ pub(super) fn nearest_in_number(
     Ok(best.map(|(_, points)| points).unwrap_or_default())
 }
 
-/// Most patterns drawn to cut a polygon out of.
+/// Largest number of patterns that are drawn to cut a polygon out of.
 const CUTS: usize = 32;
-/// Deviation from n, as a share of n, that is near enough to end the search.
+/// Relative deviation from the number of points asked for that ends the search for a better
+/// pattern.
 const CLOSE: f64 = 0.005;

@@ -12,16 +12,18 @@ pub(crate) struct BucketGrid<T> {
     side: f64,
     columns: usize,
     rows: usize,
-    /// Index of the item added last to each cell.
+    /// Index of the item that was added last to each cell, or [`NONE`] for an empty cell.
     last: Vec<u32>,
-    /// Index of the item added before each item to the same cell.
+    /// Index of the item that was added to the same cell before each item, or [`NONE`] for the
+    /// first item.
     before: Vec<u32>,
     things: Vec<T>,
 }
 
 impl<T> BucketGrid<T> {
-    /// Creates an empty grid of `columns` × `rows` cells (at least 1 × 1) of this side, the first
-    /// of which begins at `origin`.
+    /// Creates an empty grid of `columns` × `rows` square cells (at least 1 × 1) of side `side`.
+    ///
+    /// `origin` is the upper left corner of the first cell.
     pub(crate) fn new(origin: [f64; 2], side: f64, [columns, rows]: [usize; 2]) -> Self {
         let last = vec![NONE; columns * rows];
         Self { origin, side, columns, rows, last, before: Vec::new(), things: Vec::new() }
@@ -33,7 +35,7 @@ impl<T> BucketGrid<T> {
         (column.min(self.columns - 1), row.min(self.rows - 1))
     }
 
-    /// Adds an item; the grid holds fewer than 2³² − 1 items.
+    /// Adds an item at `place`; the grid must hold fewer than 2³² − 1 items.
     pub(crate) fn insert(&mut self, place: Point, thing: T) {
         let (column, row) = self.cell(place);
         let last = &mut self.last[row * self.columns + column];

@@ -3,7 +3,7 @@ use std::collections::HashMap;
 /// Column and row of a cell, which may be negative.
 type Cell = (i64, i64);
 
-/// Points of the open plane in square cells, to find those within the side of a cell.
+/// Points of the unbounded plane in square cells, for finding the points nearer than a cell's side.
 pub(crate) struct HashGrid {
     side: f64,
     /// Index and place of each point, by cell.
@@ -11,7 +11,7 @@ pub(crate) struct HashGrid {
 }
 
 impl HashGrid {
-    /// Creates an empty grid that finds points within `reach`.
+    /// Creates an empty grid that finds points up to the distance `reach`.
     pub(crate) fn new(reach: f64) -> Self {
         Self { side: reach, cells: HashMap::new() }
     }
@@ -24,8 +24,9 @@ impl HashGrid {
         self.cells.entry(self.cell(point)).or_default().push((index, point));
     }
 
-    /// Returns all points within reach of `point` and some that are farther, in an order that
-    /// depends only on the cells and the order of insertion.
+    /// Returns all points at most a cell's side away from `point`, and some that are farther away.
+    ///
+    /// The order depends only on the cells and on the order of insertion.
     pub(crate) fn near(&self, point: [f64; 2]) -> impl Iterator<Item = (usize, [f64; 2])> {
         let (column, row) = self.cell(point);
         (-1..=1)

@@ -3,11 +3,11 @@ use kiddo::kd_tree::ConstructionError;
 use kiddo::{Chebyshev, ImmutableKdTree, SquaredEuclidean};
 use std::num::NonZero;
 
-/// k-d tree of points, to find those nearest to a place; on a torus by the short way round.
+/// k-d tree of points, for finding those nearest to a place, by the short way round on a torus.
 pub(crate) struct NeighbourTree {
     tree: ImmutableKdTree<f64, 2>,
     origin: [f64; 2],
-    /// Sides of the torus; `None` in the open plane.
+    /// Sides of the torus, or `None` in the open plane.
     period: Option<[f64; 2]>,
 }
 
@@ -39,7 +39,8 @@ impl NeighbourTree {
         [p.x - self.origin[0], p.y - self.origin[1]]
     }
 
-    /// Returns the indices and squared distances of the `n` nearest points, the nearest first.
+    /// Returns the indices and squared distances of the `n` points nearest to `place`, the nearest
+    /// first.
     pub(crate) fn nearest(&self, place: Point, n: NonZero<usize>) -> impl Iterator<Item = (usize, f64)> {
         let at = self.place(place);
         let query = self.tree.query(&at);
@@ -52,8 +53,10 @@ impl NeighbourTree {
         found.into_iter().map(|f| (f.item as usize, f.distance))
     }
 
-    /// Returns the indices of the `n` nearest points whose squared distance is at most `limit`.
-    /// Meant for the open plane: it does not go round a torus.
+    /// Returns the indices of at most `n` points, the nearest ones at a squared distance of at most
+    /// `limit`.
+    ///
+    /// The search does not go round a torus, so it is meant for the open plane.
     pub(crate) fn nearest_within(
         &self,
         place: Point,

@@ -1,5 +1,7 @@
-/// Points on the torus `[0, width) × [0, height)` in cells no smaller than a reach, to ask whether
-/// any point is near a place.
+/// Points on the torus `[0, width) × [0, height)`, sorted into cells to find whether any point is
+/// near a place.
+///
+/// Cells are no smaller than the largest distance asked for.
 pub(crate) struct TorusCells {
     sides: [f64; 2],
     columns: usize,
@@ -9,7 +11,8 @@ pub(crate) struct TorusCells {
 }
 
 impl TorusCells {
-    /// Creates empty cells for queries up to `reach`, at most `most` along each side.
+    /// Creates empty cells for queries up to the distance `reach`, with at most `most` cells per
+    /// side.
     pub(crate) fn new(sides: [f64; 2], reach: f64, most: usize) -> Self {
         // more cells than points along a side would only cost memory
         let along = |side: f64| ((side / reach) as usize).clamp(1, most.max(1));
@@ -27,8 +30,9 @@ impl TorusCells {
         self.cells[row * self.columns + column].push(point);
     }
 
-    /// Returns whether any point is nearer than `distance` (at most the reach), by the shortest way
-    /// round.
+    /// Returns whether any point is nearer to `place` than `distance`, by the shortest way round.
+    ///
+    /// `distance` must be at most the `reach` for which the cells were created.
     pub(crate) fn any_nearer(&self, place: [f64; 2], distance: f64) -> bool {
         let (column, row) = self.cell(place);
         let around = |at: usize, number: usize| {

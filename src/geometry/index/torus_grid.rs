@@ -1,7 +1,8 @@
-/// Points on the torus `[0, width) × [0, height)`, at most one per cell, as a cell's diagonal is at
-/// most the Poisson-disk radius.
+/// Points on the torus `[0, width) × [0, height)` in the cells of a grid, at most one per cell.
 ///
-/// Empty cells hold infinity, which lies beyond any reach, so they need no test of their own.
+/// A cell's diagonal is at most the Poisson-disk radius, so no cell can hold two points. Empty
+/// cells hold infinity, which is farther than any distance asked for, so they need no test of their
+/// own.
 pub(crate) struct TorusGrid {
     width: f64,
     height: f64,
@@ -52,8 +53,8 @@ impl TorusGrid {
         self.cells[row * self.columns + column] = [x, y];
     }
 
-    /// Collects in `near` every image, in the plane around (x, y), of a point nearer to it than
-    /// `reach`.
+    /// Collects in `near` all images of points, in the plane around (x, y), that are nearer to (x,
+    /// y) than `reach`.
     #[inline]
     pub(crate) fn gather(&self, x: f64, y: f64, reach: f64, near: &mut Nearby) {
         let reach2 = reach * reach;
@@ -87,11 +88,11 @@ impl TorusGrid {
     }
 }
 
-/// Number of points tested at once.
+/// Number of points that are tested at once.
 const LANES: usize = 16;
 
-/// Points gathered around a place, padded with infinity to whole lanes, so that several are tested
-/// at once.
+/// Points gathered around a place, padded with infinity so that [`LANES`] of them are tested at
+/// once.
 #[derive(Default)]
 pub(crate) struct Nearby {
     xs: Vec<f64>,
@@ -110,8 +111,10 @@ impl Nearby {
         }
     }
 
-    /// Writes the point in any case, but counts it only if it is kept. This avoids a branch that
-    /// would be mispredicted: few cells hold a point in reach, and it is unpredictable which do.
+    /// Writes the point in any case, but counts it only if it is kept.
+    ///
+    /// This avoids a branch that would be mispredicted: few cells hold a point that is near enough,
+    /// and it is unpredictable which cells do.
     #[inline]
     fn push_if(&mut self, kept: bool, x: f64, y: f64) {
         self.xs[self.length] = x;
@@ -119,7 +122,7 @@ impl Nearby {
         self.length += usize::from(kept);
     }
 
-    /// Fills the last lanes with infinity.
+    /// Fills the list with infinity up to a multiple of [`LANES`].
     #[inline]
     fn pad(&mut self) {
         let padded = self.length..self.length.next_multiple_of(LANES);
@@ -144,8 +147,10 @@ impl Nearby {
         false
     }
 
-    /// Returns whether the disk of any point, of squared radius `radius2`, covers the rectangle
-    /// around (x, y) with these half sides.
+    /// Returns whether the disk of any single point, of squared radius `radius2`, covers a
+    /// rectangle.
+    ///
+    /// The rectangle is centred on (x, y), and its sides are 2 × `half`.
     #[inline]
     pub(crate) fn any_covers(&self, x: f64, y: f64, half: [f64; 2], radius2: f64) -> bool {
         self.xs[..self.length].iter().zip(&self.ys[..self.length]).any(|(px, py)| {

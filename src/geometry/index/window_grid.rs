@@ -1,14 +1,15 @@
 use crate::geometry::{Point, Rectangle, Window};
 
-/// Points in the cells of a grid, about one per cell. For evenly spread points this finds the
-/// nearest one faster than a tree.
+/// Points sorted into the cells of a grid, about one per cell.
+///
+/// For evenly spread points, the grid finds the nearest point faster than a tree.
 pub(crate) struct WindowGrid<'a> {
     points: &'a [Point],
     bounds: Rectangle,
     torus: bool,
     columns: usize,
     rows: usize,
-    /// Start of each cell in `indices`, and the end of the last cell.
+    /// Index in `indices` at which each cell starts, and the end of the last cell.
     starts: Vec<usize>,
     /// Indices of the points, cell by cell.
     indices: Vec<usize>,
@@ -52,8 +53,8 @@ impl<'a> WindowGrid<'a> {
         grid
     }
 
-    /// Returns column and row of the cell of a place; for a place outside, those of the nearest
-    /// cell.
+    /// Returns the column and row of the cell that holds a place, or of the nearest cell if the
+    /// place lies outside.
     fn cell(&self, p: Point) -> (usize, usize) {
         let b = &self.bounds;
         let column = (p.x - b.x0()) / b.width() * self.columns as f64;
@@ -61,8 +62,8 @@ impl<'a> WindowGrid<'a> {
         ((column as usize).min(self.columns - 1), (row as usize).min(self.rows - 1))
     }
 
-    /// Returns the nearest point if it certainly lies in the 5 × 5 cells around a place, so that no
-    /// other point can be nearer.
+    /// Returns the index of the nearest point if that point certainly lies in the 5 × 5 cells
+    /// around a place, so that no other point can be nearer.
     ///
     /// Returns `None` otherwise, and near the edges of a torus, beyond which the pattern continues.
     pub(crate) fn nearest(&self, place: Point) -> Option<usize> {

@@ -1,18 +1,21 @@
-/// Label of an edge that no other site made: the border of the domain.
+/// Label of an edge on the border of the domain, which belongs to no other site.
 pub(super) const NO_SITE: u32 = u32::MAX;
 
 /// Smallest depth of a cut, as a fraction of the cell's radius. Shallower cuts change nothing and
 /// are not made, as rounding would repeat them again and again.
 const ROUNDING: f64 = 1e-14;
 
-/// Corner of a cell, relative to its site, labelled by the site whose bisector runs from it to the
-/// next corner.
+/// Corner of a cell, relative to the cell's site, with a label for the edge from this corner to the
+/// next.
+///
+/// The label `site` is the other site whose bisector with the cell's site the edge lies on.
 #[derive(Clone, Copy)]
 pub(super) struct Corner {
     pub(super) x: f64,
     pub(super) y: f64,
     pub(super) site: u32,
-    /// Distance of that site, or of that image of it whose bisector this is.
+    /// Distance from the cell's site to `site` or, on a torus, to the image of `site` that makes
+    /// the edge.
     pub(super) distance: f64,
 }
 
@@ -41,7 +44,7 @@ impl Clip {
         &self.corners
     }
 
-    /// Returns the squared distance from the site to the farthest corner; 0 if nothing is left.
+    /// Returns the squared distance from the site to the farthest corner, or 0 if nothing is left.
     #[inline]
     pub(super) fn radius2(&self) -> f64 {
         self.radius2
@@ -60,10 +63,12 @@ impl Clip {
         self.radius2 = self.corners.iter().map(|c| c.x * c.x + c.y * c.y).fold(0., f64::max);
     }
 
-    /// Cuts off the part that is nearer, in power, to a site at (dx, dy) than to this one.
+    /// Cuts off the part of the cell whose power distance to another site is less than to the
+    /// cell's own.
     ///
-    /// `excess` is this site's weight less the other's. Each corner is judged by itself, so
-    /// rounding may leave a corner too many but never lose the cell.
+    /// The other site is at (dx, dy), relative to the cell's own site. `excess` is the weight of
+    /// the own site minus the weight of the other. Each corner is judged by itself, so rounding may
+    /// leave a corner too many but never lose the cell.
     pub(super) fn cut(&mut self, dx: f64, dy: f64, excess: f64, site: u32) {
         let square = dx * dx + dy * dy;
         let distance = square.sqrt();
@@ -83,8 +88,8 @@ impl Clip {
             if (side > outside) != (next > outside) {
                 let t = (side / (side - next)).clamp(0., 1.);
                 let (x, y) = (from.x + t * (to.x - from.x), from.y + t * (to.y - from.y));
-                // where the outline leaves the cell the bisector begins; where it enters, the old
-                // edge goes on
+                // where the outline leaves the remaining cell, the bisector begins; where the
+                // outline enters it again, the old edge goes on
                 self.spare.push(if next > outside {
                     Corner { x, y, site, distance }
                 } else {
@@ -103,8 +108,11 @@ impl Clip {
         self.measure();
     }
 
-    /// Returns the area, its centroid relative to the site, and its second moment about the
-    /// centroid over the square of the area; `None` without area.
+    /// Returns the area, the centroid and the spread of the cell, or `None` if the cell has no
+    /// area.
+    ///
+    /// The centroid is relative to the site. The spread is the second moment of the area about the
+    /// centroid, divided by the square of the area.
     pub(super) fn area(&self) -> Option<(f64, [f64; 2], f64)> {
         let mut from = self.corners.last()?;
         let (mut twice, mut x, mut y, mut square) = (0., 0., 0., 0.);

@@ -6,37 +6,44 @@ use rayon::prelude::*;
 /// Number of sites whose cells one thread makes in one go.
 const CHUNK: usize = 512;
 
-/// Measurements of the cell of one site.
+/// Mass, centroid and spread of the cell of one site.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerCell {
     /// Area of the cell in squared units of the coordinates, or the integral of the density over
-    /// it; 0 if the site is hidden.
+    /// the cell; 0 if the site has no cell.
     pub mass: f64,
-    /// Centre of mass, on the site's side of a torus's seam; the site itself if it is hidden.
+    /// Centre of mass of the cell, or the site itself if the site has no cell.
+    ///
+    /// On a torus, the image of the centre nearest to the site is given, which may lie beyond the
+    /// edges.
     pub centroid: [f64; 2],
-    /// Second moment of the cell's area about its own centroid over the square of the area,
-    /// whatever the density: .1604 for a regular hexagon, .1667 for a square, 0 if the site is
-    /// hidden.
+    /// Second moment of the cell's area about its own centroid, divided by the square of the area,
+    /// whatever the density.
+    ///
+    /// The value is .1604 for a regular hexagon and .1667 for a square; it is 0 if the site has no
+    /// cell.
     pub spread: f64,
 }
 
-/// Edge that two cells share.
+/// Edge that the cell of one site shares with the cell of another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Facet {
     /// Index of the neighbouring site.
     pub site: u32,
     /// Length of the edge, or the integral of the density along it.
     pub length: f64,
-    /// Distance of the two sites; on a torus, of the image of the neighbour that makes this edge.
+    /// Distance between the two sites or, on a torus, to the image of the neighbour that makes this
+    /// edge.
     pub distance: f64,
 }
 
-/// Cells of all sites, in the order of the sites. Together they fill the domain.
+/// Power diagram: the cells of all sites, in the order of the sites, which together fill the
+/// domain.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PowerDiagram {
     cells: Vec<PowerCell>,
     facets: Vec<Facet>,
-    /// End of each cell's facets in `facets`.
+    /// Index in `facets` at which the facets of each cell end.
     ends: Vec<u32>,
 }
 
@@ -46,8 +53,9 @@ impl PowerDiagram {
         &self.cells
     }
 
-    /// Returns the edges that the cell of a site shares with other cells. On a torus of few sites a
-    /// neighbour may occur more than once.
+    /// Returns the edges that the cell of a site shares with other cells.
+    ///
+    /// On a torus with few sites, the same neighbour may occur more than once.
     pub fn facets(&self, site: usize) -> &[Facet] {
         let begin = if site == 0 { 0 } else { self.ends[site - 1] as usize };
         &self.facets[begin..self.ends[site] as usize]
@@ -63,8 +71,9 @@ pub struct PowerSites<'a> {
 }
 
 impl<'a> PowerSites<'a> {
-    /// Prepares sites in a domain; on a torus they may lie anywhere in the plane. Without a
-    /// density, mass is area.
+    /// Prepares sites in a domain; on a torus, the sites may lie anywhere in the plane.
+    ///
+    /// If `density` is `None`, the mass of a cell is its area.
     pub fn new(domain: &'a Domain, density: Option<&'a Raster>, sites: &[[f64; 2]]) -> Self {
         let sites: Vec<[f64; 2]> = sites.iter().map(|s| domain.wrapped(*s)).collect();
         let grid = Grid::new(domain, &sites);
@@ -76,19 +85,23 @@ impl<'a> PowerSites<'a> {
         &self.sites
     }
 
-    /// Returns the indices of the sites row by row of a grid, so that neighbours are near each
-    /// other in memory. Sites that are not finite are missing.
+    /// Returns the indices of the sites in the order of a grid, row by row.
+    ///
+    /// In this order, neighbouring sites are near each other in memory. Sites with a coordinate
+    /// that is not finite are missing.
     pub fn order(&self) -> Vec<u32> {
         self.grid.order().collect()
     }
 
-    /// Computes the cells for `weights`, one per site, in squared units of the coordinates.
+    /// Computes the cells for the given weights, one weight per site, in squared units of the
+    /// coordinates.
     ///
-    /// `before` may be the diagram of these sites with other weights, or in other places nearby.
-    /// Its neighbours are tried first, which saves time and changes the result by rounding only.
+    /// `before` may be the diagram of the same sites with other weights, or of sites nearby in the
+    /// same order. The neighbours in `before` are tried first, which saves time and changes the
+    /// result by rounding only.
     ///
-    /// Where sites of equal weight coincide, the first has the cell and the others none. The result
-    /// is the same for any number of threads.
+    /// If sites of equal weight coincide, the first one gets the cell and the others get none. The
+    /// result is the same for any number of threads.
     pub fn diagram(&mut self, weights: &[f64], before: Option<&PowerDiagram>) -> PowerDiagram {
         self.grid.weigh(weights);
         let greatest = weights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -138,7 +151,7 @@ impl<'a> PowerSites<'a> {
             }
         }
         // With R the distance of the farthest corner, a site at distance d > R takes nothing from
-        // the cell if (d − R)² − its weight ≥ R² − our weight.
+        // the cell if (d − R)² − w ≥ R² − `weight`, where w is the weight of that site.
         let needed = |clip: &Clip| {
             let r2 = clip.radius2();
             r2.sqrt() + (r2 - weight + greatest).max(0.).sqrt()
@@ -178,7 +191,7 @@ impl<'a> PowerSites<'a> {
         }
     }
 
-    /// Appends the measurements of a finished cell.
+    /// Appends the measurements of a finished cell to `into`.
     fn measure(&self, i: usize, clip: &Clip, into: &mut PowerDiagram) {
         let site = self.sites[i];
         let corners = clip.corners();

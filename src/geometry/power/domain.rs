@@ -6,9 +6,9 @@ use crate::geometry::{Point, Polygon};
 pub enum Domain {
     /// Torus `[0, width) × [0, height)`, whose opposite edges are glued together.
     Torus {
-        /// Horizontal side of the torus.
+        /// Width of the torus, in units of the coordinates.
         width: f64,
-        /// Vertical side of the torus.
+        /// Height of the torus, in units of the coordinates.
         height: f64,
     },
     /// Convex polygon, given by its corners in order.
@@ -21,8 +21,9 @@ impl Domain {
         Self::Convex(vec![[0., 0.], [width, 0.], [width, height], [0., height]])
     }
 
-    /// Converts a convex polygon of one ring, moved so that its bounds begin at the origin; `None`
-    /// for other polygons.
+    /// Creates the domain of a convex polygon with one ring, or returns `None` for other polygons.
+    ///
+    /// The polygon is moved so that the upper left corner of its bounds is the origin.
     pub fn convex(polygon: &Polygon) -> Option<Self> {
         let [ring] = polygon.rings() else { return None };
         let bounds = polygon.bounds();
@@ -68,8 +69,8 @@ impl Domain {
         matches!(self, Self::Torus { .. })
     }
 
-    /// Moves a place on a torus into `[0, width) × [0, height)`; in other domains returns it
-    /// unchanged.
+    /// Moves a place on a torus into `[0, width) × [0, height)`; in other domains, the place is
+    /// returned unchanged.
     pub fn wrapped(&self, p: [f64; 2]) -> [f64; 2] {
         let wrap = |v: f64, side: f64| {
             let inside = v.rem_euclid(side);
@@ -81,7 +82,7 @@ impl Domain {
         }
     }
 
-    /// Returns the vector from one place to another, by the shortest way round a torus.
+    /// Returns the vector from `from` to `to`, by the shortest way round a torus.
     #[inline]
     pub fn towards(&self, from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
@@ -93,8 +94,10 @@ impl Domain {
         }
     }
 
-    /// Starts a cell as the whole domain, relative to its site. On a torus it starts as the
-    /// rectangle of places nearer to the site than to the site's own images.
+    /// Starts a cell as the entire domain, relative to the site.
+    ///
+    /// On a torus, the cell starts as the rectangle of places nearer to the site than to the site's
+    /// own images.
     pub(super) fn begin(&self, site: [f64; 2], clip: &mut Clip) {
         match self {
             Self::Torus { width, height } => {

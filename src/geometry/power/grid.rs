@@ -18,7 +18,7 @@ pub(super) struct Grid {
     /// Sides of a cell of the grid.
     size: [f64; 2],
     torus: bool,
-    /// Start of each cell in `entries`, and the end of the last cell.
+    /// Index in `entries` at which each cell of the grid starts, and the end of the last cell.
     starts: Vec<u32>,
     /// Sites, cell by cell.
     entries: Vec<Entry>,
@@ -89,12 +89,13 @@ impl Grid {
         inside(1, self.rows) * self.columns + inside(0, self.columns)
     }
 
-    /// Visits every site within `reach` of (x, y) along both axes, and some beyond; on a torus,
-    /// every image of a site.
+    /// Calls `take` for all sites at most `reach` away from (x, y) along both axes, and for some
+    /// beyond.
     ///
-    /// `take` is given the entries of a stretch of the grid and their shift along x and y. On a
-    /// torus, (x, y) must lie in it; only images in the domain and its eight neighbours are
-    /// visited, as a cell can need no others.
+    /// `take` is given a slice of entries and the shift to add to their x and y. On a torus, all
+    /// images of a site are visited, each with its own shift, and (x, y) must lie in the domain.
+    /// Only images in the domain and its eight neighbours are visited, as a cell can need no
+    /// others.
     #[inline]
     pub(super) fn visit(&self, x: f64, y: f64, reach: f64, mut take: impl FnMut(&[Entry], f64, f64)) {
         let cells = |v: f64, axis: usize, count: usize| {

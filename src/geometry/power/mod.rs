@@ -2,9 +2,9 @@
 //! the places whose squared distance to the site, less the site's weight, is least. With equal
 //! weights this is the Voronoi diagram.
 //!
-//! 1. Each cell starts as the whole domain.
+//! 1. Each cell starts as the entire domain.
 //! 2. It is cut by the bisectors of the sites near enough to matter, which a grid finds.
-//! 3. A bound on the reach of sites shows when none is missing.
+//! 3. A bound on the distance of sites that could still cut the cell shows when no site is missing.
 //!
 //! Cells thus need no triangulation and are made in parallel, and coincident, collinear or hidden
 //! sites are no special cases. The work per site is constant where sites are spread evenly.

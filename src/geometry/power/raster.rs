@@ -1,10 +1,10 @@
 use super::Domain;
 use thiserror::Error;
 
-/// Values that make no density.
+/// Reason why values do not make a density.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum RasterError {
-    /// Number of values that is not columns × rows.
+    /// The number of values is not columns × rows.
     #[error("a density of {columns} × {rows} cells needs as many values, and has {values}")]
     Shape {
         /// Number of cells along x.
@@ -14,7 +14,7 @@ pub enum RasterError {
         /// Number of values given.
         values: usize,
     },
-    /// Value that no density can have.
+    /// A value is negative or not finite.
     #[error("the density at column {column}, row {row} is {value}: it must be finite and not negative")]
     Value {
         /// Column of the value, from 0.
@@ -24,7 +24,7 @@ pub enum RasterError {
         /// Value that was given.
         value: f64,
     },
-    /// Density that is 0 everywhere.
+    /// The density is 0 everywhere.
     #[error("the density is 0 everywhere: there is no place for a point")]
     Empty,
 }
@@ -32,8 +32,8 @@ pub enum RasterError {
 /// Density over the bounds of a domain, constant within each cell of a raster.
 ///
 /// Integrals over polygons are exact. By Green's theorem they are integrals of F(x, y) = ∫₀ˣ ρ and
-/// similar functions along the outline; these are tabulated at the columns and polynomials in
-/// between.
+/// similar functions along the outline; these functions are tabulated at the edges of the columns
+/// and are polynomials in between.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Raster {
     columns: usize,
@@ -42,18 +42,19 @@ pub struct Raster {
     low: [f64; 2],
     torus: bool,
     density: Vec<f64>,
-    /// Integrals ∫ρ dx and ∫ρ x dx from the left edge of the domain to that of each column;
-    /// (columns + 1) per row.
+    /// Integrals ∫ρ dx and ∫ρ x dx from the left edge of the domain to each edge of a column; there
+    /// are (columns + 1) entries per row.
     ahead: Vec<[f64; 2]>,
 }
 
 impl Raster {
-    /// Creates a density from values in row order over the bounds of `domain`. Their unit is
-    /// arbitrary, as only their ratios count.
+    /// Creates a density from values in row order over the bounds of `domain`.
+    ///
+    /// The unit of the values is arbitrary, as only their ratios count.
     ///
     /// # Errors
-    /// Fails if the number of values is not columns × rows, one is negative or not finite, or all
-    /// are 0.
+    /// Fails if the number of values is not columns × rows, a value is negative or not finite, or
+    /// all values are 0.
     pub fn new(domain: &Domain, columns: usize, rows: usize, density: Vec<f64>) -> Result<Self, RasterError> {
         if density.len() != columns.saturating_mul(rows) || density.is_empty() {
             return Err(RasterError::Shape { columns, rows, values: density.len() });
@@ -86,7 +87,7 @@ impl Raster {
         (self.columns, self.rows)
     }
 
-    /// Returns the densities in row order, divided by the greatest of them.
+    /// Returns the densities in row order, divided by the greatest density.
     pub fn values(&self) -> &[f64] {
         &self.density
     }
@@ -97,8 +98,10 @@ impl Raster {
         Sums { raster: self, origin, mass: 0., x: 0., y: 0. }
     }
 
-    /// Returns ρ, ∫ρ dx and ∫ρ x dx at x in one cell of the raster; the integrals begin at the left
-    /// edge of the domain.
+    /// Returns ρ, ∫ρ dx and ∫ρ x dx at x, which lies in the given cell of the raster.
+    ///
+    /// The integrals begin at the left edge of the domain. On a torus, the cell may lie beyond the
+    /// domain.
     #[inline]
     fn primitives(&self, column: isize, row: isize, x: f64) -> (f64, f64, f64) {
         let (columns, rows) = (self.columns as isize, self.rows as isize);
@@ -131,7 +134,8 @@ impl Raster {
 /// Integrals over a polygon, summed along its outline; edges are given relative to the site.
 pub(super) struct Sums<'a> {
     raster: &'a Raster,
-    /// Site, relative to the lower corner of the domain.
+    /// Position of the site relative to the corner of the domain's bounds with the least
+    /// coordinates.
     origin: [f64; 2],
     mass: f64,
     x: f64,
@@ -166,7 +170,8 @@ impl Sums<'_> {
         [self.origin[0] + p[0], self.origin[1] + p[1]]
     }
 
-    /// Returns the fraction of the edge at which it meets the next line across this axis.
+    /// Returns the fraction of the edge at which the edge meets the next line of the raster across
+    /// `axis`.
     fn next_line(&self, axis: usize, at: f64, start: f64, d: f64) -> f64 {
         if d == 0. {
             return f64::INFINITY;
@@ -199,7 +204,7 @@ impl Sums<'_> {
         density
     }
 
-    /// Returns the mass and its centre relative to the site; `None` without mass.
+    /// Returns the mass and the centre of mass relative to the site, or `None` if there is no mass.
     pub(super) fn mass_and_centroid(&self) -> Option<(f64, [f64; 2])> {
         (self.mass > 0.).then(|| (self.mass, [self.x / self.mass, self.y / self.mass]))
     }

@@ -12,19 +12,19 @@ use super::laplacian::Laplacian;
 use super::multigrid::{Multigrid, centre};
 use crate::geometry::power::{PowerDiagram, PowerSites};
 
-/// Newton steps before a solve is given up.
+/// Largest number of Newton steps in one solve.
 const MOST_STEPS: usize = 60;
-/// Halvings of one Newton step before the solve is given up.
+/// Largest number of times that one Newton step is halved before the solve is given up.
 const MOST_HALVINGS: usize = 30;
-/// Rounds of conjugate gradients in one Newton step.
+/// Largest number of rounds of conjugate gradients in one Newton step.
 const MOST_ROUNDS: usize = 400;
-/// Largest relative remainder with which the linear system of a step is solved.
+/// Largest relative residual with which the linear system of a Newton step is solved.
 const STEP_TOLERANCE: f64 = 0.1;
 
 /// Power diagram whose cells have nearly equal masses.
 pub(super) struct Solved {
     pub(super) diagram: PowerDiagram,
-    /// Greatest relative deviation of a mass from the target.
+    /// Greatest relative deviation of a cell's mass from the target.
     pub(super) error: f64,
 }
 
@@ -34,9 +34,9 @@ pub(super) struct Solved {
 /// smaller than half the smallest one at the start and the deviation falls as it should, which
 /// makes convergence certain.
 ///
-/// The search starts from `weights`. Where these hide a site, it starts from a half, a quarter, …
-/// of them, and at last from zero. It ends early where rounding lets no step succeed;
-/// [`Solved::error`] says how near it came.
+/// The search starts from `weights`. If a cell is nearly empty with them, the search starts from a
+/// half, a quarter or an eighth of the weights, and at last from zero. It ends early if rounding
+/// lets no step succeed; [`Solved::error`] then holds the deviation that is left.
 pub(super) fn solve(
     sites: &mut PowerSites<'_>,
     weights: &mut Vec<f64>,
@@ -61,8 +61,8 @@ pub(super) fn solve(
         }
         let mut missing: Vec<f64> = state.diagram.cells().iter().map(|c| target - c.mass).collect();
         centre(&mut missing);
-        // With a remainder of 0.3 of the tolerance, a full step can end within it; more would be
-        // wasted.
+        // With a residual of 0.3 of the tolerance, a full step can end within the tolerance; a
+        // smaller residual would be wasted effort.
         let exactness = STEP_TOLERANCE.min((0.3 * tolerance / state.error).max(1e-3));
         Multigrid::new(Laplacian::of(&state.diagram)).solve(&missing, &mut step, exactness, MOST_ROUNDS);
         let mut length = 1.;
@@ -87,11 +87,12 @@ pub(super) fn solve(
     Solved { diagram: state.diagram, error: state.error }
 }
 
-/// Smallest cell, relative to the target, from which Newton steps are long enough; below it the
-/// weights begin anew.
+/// Least mass of a cell, as a share of the target, at which the Newton steps may start.
+///
+/// With a smaller cell the steps would be too short, so the weights are shrunk first.
 const SMALLEST: f64 = 0.02;
 
-/// Power diagram at one trial of the weights, with its deviations from the target.
+/// Power diagram for one trial of the weights, with the deviations of its masses from the target.
 struct State {
     diagram: PowerDiagram,
     least: f64,

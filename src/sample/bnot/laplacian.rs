@@ -3,13 +3,13 @@
 use crate::geometry::power::PowerDiagram;
 use rayon::prelude::*;
 
-/// Fewest rows for one thread: a smaller number is done sooner than handed over.
+/// Least number of rows per thread: fewer rows are done sooner than handed over to another thread.
 const ROWS: usize = 8192;
 
 /// Weighted Laplacian L of a graph: row i is Σ_j c_ij (x_i − x_j), with c_ij = c_ji > 0 for
 /// neighbours.
 ///
-/// It is symmetric and positive, except that constants are mapped to 0.
+/// L is symmetric and positive, except that it maps constants to 0.
 #[derive(Default)]
 pub(super) struct Laplacian {
     /// End of each node's row in `neighbours`.
@@ -22,8 +22,8 @@ pub(super) struct Laplacian {
 impl Laplacian {
     /// Returns the Laplacian that tells how the masses of cells change with the weights.
     ///
-    /// c_ij is the length of the edge that two cells share, divided by twice the distance of their
-    /// sites.
+    /// c_ij is the length of the edge that two cells share, divided by twice the distance between
+    /// their sites.
     ///
     /// Sources: de Goes et al. (2012), <https://doi.org/10.1145/2366145.2366190>; Kitagawa et al.
     /// (2019), <https://doi.org/10.4171/JEMS/889>.
@@ -79,7 +79,7 @@ impl Laplacian {
         }
     }
 
-    /// Solves row i for x_i and leaves all other x as they are.
+    /// Solves row i of L x = b for x_i and leaves all other x as they are.
     #[inline]
     fn relax(&self, i: usize, b: &[f64], x: &mut [f64]) {
         let diagonal = self.diagonal[i];
@@ -88,20 +88,20 @@ impl Laplacian {
         }
     }
 
-    /// Sweeps once by Gauss and Seidel's method from the first row to the last.
+    /// Runs one Gauss–Seidel sweep from the first row to the last.
     pub(super) fn sweep_down(&self, b: &[f64], x: &mut [f64]) {
         (0..self.len()).for_each(|i| self.relax(i, b, x));
     }
 
-    /// Sweeps once by Gauss and Seidel's method from the last row to the first.
+    /// Runs one Gauss–Seidel sweep from the last row to the first.
     pub(super) fn sweep_up(&self, b: &[f64], x: &mut [f64]) {
         (0..self.len()).rev().for_each(|i| self.relax(i, b, x));
     }
 
     /// Returns the group of each node, and the number of groups.
     ///
-    /// A node and all its neighbours form a group if none of them has one yet; every other node
-    /// joins the group of its most strongly connected neighbour.
+    /// A node and all its neighbours form a group if none of them belongs to a group yet; every
+    /// other node joins the group of its most strongly connected neighbour.
     ///
     /// Source: Vaněk, Mandel and Brezina (1996), <https://doi.org/10.1007/BF02238511>.
     pub(super) fn groups(&self) -> (Vec<u32>, usize) {
@@ -126,13 +126,14 @@ impl Laplacian {
         (groups, count as usize)
     }
 
-    /// Returns the Laplacian of the graph of groups, in which c between two groups is the sum over
-    /// their nodes.
+    /// Returns the Laplacian of the graph whose nodes are the groups.
+    ///
+    /// The coefficient c between two groups is the sum of the coefficients between their nodes.
     pub(super) fn grouped(&self, groups: &[u32], count: usize) -> Self {
         let mut members: Vec<u32> = (0..self.len() as u32).collect();
         members.sort_by_key(|&i| groups[i as usize]);
         let mut new = Self::with_room(count, 7 * count);
-        // place of each group in the row being made; places before `begin` are left from earlier
+        // index of each group's entry in `new.neighbours`; indices before `begin` belong to earlier
         // rows
         let mut at = vec![usize::MAX; count];
         let mut member = members.iter().peekable();

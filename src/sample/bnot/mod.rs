@@ -15,7 +15,7 @@ use super::{Configure, Density, Frame, SampleError, Sampler, Settable, Setting, 
 use crate::geometry::{Point, Window};
 use rand::Rng;
 
-/// Points whose power cells have equal masses and the points as their centroids.
+/// Points whose power cells have equal masses and whose positions are the centroids of the cells.
 ///
 /// 1. Place n points at random and move each once to the centroid of its Voronoi cell.
 /// 2. Find weights for which all power cells have the same mass, by damped Newton steps. Masses may
@@ -27,33 +27,34 @@ use rand::Rng;
 /// The number of steps decides how regular the pattern is. In the unit square the regularity index
 /// (all points, population deviation; means of 5 to 60 seeds) is 12.6 at n = 1050 after 3 steps,
 /// 17.8 after 9, and 22.1 after the 20 that reproduce the paper's tables. At n = 1024 it is 25.4 at
-/// rest by the tolerance of .00285 spacings (some 61 steps), and 26.3 by .001 (some 200 steps).
+/// rest with the tolerance of .00285 spacings (some 61 steps), and 26.3 with .001 (some 200 steps).
 /// `run` and `compare` use 20 steps.
 ///
 /// Source: de Goes, Breeden, Ostromoukhov and Desbrun (2012),
 /// <https://doi.org/10.1145/2366145.2366190>.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bnot {
-    /// Number of times steps 2 and 3 are repeated; `None` repeats them until the points rest.
+    /// Number of times all points are moved to the centroids of their cells; `None` repeats the
+    /// moves until the points rest, see `tolerance`.
     pub steps: Option<usize>,
-    /// Root mean square distance of the points to their centroids at which they rest, in hexagonal
-    /// spacings.
+    /// Root mean square distance between the points and the centroids of their cells at which the
+    /// points count as being at rest, in hexagonal spacings.
     ///
-    /// The default is chosen so that mean pair correlation functions agree with those of the
-    /// independent program that tests compare with, at its convergence.
+    /// With the default, mean pair correlation functions agree with those of the independent
+    /// program that the tests compare with, when that program has converged.
     pub tolerance: f64,
-    /// Number of times crystals are broken up and the points relaxed anew, as by de Goes et al.
-    /// (2012).
+    /// Number of times hexagonal crystals in the pattern are broken up and the points relaxed anew,
+    /// as by de Goes et al. (2012).
     ///
-    /// Points whose cells are too much like those of their neighbours are shaken together with
-    /// these neighbours, and 20 steps follow.
+    /// Each time, points whose cells are too similar to the neighbouring cells are displaced at
+    /// random, together with their neighbours, and 20 steps follow.
     pub breaks: usize,
-    /// Relative density of the points; `None` for an even one.
+    /// Relative density of the points, or `None` for an even density.
     pub density: Option<Density>,
 }
 
 impl Bnot {
-    /// Default setting: steps until the points rest.
+    /// Default setting: steps are repeated until the points rest.
     pub const CONVERGED: Self = Self { steps: None, tolerance: 2.85e-3, breaks: 0, density: None };
     /// Setting of 20 steps, which reproduces the paper's tables of cone mosaics and samplers.
     pub const PAPER: Self = Self { steps: Some(20), ..Self::CONVERGED };
@@ -65,7 +66,7 @@ impl Default for Bnot {
     }
 }
 
-/// Number of steps after which points are taken to rest in any case.
+/// Largest number of steps, after which the points count as being at rest in any case.
 const MOST_STEPS: usize = 1000;
 
 impl Sampler for Bnot {

@@ -8,9 +8,9 @@
 
 use super::laplacian::Laplacian;
 
-/// Number of nodes up to which a system is solved by sweeps alone.
+/// Largest number of nodes for which a system is solved by sweeps alone.
 const SMALL: usize = 24;
-/// Pairs of sweeps that solve such a small system.
+/// Number of pairs of sweeps, down and up, that solve a system of at most [`SMALL`] nodes.
 const SWEEPS: usize = 12;
 /// Factor by which corrections from a coarser level are enlarged.
 ///
@@ -27,7 +27,7 @@ pub(super) struct Multigrid {
 /// One Laplacian of the hierarchy, with the working memory for its cycle.
 struct Level {
     matrix: Laplacian,
-    /// Group of each node, which is its node on the next level.
+    /// Group to which each node belongs; the group is a node of the next level.
     groups: Vec<u32>,
     /// Product of the matrix and the present solution.
     rest: Vec<f64>,
@@ -61,8 +61,8 @@ impl Multigrid {
 
     /// Solves L x = b and returns the number of rounds used.
     ///
-    /// `b` must have mean 0. The rounds of conjugate gradients end when the remainder is at most
-    /// `tolerance` times `b` in the root mean square, or after `most` rounds.
+    /// `b` must have mean 0. The rounds of conjugate gradients end when the root mean square of the
+    /// residual is at most `tolerance` times that of `b`, or after `most` rounds.
     pub(super) fn solve(&mut self, b: &[f64], x: &mut Vec<f64>, tolerance: f64, most: usize) -> usize {
         let n = b.len();
         x.clear();
@@ -104,7 +104,7 @@ impl Multigrid {
     }
 }
 
-/// Moves x from 0 towards the solution of the first level's system.
+/// Runs one multigrid cycle, which moves x from 0 towards the solution of the first level's system.
 ///
 /// The map from b to x is symmetric, as conjugate gradients need.
 fn cycle(levels: &mut [Level], b: &[f64], x: &mut [f64]) {

@@ -5,20 +5,23 @@ use crate::sample::relaxed_region::Region;
 use rand::Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-/// Mean difference of spreads below which a six-sided cell is regular.
+/// Threshold for regular cells: a six-sided cell is regular if its spread differs from the spreads
+/// of its neighbours by less than this on average.
 ///
-/// A cell's spread is its second moment over its squared area, and is compared with those of its
-/// neighbours. Measured at n = 2000 on the torus: less than 1 % of six-sided cells are regular
-/// after 20 steps, and a quarter of them at rest.
+/// The spread of a cell is its second moment divided by its squared area. Measured at n = 2000 on
+/// the torus: less than 1 % of six-sided cells are regular after 20 steps, and a quarter of them at
+/// rest.
 const REGULAR: f64 = 5e-4;
-/// Standard deviation of the shaking along each axis, in hexagonal spacings.
+/// Standard deviation of the random displacement of a point along each axis, in hexagonal spacings.
 const SHAKE: f64 = 0.5;
 
-/// Shakes the points of regular cells and their neighbours, and returns whether there were any.
+/// Displaces the points of regular cells and of their neighbours at random, and returns whether
+/// there were any regular cells.
 ///
-/// Points that would leave the region stay. The measure of regularity is that of de Goes et al.
-/// (2012, <https://doi.org/10.1145/2366145.2366190>), the mean absolute difference of a cell's
-/// second moment to those of its neighbours; threshold and shaking are chosen here.
+/// A point that would leave the region stays where it is. The measure of regularity is that of de
+/// Goes et al. (2012, <https://doi.org/10.1145/2366145.2366190>), the mean absolute difference of a
+/// cell's second moment to those of its neighbours; the threshold and the size of the displacement
+/// are chosen here.
 pub(super) fn shake(
     points: &mut [[f64; 2]],
     diagram: &PowerDiagram,
@@ -43,7 +46,7 @@ pub(super) fn shake(
     shaken.contains(&true)
 }
 
-/// Returns the sites whose cells are regular.
+/// Returns the sites whose cells are regular, as [`REGULAR`] defines it.
 pub(super) fn regular(diagram: &PowerDiagram) -> Vec<usize> {
     let cells = diagram.cells();
     let is_regular = |i: &usize| {

@@ -1,5 +1,5 @@
-//! Relaxation of points by turns of equal masses and moves to the centroids; see [`Bnot`] for the
-//! steps.
+//! Relaxation of points: the masses of the cells are made equal and the points moved to the
+//! centroids, in turn; see [`Bnot`] for the steps.
 
 use super::capacity::{Solved, solve};
 use super::{Bnot, MOST_STEPS, Region, Watch, regularity};
@@ -8,22 +8,24 @@ use crate::sample::{SampleError, Sampler};
 use rand::Rng;
 use std::f64::consts::TAU;
 
-/// Relative deviation of masses that is allowed between moves.
+/// Largest relative deviation of a cell's mass that is allowed between moves.
 const LOOSE: f64 = 1e-2;
-/// Relative deviation of masses that is allowed at the end.
+/// Largest relative deviation of a cell's mass that is allowed at the end.
 const EXACT: f64 = 1e-6;
-/// Steps after crystals were broken: enough to even out distances, too few for new crystals.
+/// Number of steps after crystals were broken up: enough to even out distances, too few for new
+/// crystals to form.
 const AFTER_BREAK: usize = 20;
-/// Length by which points without a cell, which coincide with others, are moved, in spacings.
+/// Distance, in spacings, by which a point without a cell is moved; such a point coincides with
+/// another one.
 const NUDGE: f64 = 1e-3;
-/// Most attempts to give every point a cell.
+/// Largest number of attempts to give every point a cell.
 const NUDGES: usize = 8;
 
 impl Bnot {
-    /// Relaxes points of the region, and returns them with their cells.
+    /// Relaxes the points `start` of the region, and returns them with their cells.
     ///
-    /// The points come back in their own order; on a torus they may lie beyond its seam. The cells
-    /// are in an order of their own.
+    /// The points are returned in the order of `start`, the cells in another order. On a torus,
+    /// points may lie beyond [0, width) × [0, height).
     ///
     /// # Errors
     /// If the masses cannot be made equal within [`EXACT`].
@@ -107,8 +109,8 @@ impl State<'_> {
             }
             let centre = self.region.centre();
             for i in hidden {
-                // They move inwards, each in a direction of its own, so that coincident points
-                // part.
+                // Hidden points move inwards, each in a direction of its own, so that coincident
+                // points part.
                 let [dx, dy] = self.region.domain.towards(self.points[i], centre);
                 let away = dx.hypot(dy).max(f64::MIN_POSITIVE);
                 let angle = TAU * 0.618_034 * (i * NUDGES + attempt) as f64;
@@ -118,7 +120,8 @@ impl State<'_> {
         }
     }
 
-    /// Makes masses equal, and returns their greatest relative deviation.
+    /// Finds weights that make all masses equal within `tolerance`, and returns the greatest
+    /// relative deviation of a mass that is left.
     fn solve(&mut self, tolerance: f64) -> f64 {
         let mut weights = std::mem::take(&mut self.weights);
         let solved = solve(&mut self.sites(), &mut weights, &self.diagram, self.target, tolerance);

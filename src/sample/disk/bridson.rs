@@ -7,9 +7,9 @@ use rand::{Rng, RngExt};
 
 /// Disk radius in hexagonal spacings, chosen so that the method places about n points.
 const RADIUS: f64 = 0.7306;
-/// Candidates tried around a point before it retires.
+/// Number of candidates tried around a point before it is no longer active.
 const CANDIDATES: usize = 30;
-/// Relative excess of the distances kept over the radius, so that rounding cannot violate it.
+/// Relative enlargement of the radius, so that rounding cannot bring points nearer than the radius.
 const MARGIN: f64 = 1e-9;
 
 /// Poisson-disk points by Bridson's method, in O(n).
@@ -17,9 +17,9 @@ const MARGIN: f64 = 1e-9;
 /// 1. Place one point at random; it is active.
 /// 2. Pick an active point at random. Draw up to k = 30 candidates around it, uniform *by area* in
 ///    the annulus from r to 2r, with r = .7306 hexagonal spacings.
-/// 3. The first candidate that is nowhere nearer than r (on the torus) to a point becomes an active
-///    point itself. If there is none, the picked point retires. Repeat from 2 until no point is
-///    active.
+/// 3. The first candidate that is at least r (on the torus) from every point becomes an active
+///    point itself. If no candidate is, the picked point is no longer active. Repeat from 2 until
+///    no point is active.
 ///
 /// The number of points varies by about 1 % at n = 1024, and is smaller than asked for in windows a
 /// few radii wide. In windows narrower than r it is the number of disks that fill a line, which may
@@ -80,10 +80,11 @@ impl Sampler for Bridson {
     }
 }
 
-/// Supply of places uniform by area in the annulus between the radii 1 and 2 around the origin.
+/// Supply of random places, uniform by area in the annulus between the radii 1 and 2 around the
+/// origin.
 ///
-/// They are darts thrown into the square around the annulus, of which the hits are kept. They do
-/// not depend on the points around which they are used, so many are drawn at once.
+/// Darts are thrown into the square around the annulus, and those that hit the annulus are kept.
+/// The places do not depend on the points around which they are used, so many are drawn at once.
 #[derive(Default)]
 struct Offsets {
     ready: Vec<[f64; 2]>,
@@ -91,7 +92,7 @@ struct Offsets {
 }
 
 impl Offsets {
-    /// Darts thrown per refill.
+    /// Number of darts thrown per refill of the supply.
     const DARTS: usize = 512;
 
     #[inline]

@@ -8,16 +8,17 @@ use rand::Rng;
 
 /// Disk radius in hexagonal spacings of n points.
 const RADIUS: f64 = 0.75;
-/// Relative excess of the distances kept over the radius, so that rounding cannot violate it.
+/// Relative enlargement of the radius, so that rounding cannot bring points nearer than the radius.
 const MARGIN: f64 = 1e-9;
-/// Most fresh starts when the window is full before the last point.
+/// Largest number of attempts; each attempt ends early if the torus is full before the last point.
 const ATTEMPTS: usize = 200;
 
-/// Uniform darts, each kept if no earlier one is nearer than r, until there are exactly n.
+/// Uniform darts, each kept if no dart kept before is nearer than r, until exactly n are kept.
 ///
 /// r is .75 hexagonal spacings of n points, distances are those of the torus, and points are not
-/// relaxed afterwards. Places that a disk covers are left out, which changes only the running time.
-/// If no other place is left, the window is full and a new pattern is begun, up to 200 times.
+/// relaxed afterwards. No darts are thrown at places nearer than r to a kept dart, which changes
+/// only the running time. If no other place is left, the window is full and a new pattern is begun,
+/// up to 200 times.
 ///
 /// Sources: Cook (1986), <https://doi.org/10.1145/7529.8927>; White, Cline and Egbert (2007),
 /// <https://doi.org/10.1109/RT.2007.4342600>.
@@ -81,7 +82,7 @@ mod tests {
         }
     }
 
-    /// Throws darts over the whole torus, as the definition says.
+    /// Throws darts over the entire torus, as the definition says.
     fn plain_darts(n: usize, rng: &mut ChaCha8Rng) -> Vec<Point> {
         let radius = RADIUS * hexagonal_spacing(n, 1.).unwrap();
         let torus = Window::unit_torus();

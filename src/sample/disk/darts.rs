@@ -2,23 +2,25 @@
 //!
 //! 1. Choose a square with a probability proportional to its area, and throw a uniform dart into
 //!    it.
-//! 2. A dart with no other dart nearer than the radius becomes a point, and the square is finished.
+//! 2. A dart that is at least the radius from every point becomes a point, and the square is
+//!    finished.
 //! 3. Otherwise the square is cut in four, and the quarters that one disk covers are dropped.
 //!
-//! Dropped squares could never have taken a dart, and the dart within the rest is uniform, so the
-//! points have exactly the law of plain darts.
+//! No dart in a dropped square could have become a point, and the dart within the remaining squares
+//! is uniform, so the points have exactly the distribution of plain dart throwing.
 //!
 //! Source: White, Cline and Egbert (2007), <https://doi.org/10.1109/RT.2007.4342600>.
 
 use crate::geometry::index::{Nearby, TorusGrid};
 use rand::{Rng, RngExt};
 
-/// Number of halvings after which a square counts as covered: its share of the area is below 2⁻⁵⁰.
+/// Number of halvings after which a square counts as covered: its area is then below 2⁻⁵⁰ of the
+/// total.
 const DEEPEST: usize = 25;
 
-/// Throws darts until there are `n`, or until the torus is full.
+/// Throws darts until `n` of them are kept, or until the torus is full, and returns the kept darts.
 ///
-/// No two of them are nearer than `radius` on the torus. `grid` is emptied first.
+/// No two kept darts are nearer than `radius` on the torus. `grid` is emptied first.
 pub(super) fn throw(n: usize, radius: f64, grid: &mut TorusGrid, rng: &mut dyn Rng) -> Vec<[f64; 2]> {
     grid.clear();
     let radius2 = radius * radius;
@@ -34,8 +36,8 @@ pub(super) fn throw(n: usize, radius: f64, grid: &mut TorusGrid, rng: &mut dyn R
         let (u, v): (f64, f64) = (rng.random(), rng.random());
         let dart = [left + u * width, top + v * height];
         if !near.any_nearer(dart[0], dart[1], radius2) {
-            // The square needs no more darts: a disk covers the whole grid cell that its centre
-            // lies in.
+            // The square needs no more darts: a disk covers the entire grid cell in which its
+            // centre lies.
             grid.insert(dart[0], dart[1]);
             points.push(dart);
             continue;
@@ -55,7 +57,7 @@ pub(super) fn throw(n: usize, radius: f64, grid: &mut TorusGrid, rng: &mut dyn R
     points
 }
 
-/// Squares that may have room, sorted by how often they were halved.
+/// Squares that may have room for a dart, sorted by the number of times they were halved.
 ///
 /// Strictly, they are rectangles with the proportions of the grid's cells.
 struct Squares {
@@ -88,7 +90,8 @@ impl Squares {
         self.deepest = self.deepest.max(level);
     }
 
-    /// Removes a square chosen with probability proportional to its area.
+    /// Removes a square chosen with probability proportional to its area, and returns its level and
+    /// upper left corner.
     fn take(&mut self, rng: &mut dyn Rng) -> Option<(usize, [f64; 2])> {
         let mut areas = [0.; DEEPEST + 1];
         let (mut total, mut share) = (0., 1.);
@@ -124,8 +127,8 @@ mod tests {
         let mut rng = ChaCha8Rng::seed_from_u64(1);
         let mut grid = TorusGrid::new(1., 1., 0.2);
         let placed = throw(1000, 0.2, &mut grid, &mut rng).len();
-        // A full torus holds at least as many as the loosest maximal packing and at most as many as
-        // the densest.
+        // A full torus holds at least as many points as the loosest maximal packing and at most as
+        // many as the densest.
         assert!((8..29).contains(&placed), "{placed}");
     }
 }

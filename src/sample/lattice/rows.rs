@@ -5,7 +5,7 @@ use crate::sample::{Frame, Setting};
 use rand::{Rng, RngExt};
 use rand_distr::StandardNormal;
 
-/// Offsets tried in a bounded window for the one whose number of points is nearest to n.
+/// Number of random offsets tried in a bounded window to bring the number of points near n.
 const OFFSETS: usize = 32;
 
 /// Width of the strip around a bounded window from which jitter may carry points into it, in
@@ -42,9 +42,9 @@ pub(in crate::sample) struct Lattice {
 impl Lattice {
     /// Returns the points of the lattice in a frame, at a random offset.
     ///
-    /// Where the window has a border, the lattice is undeformed: its density is n/A and the border
-    /// cuts it, so the number of points is near n. On a torus it is the nearest lattice that closes
-    /// on itself.
+    /// In a window with a border, the lattice is not deformed. The border cuts it off, so the
+    /// number of points is only near `n`. On a torus, the lattice is deformed as little as possible
+    /// so that it closes on itself.
     pub(in crate::sample) fn fill(self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Vec<Point> {
         if n == 0 {
             return Vec::new();
@@ -101,9 +101,10 @@ impl Lattice {
         [x + self.jitter * dx, y + self.jitter * dy]
     }
 
-    /// Returns the first x, the y and the number of points of each row in a window of these sides.
+    /// Returns the first x, the y and the number of points of each row in a window of the given
+    /// width and height.
     ///
-    /// (x, y) is a point of the lattice.
+    /// `(x, y)` is a point of the lattice, in a row that is not shifted.
     fn rows(self, x: f64, y: f64, [width, height]: [f64; 2]) -> impl Iterator<Item = (f64, f64, usize)> {
         let first = -(y / self.row_step).floor();
         (0..)
@@ -117,8 +118,8 @@ impl Lattice {
             .take_while(move |&(_, y, _)| y < height)
     }
 
-    /// Returns the columns and rows of the least deformed lattice of about n points that closes on
-    /// the torus.
+    /// Returns the numbers of columns and rows of the least deformed lattice of about `n` points
+    /// that closes on the torus.
     fn closing(self, n: usize, frame: &Frame) -> (usize, usize) {
         let (columns, rows) = (frame.width / self.step, frame.height / self.row_step);
         let around = |ideal: f64| {

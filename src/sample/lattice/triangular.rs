@@ -3,11 +3,11 @@ use crate::geometry::Point;
 use crate::sample::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use rand::Rng;
 
-/// Triangular lattice (hexagonal packing) of density n/A at a random offset, with jitter if asked
-/// for.
+/// Triangular lattice (hexagonal packing) of about n points at a random offset, with jitter if
+/// asked for.
 ///
-/// Rows lie along x. On a torus rows and columns must close, which stretches the lattice by a few
-/// per cent.
+/// Rows lie along x. On a torus, rows and columns must close on themselves, which stretches the
+/// lattice by a few per cent.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangular {
     /// Standard deviation of each point's displacement in x and y, in hexagonal spacings.

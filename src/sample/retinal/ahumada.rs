@@ -1,8 +1,8 @@
 //! Cone mosaic as discs packed outward from a centre, after Ahumada and Poirson (1987).
 //!
 //! 1. Put a disc of random radius in the centre, and another one that touches it.
-//! 2. Keep a queue of pockets, where a further disc would touch two discs; the nearest to the
-//!    centre comes first.
+//! 2. Keep a queue of pockets, the nearest to the centre first. A pocket is a place where a further
+//!    disc would touch two discs.
 //! 3. Put the next disc into the first pocket if it fits there; otherwise drop the pocket. Repeat
 //!    until the window is full.
 //! 4. Displace the centres at random.
@@ -18,13 +18,13 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::f64::consts::TAU;
 
-/// Number of standard deviations beyond which radii are drawn again, so that they stay positive and
-/// bounded.
+/// Largest deviation of a radius from the mean, in standard deviations. Radii beyond are drawn
+/// again, so that all stay positive and bounded.
 const DEVIATIONS: f64 = 3.;
 /// Approximate number of discs per squared mean radius: random discs cover 84 % of the plane.
 const DENSITY: f64 = 0.84 / std::f64::consts::PI;
-/// Distance beyond the window up to which discs are packed, in mean radii, so that the edge does
-/// not show.
+/// Distance beyond the window up to which discs are packed, in mean radii, so that the edge of the
+/// packing does not show.
 const BEYOND: f64 = 6.;
 
 /// Model of Ahumada and Poirson (1987): discs of random radius, one per cone, packed tightly
@@ -43,13 +43,14 @@ const BEYOND: f64 = 6.;
 /// .07 mean diameters, give a regularity index of 10, within the range of real mosaics (8 to 12).
 /// The mean radius follows from n.
 ///
-/// **Eccentricity**: if one is given, in mm, the middle of the window lies there, with the fovea to
-/// its left. The mean radius then follows the density of human cones from place to place (Curcio et
-/// al. 1990, mean of four meridians), and n determines the size of the window. Two things are
-/// chosen here: the other two parameters stay the same shares of the mean radius, and packing goes
-/// outward from the middle of the window, which is the fovea at 0 mm.
+/// **Eccentricity**: if it is given, the middle of the window lies at that distance from the fovea
+/// (in mm), with the fovea to the left. The mean radius then follows the density of human cones
+/// from place to place (Curcio et al. 1990, mean of four meridians), and n determines the size of
+/// the window. Two things are chosen here: the other two parameters stay the same shares of the
+/// mean radius, and packing goes outward from the middle of the window, which is the fovea at 0 mm.
 ///
-/// Exactly n points are made. Opposite edges of a torus do not fit, as the model has a centre.
+/// Exactly n points are made. Opposite edges of a torus do not fit together, as the model has a
+/// centre.
 ///
 /// Sources: Ahumada and Poirson (1987), <https://doi.org/10.1364/JOSAA.4.001493>; Curcio et al.
 /// (1990), <https://doi.org/10.1002/cne.902920402>.
@@ -59,8 +60,8 @@ pub struct Ahumada {
     pub radius_sd: f64,
     /// Standard deviation of each cone's displacement in x and y after packing, in mean diameters.
     pub jitter: f64,
-    /// Distance of the window's middle from the fovea, in mm; `None` for one mean radius
-    /// everywhere.
+    /// Distance between the fovea and the middle of the window, in mm, or `None` for the same mean
+    /// radius everywhere.
     pub eccentricity: Option<f64>,
 }
 
@@ -145,7 +146,7 @@ impl Ahumada {
         truncated(1., self.radius_sd, DEVIATIONS, rng)
     }
 
-    /// Packs discs from the middle outward over the window with these half sides.
+    /// Packs discs from the middle outward over |x| ≤ `half[0]` and |y| ≤ `half[1]`.
     ///
     /// The mean radius is 1 in the middle.
     fn pack(&self, half: [f64; 2], retina: &Retina, rng: &mut dyn Rng) -> Vec<Disc> {
@@ -166,7 +167,7 @@ impl Ahumada {
         radius = self.radius(rng);
         while let Some(Reverse((_, a, b, side))) = packing.pockets.pop() {
             let (a, b) = (packing.discs[a], packing.discs[b]);
-            // The mean radius here is the mean of those at the two discs that it touches.
+            // The mean radius at the pocket is the mean of those at the two discs.
             let scaled = radius * (retina.size(a.centre) + retina.size(b.centre)) / 2.;
             let Some(centre) = touching_both(a, b, scaled, side) else {
                 continue;
@@ -197,8 +198,8 @@ impl Packing<'_> {
         })
     }
 
-    /// Adds a disc, and the pockets between it and those near enough for a disc of mean radius to
-    /// touch both.
+    /// Adds a disc, and its pockets with all discs that are near enough for a disc of mean radius
+    /// to touch both.
     fn put(&mut self, disc: Disc) {
         let new = self.discs.len();
         let mean = self.retina.size(disc.centre);
@@ -215,10 +216,10 @@ impl Packing<'_> {
     }
 }
 
-/// Returns the centre of the disc of this radius that touches both, on one side of the line from
-/// `a` to `b`.
+/// Returns the centre of the disc of the given radius that touches both `a` and `b`, or `None` if
+/// no such disc touches both.
 ///
-/// `None` is returned if they are too far apart.
+/// There is one such disc on each side of the line from `a` to `b`; `left` chooses between them.
 fn touching_both(a: Disc, b: Disc, radius: f64, left: bool) -> Option<[f64; 2]> {
     let (to_a, to_b, apart) = (a.radius + radius, b.radius + radius, distance(a.centre, b.centre));
     if apart <= 0. || apart >= to_a + to_b {

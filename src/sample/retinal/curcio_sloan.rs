@@ -25,7 +25,7 @@ use std::f64::consts::SQRT_2;
 /// jitter in sides of the uncompressed cell.
 ///
 /// **Eccentricity**: there is no such parameter, as the abstract gives no numbers for the
-/// dependence on the place. Set `compression` and `jitter` for the place; they hold over the whole
+/// dependence on the place. Set `compression` and `jitter` for the place; they hold over the entire
 /// window.
 ///
 /// Rows lie along the compressed diagonal, which is along x, at a random offset. The number of
@@ -36,10 +36,10 @@ use std::f64::consts::SQRT_2;
 #[derive(Clone, Copy, Debug)]
 pub struct CurcioSloan {
     /// Length of one diagonal divided by its length before compression; the other diagonal grows by
-    /// as much.
+    /// the same factor.
     pub compression: f64,
     /// Standard deviation of each point's displacement in x and y, in sides √(A/n) of the
-    /// uncompressed cell.
+    /// uncompressed square cell, where A is the area of the window.
     pub jitter: f64,
 }
 
@@ -67,8 +67,8 @@ impl Sampler for CurcioSloan {
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         let side = (frame.width * frame.height / n.max(1) as f64).sqrt();
-        // Along its diagonals, a square array has rows of points a diagonal apart, every other row
-        // moved by half a diagonal.
+        // Seen along a diagonal, a square array consists of rows whose points are one diagonal
+        // apart; every other row is moved by half a diagonal.
         let (step, row_step) = (SQRT_2 * side * self.compression, side / (SQRT_2 * self.compression));
         Ok(Lattice { step, row_step, shift: 0.5, jitter: self.jitter * side }.fill(n, frame, rng))
     }

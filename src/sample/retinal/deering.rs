@@ -13,24 +13,27 @@ use crate::sample::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use rand::Rng;
 use std::collections::VecDeque;
 
-/// Distance of successive rings, in mean diameters: that of the rows of a triangular lattice.
+/// Distance between successive rings, in mean diameters: that between the rows of a triangular
+/// lattice.
 const RING: f64 = 0.866_025_403_784_438_6;
 /// Number of cells per squared mean diameter.
 const DENSITY: f64 = 1. / RING;
-/// Number of outer rings that still move; cells farther in have found their place.
+/// Number of outermost rings whose cells still move; cells farther in have found their place.
 const MOBILE: usize = 5;
-/// Number of standard deviations beyond which radii are drawn again.
+/// Largest deviation of a radius from the mean, in standard deviations; radii beyond are drawn
+/// again.
 const DEVIATIONS: f64 = 3.;
 /// Distance at which attraction ends, in units of the distance at which two cells touch.
 const ATTRACTION_ENDS: f64 = 1.5;
-/// Strongest attraction, as a share of the repulsion of cells that coincide.
+/// Strongest attraction, as a share of the repulsion between coincident cells.
 const ATTRACTION: f64 = 0.1;
 /// Displacement of a cell in one round, as a share of the force times the distance at which two
 /// cells touch.
 const RATE: f64 = 0.3;
-/// Approach of two cells during the rounds of one ring that is allowed for, in mean diameters.
+/// Margin beyond the range of the forces within which cells count as neighbours, in mean diameters.
 ///
-/// Cells that are farther beyond the reach of the forces are not looked at.
+/// Two cells may approach each other by this much during the rounds of one ring. Cells that are
+/// farther apart are not looked at.
 const SLACK: f64 = 0.5;
 /// Distance beyond the window up to which cells are grown, in mean diameters.
 const BEYOND: f64 = 4.;
@@ -56,12 +59,13 @@ const BEYOND: f64 = 4.;
 /// of real mosaics (8 to 12).
 ///
 /// **Eccentricity**: without it, the mean radius is the same all over the window. If it is given,
-/// in mm, the middle of the window lies there, with the fovea to its left. The mean radius then
-/// follows the density of human cones (Curcio et al. 1990; the mean of the four meridians, where
-/// the original distinguishes them), and n determines the size of the window. The rings are around
-/// the fovea.
+/// the middle of the window lies at that distance from the fovea (in mm), with the fovea to the
+/// left. The mean radius then follows the density of human cones (Curcio et al. 1990; the mean of
+/// the four meridians, where the original distinguishes them), and n determines the size of the
+/// window. The rings are around the fovea.
 ///
-/// Exactly n points are made. Opposite edges of a torus do not fit, as the model has a centre.
+/// Exactly n points are made. Opposite edges of a torus do not fit together, as the model has a
+/// centre.
 ///
 /// Sources: Deering (2005), <https://doi.org/10.1145/1073204.1073243>; for the densities, Curcio et
 /// al. (1990), <https://doi.org/10.1002/cne.902920402>.
@@ -69,10 +73,10 @@ const BEYOND: f64 = 4.;
 pub struct Deering {
     /// Standard deviation of the cells' radii, in mean radii.
     pub radius_sd: f64,
-    /// Rounds of pushing and pulling after each ring.
+    /// Number of rounds of pushing and pulling after each ring.
     pub rounds: usize,
-    /// Distance of the window's middle from the fovea, in mm; `None` for one mean radius
-    /// everywhere.
+    /// Distance between the fovea and the middle of the window, in mm, or `None` for the same mean
+    /// radius everywhere.
     pub eccentricity: Option<f64>,
 }
 
@@ -144,10 +148,10 @@ struct Cell {
 }
 
 impl Deering {
-    /// Grows cells from the fovea outward over the window with these half sides, and returns their
-    /// centres.
+    /// Grows cells from the fovea outward and returns the centres of those cells.
     ///
-    /// The mean diameter is 1 in the middle of the window.
+    /// The cells cover |x| ≤ `half[0]` and |y| ≤ `half[1]` around the middle of the window, where
+    /// the mean diameter is 1.
     fn grow(&self, half: [f64; 2], retina: &Retina, rng: &mut dyn Rng) -> Vec<[f64; 2]> {
         // The rings are around the fovea, in the window or beside it; all places are relative to
         // the window's middle.
@@ -157,8 +161,8 @@ impl Deering {
         let last = wide[0].hypot(wide[1]);
         let mut radius = (fovea - half[0]).max(0.);
         let mut done = Vec::new();
-        // The last `MOBILE` rings still move; those before them in the queue are fixed and support
-        // them.
+        // The last `MOBILE` rings of the queue still move; the earlier rings of the queue are fixed
+        // and support them.
         let mut edge: VecDeque<Vec<Cell>> = VecDeque::new();
         while radius <= last {
             let step = retina.size(seen([radius, 0.]));
@@ -184,14 +188,14 @@ impl Deering {
         done
     }
 
-    /// Moves cells by the forces between them, except the first `fixed`.
+    /// Moves all cells except the first `fixed` by the forces between neighbours.
     ///
     /// `largest` is the greatest mean diameter of the cells.
     fn settle(&self, cells: &mut [Cell], fixed: usize, largest: f64) {
         let reach = largest * (ATTRACTION_ENDS * (1. + DEVIATIONS * self.radius_sd) + SLACK);
         let mut grid = HashGrid::new(reach);
         cells.iter().enumerate().for_each(|(k, cell)| grid.insert(k, cell.centre));
-        // cells that may come within reach during the rounds of this ring
+        // cells that may come within the range of the forces during these rounds
         let neighbours: Vec<Vec<usize>> = cells[fixed..]
             .iter()
             .zip(fixed..)

@@ -8,12 +8,13 @@ use crate::sample::normal_deviate::truncated;
 use crate::sample::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use rand::{Rng, RngExt};
 
-/// Number of standard deviations beyond which minimal distances are drawn again.
+/// Largest deviation of a minimal distance from the mean, in standard deviations; larger deviations
+/// are drawn again.
 const DEVIATIONS: f64 = 4.;
-/// Least distance of human cones in the periphery, in mm: the middle of the 6–8 µm of Curcio and
-/// Sloan (1992).
+/// Least distance between human cones in the periphery, in mm: the middle of the 6–8 µm of Curcio
+/// and Sloan (1992).
 const PERIPHERAL: f64 = 0.007;
-/// Places tried for one cell before the window counts as full.
+/// Number of places tried for one cell before the window counts as full.
 const TRIALS: usize = 100_000;
 
 /// Minimal-spacing rule (d_min, exclusion zone): cells are placed at random, one after the other.
@@ -29,12 +30,12 @@ const TRIALS: usize = 100_000;
 /// is .777), and σ is a tenth of it.
 ///
 /// **Eccentricity**: no dependence was published with the rule. Curcio and Sloan (1992) found the
-/// least distance of human cones constant, 6–8 µm, across the peripheral retina, while their
-/// spacing grows. If an eccentricity is given, in mm, μ is 7 µm in hexagonal spacings of human
-/// cones there (Curcio et al. 1990, mean of four meridians), or .7 if that is less, as it is within
-/// some 2 mm.
+/// least distance between human cones constant, 6–8 µm, across the peripheral retina, while the
+/// spacing of the cones grows. If an eccentricity is given (distance from the fovea in mm), μ is 7
+/// µm in hexagonal spacings of human cones there (Curcio et al. 1990, mean of four meridians), but
+/// at most .7. The limit of .7 holds within some 2 mm of the fovea.
 ///
-/// Exactly n points are made. No two are nearer than μ − 4σ.
+/// Exactly n points are made. No two points are nearer than μ − 4σ.
 ///
 /// Sources: Wässle and Riemann (1978), <https://doi.org/10.1098/rspb.1978.0026>; Galli-Resta et al.
 /// (1999), <https://doi.org/10.1046/j.1460-9568.1999.00555.x>; Curcio and Sloan (1992),
@@ -52,8 +53,10 @@ impl MinimalSpacing {
     /// Default setting, chosen here; see [`MinimalSpacing`] for the reason.
     pub const DEFAULT: Self = Self { mean: 0.7, sd: 0.07 };
 
-    /// Returns the mean of d_min for human cones at this many mm from the fovea, in hexagonal
-    /// spacings.
+    /// Returns the mean of d_min for human cones at the given eccentricity, in hexagonal spacings.
+    ///
+    /// The eccentricity is the distance from the fovea, in mm. The mean is 7 µm there, but at most
+    /// .7 spacings.
     pub fn mean_at(eccentricity: f64) -> f64 {
         let most = Self::DEFAULT.mean;
         // The cones of a square metre are a number large enough to be rounded without harm.
@@ -81,7 +84,7 @@ impl Sampler for MinimalSpacing {
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         let spacing = frame.spacing(n);
-        // If d_min is 0 nothing is sought, but the grid needs cells of some size.
+        // If d_min is 0 no neighbour is sought, but the grid needs cells of some size.
         let reach = spacing * (self.mean + DEVIATIONS * self.sd).max(0.1);
         let mut cells = TorusCells::new([frame.width, frame.height], reach, n);
         let mut points = Vec::with_capacity(n);
@@ -141,7 +144,7 @@ impl Settable for MinimalSpacing {
 }
 
 impl MinimalSpacing {
-    /// Draws a minimal distance, in spacings.
+    /// Draws a minimal distance of 0 or more, in hexagonal spacings.
     fn distance(&self, rng: &mut dyn Rng) -> f64 {
         loop {
             let distance = truncated(self.mean, self.sd, DEVIATIONS, rng);

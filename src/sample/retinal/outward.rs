@@ -1,26 +1,28 @@
-//! Common part of the models that grow outward from a centre, which know neither a window nor a
-//! number of points.
+//! Common part of the models that grow outward from a centre.
+//!
+//! Such a model knows neither a window nor a number of points; [`exactly`] fits its pattern to
+//! both.
 
 use crate::geometry::Point;
 use crate::sample::{Frame, SampleError};
 use rand::{Rng, RngExt};
 use std::f64::consts::{PI, TAU};
 
-/// Factors by which the pattern reaches beyond the window that should hold it: at first, and for
-/// each further attempt.
+/// Factors for the sides of the grown pattern: its excess over the window that should hold n points
+/// in the first attempt, and its growth in each further attempt.
 const BEYOND: [f64; 2] = [1.1, 1.3];
-/// Most attempts before the pattern counts as too small.
+/// Largest number of attempts before the pattern counts as too small.
 const ATTEMPTS: usize = 12;
 
 /// Returns exactly `n` points of a pattern around the middle of the frame.
 ///
 /// `grow` makes the pattern in its own unit of length, with about `density` points per squared
-/// unit. It is given half sides, and the pattern must be complete where |x| and |y| are at most
-/// these. The window is the rectangle around the centre, with the frame's proportions, that holds n
-/// points; it is scaled to the frame.
+/// unit. It is given half of the sides, `half`, and the pattern must be complete where |x| ≤
+/// `half[0]` and |y| ≤ `half[1]`. The window is the rectangle around the centre, with the frame's
+/// proportions, that holds n points; it is scaled to the frame.
 ///
 /// # Errors
-/// If the pattern stays too small.
+/// If the pattern of the last attempt still has too few points.
 pub(super) fn exactly(
     n: usize,
     frame: &Frame,
@@ -62,14 +64,15 @@ pub(super) fn exactly(
     Err(SampleError::NoRoom { sampler, n, placed, attempts: ATTEMPTS })
 }
 
-/// Returns places at equal distances of about `step` on a circle around the centre.
+/// Returns places on the circle of the given radius around the centre, about `step` apart.
 ///
-/// They begin at a random angle; those with |x| or |y| beyond the half sides are left out.
+/// The places are at equal distances and begin at a random angle. Places with |x| > `half[0]` or
+/// |y| > `half[1]` are left out.
 pub(super) fn ring(radius: f64, step: f64, half: [f64; 2], rng: &mut dyn Rng) -> Vec<[f64; 2]> {
     let number = (TAU * radius / step).round().max(1.);
     let turn = TAU / number;
     let first = rng.random::<f64>() * turn;
-    // in each quadrant, the angles between which the circle lies within the half sides
+    // in each quadrant, the angles between which |x| ≤ `half[0]` and |y| ≤ `half[1]` on the circle
     let low = (half[0] / radius).min(1.).acos();
     let high = (half[1] / radius).min(1.).asin();
     let mut places = Vec::new();

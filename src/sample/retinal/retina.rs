@@ -3,10 +3,11 @@
 use crate::mosaic::RetinalPlace;
 use crate::sample::Setting;
 
-/// Greatest eccentricity at which the density is known, in mm.
+/// Greatest eccentricity at which the density of cones is known, in mm.
 pub(super) const FARTHEST: f64 = 18.;
 
-/// Returns the parameter `eccentricity` of the models whose cells follow the density of the retina.
+/// Returns the parameter `eccentricity` of the models in which cells follow the density of the
+/// retina.
 pub(super) const fn eccentricity<S>(get: fn(&S) -> Option<f64>, set: fn(&mut S, f64)) -> Setting<S> {
     Setting {
         name: "eccentricity",
@@ -20,46 +21,48 @@ pub(super) const fn eccentricity<S>(get: fn(&S) -> Option<f64>, set: fn(&mut S, 
     }
 }
 
-/// Returns the cones per mm² at this many mm from the fovea, as the mean of the four meridians.
+/// Returns the cones per mm² at the given eccentricity (in mm), as the mean of the four meridians.
 ///
-/// Beyond the last known value, that value is returned.
+/// Beyond [`FARTHEST`], the density at [`FARTHEST`] is returned.
 pub(super) fn cones_per_mm2(eccentricity: f64) -> f64 {
     let at = |eccentricity_mm| RetinalPlace { eccentricity_mm, meridian: None }.expected_cones_per_mm2();
     at(eccentricity.min(FARTHEST)).unwrap_or(f64::NAN)
 }
 
-/// Sizes of cells around the point of the retina that the middle of the window lies on.
+/// Sizes of cells on the retina from place to place, relative to the middle of the window.
 ///
 /// Lengths are in the unit of a model, in which cells in the middle have size 1. The fovea lies to
 /// the left.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Retina {
-    /// Eccentricity of the middle, in mm, and the model's unit of length, in mm.
+    /// Eccentricity of the window's middle in mm, and the model's unit of length in mm.
     ///
-    /// `None` means that cells have the same size everywhere.
+    /// The field is `None` if cells have the same size everywhere.
     place: Option<(f64, f64)>,
 }
 
 impl Retina {
-    /// Creates the sizes around a place this many mm from the fovea.
+    /// Creates the sizes around a place at the given eccentricity, in mm, or equal sizes for
+    /// `None`.
     ///
-    /// `density` is the number of cells of size 1 that the model makes per squared unit.
+    /// `density` is the number of cells of size 1 that the model makes per squared unit of length.
     pub(super) fn around(eccentricity: Option<f64>, density: f64) -> Self {
         Self { place: eccentricity.map(|mm| (mm, (density / cones_per_mm2(mm)).sqrt())) }
     }
 
-    /// Returns the distance of the fovea, which lies to the left, from the middle.
+    /// Returns the distance between the fovea, which lies to the left, and the middle of the
+    /// window.
     pub(super) fn fovea(&self) -> f64 {
         self.place.map_or(0., |(mm, unit)| mm / unit)
     }
 
-    /// Returns the size of a cell at a place relative to the middle.
+    /// Returns the size of a cell at a place relative to the middle of the window.
     pub(super) fn size(&self, [x, y]: [f64; 2]) -> f64 {
         let Some((mm, unit)) = self.place else { return 1. };
         (cones_per_mm2(mm) / cones_per_mm2((mm + x * unit).hypot(y * unit))).sqrt()
     }
 
-    /// Returns an upper bound for the size of the cells within these half sides.
+    /// Returns an upper bound for the size of the cells with |x| ≤ `half[0]` and |y| ≤ `half[1]`.
     pub(super) fn largest(&self, half: [f64; 2]) -> f64 {
         // Densities rise again by a few per cent in the far periphery, so the corner need not have
         // the largest cell.
@@ -97,8 +100,8 @@ mod tests {
         assert_eq!((even.size([9., 9.]), even.largest([9., 9.]), even.fovea()), (1., 1., 0.));
     }
 
-    /// Returns the number of cones in the square with this half side whose middle is this far from
-    /// the fovea.
+    /// Returns the number of cones in the square of side 2 × `half` whose middle lies at
+    /// `eccentricity`.
     ///
     /// All lengths are in mm.
     fn cones(eccentricity: f64, half: f64) -> f64 {

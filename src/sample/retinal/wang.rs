@@ -7,11 +7,11 @@ use crate::sample::normal_deviate::displaced;
 use crate::sample::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use rand::Rng;
 
-/// Distance of successive rings, in spacings: that of the rows of a triangular lattice.
+/// Distance between successive rings, in spacings: that between the rows of a triangular lattice.
 const RING: f64 = 0.866_025_403_784_438_6;
 /// Number of cones per squared spacing.
 const DENSITY: f64 = 1. / RING;
-/// Displacements drawn for one cone before it is left out.
+/// Number of displacements drawn for one cone before the cone is left out.
 const DRAWS: usize = 100;
 /// Distance beyond the window up to which rings are made, in spacings.
 const BEYOND: f64 = 3.;
@@ -23,7 +23,7 @@ const BEYOND: f64 = 3.;
 /// the constraints are the sampling properties of several human foveal mosaics, above all local
 /// clusters rotated against each other and spectra like desert islands.
 ///
-/// **As understood here**: the model is an array of those three parts.
+/// **As understood here**: the model consists of a polar array, a jitter and a minimal spacing.
 ///
 /// **Not available, so chosen here**: rings are √3/2 spacings apart and hold one cone per spacing,
 /// from a random angle on. A cone whose displacement brings it nearer than the minimal spacing to
@@ -35,13 +35,13 @@ const BEYOND: f64 = 3.;
 /// is known to have been published.
 ///
 /// Exactly n points are made. No two are nearer than the minimal spacing, measured in spacings of
-/// the array; the array is denser than n/A by the cones left out. Opposite edges of a torus do not
-/// fit, as the model has a centre.
+/// the array; the array is denser than the points made, because some cones are left out. Opposite
+/// edges of a torus do not fit together, as the model has a centre.
 #[derive(Clone, Copy, Debug)]
 pub struct Wang {
     /// Standard deviation of each cone's displacement in x and y, in spacings of the array.
     pub jitter: f64,
-    /// Smallest distance of two cones, in spacings of the array.
+    /// Smallest distance between two cones, in spacings of the array.
     pub minimum: f64,
 }
 
@@ -102,7 +102,8 @@ impl Settable for Wang {
 }
 
 impl Wang {
-    /// Returns the cones of an array of spacing 1 within these half sides.
+    /// Returns the displaced cones of an array of spacing 1 that covers |x| ≤ `half[0]` and |y| ≤
+    /// `half[1]`.
     fn array(&self, half: [f64; 2], rng: &mut dyn Rng) -> Vec<[f64; 2]> {
         let rings = (half[0].hypot(half[1]) / RING) as usize;
         // A minimum of 0 needs no search, but the grid needs cells of some size.

@@ -1,4 +1,5 @@
-//! Target curves: pair correlation functions to reach, from a measured function or from a spectrum.
+//! Target curves: pair correlation functions that a pattern is to have, made from a measured
+//! function or from a spectrum.
 //!
 //! - A measured function was smoothed by a kernel; the smoothing is undone by van Cittert's
 //!   iteration.
@@ -10,22 +11,24 @@
 use super::super::SampleError;
 use std::f64::consts::{PI, TAU};
 
-/// Distance of the samples of g, in hexagonal spacings.
+/// Distance between successive samples of g, in hexagonal spacings.
 const STEP: f64 = 0.02;
-/// Longest distance of pairs that is controlled, in hexagonal spacings; beyond it they are left to
-/// chance.
+/// Longest distance at which pairs are controlled, in hexagonal spacings; the numbers of more
+/// distant pairs are left to chance.
 pub(super) const REACH: f64 = 6.;
-/// Distances, in spacings, over which a measured pair correlation function gives way to the one
-/// that follows from the spectrum.
+/// Range of distances, in spacings, over which a measured pair correlation function gives way to
+/// the function that follows from the spectrum.
 const BLEND: [f64; 2] = [2., 2.4];
 /// Standard deviation of the kernel that smooths measured functions, in spacings
 /// ([`crate::stats::PcfOptions`]).
 const SIGMA: f64 = 0.1;
-/// Rounds of deconvolution.
+/// Number of rounds of deconvolution.
 ///
-/// With five the smoothed result is within .03 of a measured hard core; more would amplify noise.
+/// After five rounds, the result smoothed again is within .03 of a measured hard core; more rounds
+/// would amplify noise.
 const ROUNDS: usize = 5;
-/// Distance, in spacings, that a curve must reach: a shorter one says nothing about a pattern.
+/// Least distance, in spacings, at which a measured curve may end: a shorter curve says nothing
+/// about a pattern.
 const SHORTEST: f64 = 1.;
 
 /// Pair correlation function g(r) that a pattern is to have, with r in hexagonal spacings s =
@@ -36,19 +39,20 @@ const SHORTEST: f64 = 1.;
 pub struct TargetCurve {
     /// Samples of g, without smoothing, at multiples of [`STEP`].
     g: Vec<f64>,
-    /// Rows of frequency, in √λ, and power, where the spectrum is known.
+    /// Rows of frequency (in √λ) and power, or `None` if the spectrum is not known.
     ///
-    /// Power is constant below the first row and 1 above the last.
+    /// The power is constant below the first row and 1 above the last.
     spectrum: Option<Vec<[f64; 2]>>,
 }
 
 impl TargetCurve {
-    /// Creates a target from rows of r (in spacings, rising) and g, as [`crate::stats::pcf`]
-    /// estimates it with its default kernel.
+    /// Creates a target from a measured pair correlation function, given as rows of r and g.
     ///
-    /// Below the first r, g is constant; above the last, or above 6 spacings, it is left to chance.
-    /// The smoothing by the kernel, Ĝ(r) = ∫ d g(d) k(r − d) dd / r, is undone by the iteration of
-    /// van Cittert (1931), <https://doi.org/10.1007/BF01391351>.
+    /// r is in hexagonal spacings and rises from row to row. g is smoothed as by
+    /// [`crate::stats::pcf`] with its default kernel. Below the first r, g is constant; above the
+    /// last r, or above 6 spacings, g is left to chance. The smoothing by the kernel k, Ĝ(r) = ∫ d
+    /// g(d) k(r − d) dd / r, is undone by the iteration of van Cittert (1931),
+    /// <https://doi.org/10.1007/BF01391351>.
     ///
     /// # Errors
     /// If there are fewer than two rows, r does not rise from 0 or more to 1 or more, or g is
@@ -60,7 +64,7 @@ impl TargetCurve {
         Ok(Self { g: sharpened(&measured, rows[0][0], last, last), spectrum: None })
     }
 
-    /// Creates a target from rows of frequency f and power S(f).
+    /// Creates a target from a power spectrum, given as rows of frequency f and power S(f).
     ///
     /// f is in units of √λ, that is √n in a unit square, and rises from row to row. S is the power
     /// of the periodogram |Σ exp(−2πi k·x)|²/n. Below the first f, S is constant; above the last it
@@ -78,7 +82,7 @@ impl TargetCurve {
         Ok(Self { g: transformed(rows), spectrum: Some(rows.to_vec()) })
     }
 
-    /// Creates the target with power 0 below `frequency` (in √λ) and 1 above.
+    /// Creates the target of step blue noise: power 0 below `frequency` (in √λ) and 1 above.
     ///
     /// g(r) = 1 − f J₁(2πfr)/r (Heck et al. 2013, eq. 8,
     /// <https://doi.org/10.1145/2487228.2487233>).
@@ -102,8 +106,9 @@ impl TargetCurve {
     /// Creates a target from tables of a measured pair correlation function and of the spectrum of
     /// the same patterns.
     ///
-    /// `pcf` holds g at .15, .244, … spacings, smoothed as [`TargetCurve::from_pcf`] expects it;
-    /// beyond it, g follows from `spectrum`, the power at .05, .1, … √λ.
+    /// `pcf` holds g at .15, .244, … spacings, smoothed as [`TargetCurve::from_pcf`] expects it.
+    /// `spectrum` holds the power at .05, .1, … √λ. Between 2 and 2.4 spacings, the measured g
+    /// gives way to the g that follows from the spectrum.
     pub(in super::super) fn from_tables(pcf: &[f64], spectrum: &[f64]) -> Self {
         let rows = |values: &[f64], first: f64, step: f64| -> Vec<[f64; 2]> {
             values.iter().enumerate().map(|(i, &v)| [first + i as f64 * step, v]).collect()
@@ -120,7 +125,7 @@ impl TargetCurve {
         Self { g, spectrum: Some(spectrum) }
     }
 
-    /// Returns g at a distance of `r` spacings; 1 beyond [`TargetCurve::reach`].
+    /// Returns g at a distance of `r` spacings; beyond [`TargetCurve::reach`], g is 1.
     pub fn at(&self, r: f64) -> f64 {
         sampled(&self.g, r)
     }
@@ -138,7 +143,10 @@ impl TargetCurve {
     }
 }
 
-/// Refuses rows that do not describe a curve: see the errors of the constructors.
+/// Returns an error if the rows do not describe a curve, see the errors of the constructors.
+///
+/// `what` names the curve in the message, `x` and `y` name its columns. The last x must be at least
+/// `least_end`.
 fn check(
     rows: &[[f64; 2]],
     what: &'static str,
@@ -166,7 +174,8 @@ fn check(
     Ok(())
 }
 
-/// Interpolates linearly between rows; the value is constant beyond them.
+/// Interpolates linearly between rows; the value is constant before the first and after the last
+/// row.
 fn interpolate(rows: &[[f64; 2]], x: f64) -> f64 {
     let after = rows.partition_point(|row| row[0] <= x);
     match (after.checked_sub(1).map(|i| rows[i]), rows.get(after)) {
@@ -176,7 +185,7 @@ fn interpolate(rows: &[[f64; 2]], x: f64) -> f64 {
     }
 }
 
-/// Interpolates linearly between samples of g; the value is 1 beyond them.
+/// Interpolates linearly between samples of g; the value is 1 beyond the last sample.
 fn sampled(g: &[f64], r: f64) -> f64 {
     let at = r / STEP;
     let i = at as usize;
@@ -187,10 +196,10 @@ fn sampled(g: &[f64], r: f64) -> f64 {
     }
 }
 
-/// Returns samples, up to `end`, of the function that is `measured` after smoothing.
+/// Returns samples, from 0 to `end`, of the function that becomes `measured` when it is smoothed.
 ///
-/// The smoothing is undone between `first` and `last`; below `first` the correction at `first` is
-/// used.
+/// The smoothing is undone between `first` and `last`; below `first`, the correction found at
+/// `first` is used.
 fn sharpened(measured: &dyn Fn(f64) -> f64, first: f64, last: f64, end: f64) -> Vec<f64> {
     let samples = (end / STEP) as usize + 1;
     let r = |i: usize| i as f64 * STEP;
@@ -203,7 +212,7 @@ fn sharpened(measured: &dyn Fn(f64) -> f64, first: f64, last: f64, end: f64) -> 
             let near = i.saturating_sub(width)..=i + width;
             near.map(|k| kernel[k.abs_diff(i)] * r(k) * g[k.min(samples - 1)]).sum::<f64>() * norm / r(i)
         };
-        // Nearer than this the kernel would reach far into negative distances.
+        // At shorter distances the kernel would extend far into negative distances.
         let from = (first.max(1.5 * SIGMA) / STEP).ceil() as usize;
         let to = samples.min((last / STEP) as usize + 1);
         let mut change = vec![0.; samples];
@@ -222,7 +231,7 @@ fn unit() -> f64 {
 
 /// Computes samples of g from the rows of a radial power spectrum.
 fn transformed(rows: &[[f64; 2]]) -> Vec<f64> {
-    /// Frequencies summed per period of the Bessel function at the longest distance.
+    /// Number of frequencies summed per period of the Bessel function at the longest distance.
     const PER_WAVE: f64 = 24.;
     let last = rows[rows.len() - 1][0];
     let steps = (PER_WAVE * last * REACH * unit()).ceil().clamp(400., 20_000.) as usize;

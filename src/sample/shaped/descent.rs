@@ -1,4 +1,6 @@
-//! Descent of the misses of a pattern's features, by the method of Levenberg and Marquardt.
+//! Minimisation of the misses of a pattern's features, by the method of Levenberg and Marquardt.
+//!
+//! A miss is the weighted difference between a feature and its goal.
 //!
 //! 1. Compute the misses e, and J Jᵀ of their Jacobian J from some of the points.
 //! 2. Displace the points by −Jᵀ (J Jᵀ + μ)⁻¹ e, the shortest displacement that removes e to first
@@ -10,30 +12,31 @@ use super::features::Features;
 use super::neighbours::NeighbourList;
 use crate::numeric::solve;
 
-/// Largest number of steps.
+/// Largest number of steps of the minimisation.
 const STEPS: usize = 30;
 /// Largest number of tries to shorten a step that raises the misses.
 const TRIES: usize = 5;
-/// Root mean square miss, in units of g, that is good enough.
+/// Root mean square of the misses, in units of g, at which the minimisation ends.
 const ENOUGH: f64 = 0.005;
 /// Largest root mean square displacement of the points in a step, in spacings.
 ///
-/// A single point moves at most three times as far. J has changed too much beyond that.
+/// A single point moves at most three times as far. A longer step would change the Jacobian too
+/// much.
 const LONGEST: f64 = 0.2;
-/// Number of points from which J Jᵀ is estimated.
+/// Number of points from which J Jᵀ is estimated, where J is the Jacobian of the misses.
 const METRIC_POINTS: usize = 512;
-/// Margin of the list of neighbours, in spacings.
+/// Excess of the neighbour list's cut-off distance over the distance needed, in spacings.
 ///
-/// The list reaches that much farther than needed, and is made anew once a point has moved by half
-/// of it.
+/// The list is made anew once a point has moved by half of this margin.
 const MARGIN: f64 = 0.4;
-/// Damping μ, at first and at least, relative to the mean of the diagonal of J Jᵀ.
+/// Initial and least damping μ, relative to the mean of the diagonal of J Jᵀ.
 const DAMPING: [f64; 2] = [1e-3, 1e-6];
 
-/// Moves points of a torus until their features are as wanted, or no step comes nearer to that.
+/// Moves points of a torus until their features are near their goals, or until no step comes
+/// nearer.
 ///
-/// `sides` are those of the torus, in units of the hexagonal spacing. Pairs nearer than `reach`
-/// count.
+/// `points`, `sides` (the sides of the torus) and `reach` are in units of the hexagonal spacing.
+/// Only pairs nearer than `reach` count. At most 30 steps are made.
 pub(super) fn descend(points: &mut Vec<[f64; 2]>, sides: [f64; 2], features: &Features, reach: f64) {
     let mut list = NeighbourList::new(points, sides, reach, MARGIN.min(reach));
     let mut misses = features.misses(points, &list);
@@ -72,7 +75,8 @@ pub(super) fn descend(points: &mut Vec<[f64; 2]>, sides: [f64; 2], features: &Fe
     }
 }
 
-/// Returns the points moved against `pull`, and whether the step as a whole was not shortened.
+/// Returns the points moved by −`pull`, or less where that is too far, and `false` if the entire
+/// step was shortened.
 fn step(points: &[[f64; 2]], pull: &[[f64; 2]], sides: [f64; 2]) -> (Vec<[f64; 2]>, bool) {
     let squares: f64 = pull.iter().map(|[x, y]| x * x + y * y).sum();
     let way = (squares / pull.len().max(1) as f64).sqrt();

@@ -1,5 +1,5 @@
-//! Features of a pattern that are brought to given values, and their derivatives by the points'
-//! places.
+//! Features of a pattern that are brought to given values, and the derivatives of the features with
+//! respect to the positions of the points.
 //!
 //! The features are numbers of pairs by distance, smoothed by a spline; two moments of the
 //! nearest-neighbour distances; and the power of long waves.
@@ -10,10 +10,12 @@ use super::spline;
 use super::waves::LongWaves;
 use std::f64::consts::TAU;
 
-/// Distance of the spline's nodes along r, in spacings.
+/// Distance between the spline's nodes along r, in spacings.
 const NODE: f64 = 0.1;
-/// Distance, in spacings, below which an excess of pairs is weighted as at this distance, as there
-/// are few of them.
+/// Distance, in spacings, below which pairs are weighted as if they were at this distance.
+///
+/// The weight of an excess of pairs is one over their distance, but nearer pairs are too few for
+/// that.
 const NEAR: f64 = 0.15;
 
 /// Mean and standard deviation of nearest-neighbour distances, in hexagonal spacings.
@@ -21,16 +23,17 @@ const NEAR: f64 = 0.15;
 pub struct NearestTarget {
     /// Mean nearest-neighbour distance, in hexagonal spacings.
     pub mean: f64,
-    /// Population standard deviation of these distances, in hexagonal spacings.
+    /// Population standard deviation of the nearest-neighbour distances, in hexagonal spacings.
     pub sd: f64,
 }
 
-/// Goals for the features of a pattern, with weights that bring all to about the unit of g, so that
-/// .01 is the same miss for each.
+/// Goals for the features of a pattern, with one weight per feature.
 ///
-/// Slot 0 belongs to the node at −[`NODE`] and slot k + 1 to node k; slots of nodes that are not
-/// controlled have weight 0. Then come the mean and mean square of the nearest-neighbour distances,
-/// and then the annuli of waves.
+/// The weights bring all features to about the unit of g (the pair correlation function), so that a
+/// miss of .01 means the same for each feature. Slot 0 of `goal` and `weight` belongs to the
+/// spline's node at −[`NODE`], and slot k + 1 to node k; slots of nodes that are not controlled
+/// have weight 0. The mean and the mean square of the nearest-neighbour distances follow, and then
+/// the annuli of waves.
 pub(super) struct Features {
     goal: Vec<f64>,
     weight: Vec<f64>,
@@ -39,7 +42,7 @@ pub(super) struct Features {
     waves: LongWaves,
 }
 
-/// Nearest neighbour of a point, with the way to it.
+/// Nearest neighbour of a point, with the vector and the squared distance to the neighbour.
 #[derive(Clone, Copy)]
 struct Nearest {
     partner: usize,
@@ -48,7 +51,9 @@ struct Nearest {
 }
 
 impl Features {
-    /// Creates the goals for `n` points of hexagonal spacing 1 and pairs nearer than `reach`.
+    /// Creates the goals for `n` points on a torus with the given sides, in hexagonal spacings.
+    ///
+    /// Only pairs nearer than `reach` are controlled.
     pub(super) fn new(
         target: &TargetCurve,
         nearest: Option<NearestTarget>,
@@ -81,7 +86,7 @@ impl Features {
         Self { goal, weight, nodes, nearest: nearest.is_some(), waves }
     }
 
-    /// Returns the weighted distance of each feature from its goal.
+    /// Returns the weighted difference between each feature and its goal.
     pub(super) fn misses(&self, points: &[[f64; 2]], list: &NeighbourList) -> Vec<f64> {
         let mut value = vec![0.; self.goal.len()];
         let pairs = &mut value[..self.nodes];
@@ -102,9 +107,10 @@ impl Features {
         value.iter().zip(&self.goal).zip(&self.weight).map(|((v, g), w)| (v - g) * w).collect()
     }
 
-    /// Computes J Jᵀ, row by row, where J is the Jacobian of the misses by the coordinates.
+    /// Computes J Jᵀ, row by row, where J is the Jacobian of the misses with respect to the
+    /// coordinates.
     ///
-    /// It is computed from the first `some` points and scaled up to all.
+    /// The matrix is computed from the first `some` points and scaled up to all points.
     pub(super) fn gram(&self, points: &[[f64; 2]], list: &NeighbourList, some: usize) -> Vec<f64> {
         let size = self.goal.len();
         let some = some.min(points.len());
@@ -138,7 +144,8 @@ impl Features {
         gram
     }
 
-    /// Computes Jᵀ y, a vector for each point.
+    /// Computes Jᵀ y, one vector per point, where J is the Jacobian of the misses with respect to
+    /// the coordinates.
     pub(super) fn pull(&self, points: &[[f64; 2]], list: &NeighbourList, y: &[f64]) -> Vec<[f64; 2]> {
         let y: Vec<f64> = y.iter().zip(&self.weight).map(|(y, w)| y * w).collect();
         let mut pull = vec![[0.; 2]; points.len()];
@@ -150,7 +157,8 @@ impl Features {
         pull
     }
 
-    /// Calls `add(i, slot, derivatives, direction)` for each dependence of features on a point.
+    /// Calls `add(i, slot, derivatives, direction)` for each group of features that depends on
+    /// point i.
     ///
     /// If point i moves by a small vector, the features from `slot` on change by `derivatives`
     /// times the scalar product of that vector and `direction`.
@@ -164,7 +172,7 @@ impl Features {
         list.visit(points, |i, j, dx, dy, square| {
             let d = square.sqrt();
             let (first, u) = place(d);
-            // Coincident points have no direction.
+            // The direction between coincident points is not defined.
             if d > 0. && first + 4 <= self.nodes {
                 let slopes = spline::slopes(u).map(|s| s / NODE);
                 let (x, y) = (dx / d, dy / d);
@@ -188,7 +196,7 @@ impl Features {
     }
 }
 
-/// Weight of a miss of the nearest-neighbour moments: as much as a miss of g at this many nodes.
+/// Weight of a miss of the nearest-neighbour moments, relative to a miss of g at one node.
 const NEAREST_WEIGHT: f64 = 2.;
 
 /// Weight of a miss of the power of an annulus, relative to a miss of g.
@@ -196,10 +204,10 @@ const NEAREST_WEIGHT: f64 = 2.;
 /// The power of an annulus scatters by 1/√(number of waves).
 const WAVE_WEIGHT: f64 = 0.1;
 
-/// Returns the first of the four slots in which a pair at distance `d` counts, and its place
-/// between the nodes.
+/// Returns the first of the four slots in which a pair at distance `d` counts, and the position of
+/// `d` between the nodes.
 ///
-/// The place is the distance beyond the second slot's node, as a share of [`NODE`].
+/// The position is the distance from the second slot's node to `d`, as a share of [`NODE`].
 #[inline]
 fn place(d: f64) -> (usize, f64) {
     let at = d / NODE;
@@ -209,7 +217,8 @@ fn place(d: f64) -> (usize, f64) {
 
 /// Computes ∫ 2πd g(d) B((d − r)/h) dd / h, with B the spline and h = [`NODE`].
 ///
-/// This is the number of pairs per length that the spline at r counts at density 1.
+/// The result is the number of pairs per length that the spline at r counts if the density of
+/// points is 1.
 fn pairs_per_length(target: &TargetCurve, r: f64) -> f64 {
     const PARTS: usize = 64;
     (0..PARTS)
@@ -220,7 +229,9 @@ fn pairs_per_length(target: &TargetCurve, r: f64) -> f64 {
         .sum()
 }
 
-/// Returns the nearest neighbour of every point; a point without any in reach is its own.
+/// Returns the nearest neighbour of every point.
+///
+/// A point that is in no listed pair is its own neighbour, at distance 0.
 fn nearest(points: &[[f64; 2]], list: &NeighbourList) -> Vec<Nearest> {
     let alone = |i| Nearest { partner: i, way: [0.; 2], square: f64::INFINITY };
     let mut nearest: Vec<Nearest> = (0..points.len()).map(alone).collect();

@@ -12,15 +12,16 @@ const PCF: [f64; 25] = [
     1.369, 1.391, 1.348, 1.248, 1.111, 0.969, 0.852, 0.772, 0.733, 0.729,
 ];
 
-/// Power at .05, .1, …, .85 √n of the same patterns, and 1 beyond; the ring at .62 √n makes the
-/// noise green.
+/// Power at .05, .1, …, .85 √n of the patterns of [`PCF`]; the power beyond is taken as 1.
+///
+/// The ring of high power at .62 √n makes the noise green.
 const SPECTRUM: [f64; 17] =
     [0.68, 0.85, 1.01, 1.12, 1.06, 0.98, 1.06, 1.07, 1.06, 1.25, 2.16, 3.51, 3.50, 2.30, 1.22, 1.05, 0.98];
 
-/// Moments of the nearest-neighbour distances on the torus.
+/// Mean and standard deviation of the nearest-neighbour distances on the torus, in spacings.
 ///
-/// Their ratio and mean are those of the two green sets that Lanaro et al. measured (means .343 and
-/// .352, ratios 1.376 and 1.425 to the standard deviation).
+/// The mean, and its ratio to the standard deviation, lie between those of the two green sets that
+/// Lanaro et al. measured (means .343 and .352, ratios 1.376 and 1.425).
 const NEAREST: NearestTarget = NearestTarget { mean: 0.348, sd: 0.2495 };
 
 static SHAPED: LazyLock<Shaped> =
@@ -28,8 +29,8 @@ static SHAPED: LazyLock<Shaped> =
 
 /// Green noise: clusters at a typical distance, so that the power gathers in a ring.
 ///
-/// It is [`Shaped`] with the curves of the patterns of Ahmed et al. (2015). The term is that of
-/// Lau, Arce & Gallagher (1998, “Green-noise digital halftoning”).
+/// The points are made by [`Shaped`] with the curves of the patterns of Ahmed et al. (2015). The
+/// term is that of Lau, Arce & Gallagher (1998, “Green-noise digital halftoning”).
 pub static GREEN: Noise = Noise {
     name: "green",
     about: "clusters at a typical distance, a ring of power at 0.62 √n: by optimisation towards the PCF and spectrum of Ahmed et al. (2015); exactly n",

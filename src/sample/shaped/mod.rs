@@ -26,8 +26,7 @@ use super::{Frame, SampleError, Sampler, Watch, nearest_in_number};
 use crate::geometry::{Point, Window};
 use rand::{Rng, RngExt};
 
-/// Points whose pair correlation function g is `curve`: uniform points, moved as little as makes it
-/// so.
+/// Uniform points, moved as little as possible until their pair correlation function g is `curve`.
 ///
 /// Öztireli and Gross (2012) and Heck et al. (2013) move points down the gradient of ∫ (g − g*)²,
 /// where g* is the function to reach. That takes hundreds of steps, since many points must move
@@ -49,9 +48,10 @@ use rand::{Rng, RngExt};
 /// and Deussen (2013), <https://doi.org/10.1145/2487228.2487233>.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shaped {
-    /// Pair correlation function to reach.
+    /// Pair correlation function that the points are to have.
     pub curve: TargetCurve,
-    /// Nearest-neighbour distances to reach as well, as g alone does not determine them.
+    /// Nearest-neighbour distances that the points are to have, as g alone does not determine them;
+    /// `None` leaves them free.
     pub nearest: Option<NearestTarget>,
 }
 
@@ -99,13 +99,14 @@ impl Sampler for Shaped {
     }
 }
 
-/// Most positions of a polygon on a pattern that are tried.
+/// Largest number of positions on the pattern at which the polygon is tried.
 const CUTS: usize = 64;
-/// Width of a window, in spacings, below which its points stay uniform.
+/// Least width of a window, in spacings, for which points are moved; in narrower windows they stay
+/// uniform.
 const NARROWEST: f64 = 1.;
 
 impl Shaped {
-    /// Returns points on [0, width) × [0, height).
+    /// Draws uniform points on [0, width) × [0, height) and moves them towards the target.
     fn moved(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Vec<[f64; 2]> {
         // lengths in units of the hexagonal spacing
         let scale = frame.spacing(n);

@@ -1,14 +1,15 @@
-/// List of the pairs of points of a torus that are nearer than a reach.
+/// List of the pairs of points on a torus that are nearer than the cut-off distance `reach`.
 ///
-/// Each pair is listed at the first of its two points. The list stays complete until a point has
-/// moved by half the margin with which it was made.
+/// Each pair is listed at the first of its two points. Pairs up to `reach` + `margin` apart are
+/// listed, so the list stays complete until a point has moved by half the margin.
 ///
 /// Source: Verlet (1967), <https://doi.org/10.1103/PhysRev.159.98>.
 pub(super) struct NeighbourList {
-    /// Start of each point's partners in `partners`, and the end of the last.
+    /// Index in `partners` at which the partners of each point start; the last entry is the end of
+    /// `partners`.
     starts: Vec<usize>,
     partners: Vec<u32>,
-    /// Positions at which the list was made.
+    /// Positions of the points when the list was made.
     made_at: Vec<[f64; 2]>,
     sides: [f64; 2],
     reach: f64,
@@ -16,7 +17,10 @@ pub(super) struct NeighbourList {
 }
 
 impl NeighbourList {
-    /// Creates the list for pairs nearer than `reach`, which is at most half of the shorter side.
+    /// Creates the list for pairs nearer than `reach`; `reach` is at most half of the torus's
+    /// shorter side.
+    ///
+    /// `margin` is the distance by which the list extends beyond `reach`.
     pub(super) fn new(points: &[[f64; 2]], sides: [f64; 2], reach: f64, margin: f64) -> Self {
         let mut list =
             Self { starts: Vec::new(), partners: Vec::new(), made_at: Vec::new(), sides, reach, margin };
@@ -24,7 +28,7 @@ impl NeighbourList {
         list
     }
 
-    /// Makes the list anew if a point has moved too far for it.
+    /// Makes the list anew if a point has moved by more than half the margin.
     pub(super) fn follow(&mut self, points: &[[f64; 2]]) {
         let most = self.margin * self.margin / 4.;
         let moved = points.iter().zip(&self.made_at).any(|(p, q)| {
@@ -36,7 +40,7 @@ impl NeighbourList {
         }
     }
 
-    /// Returns the vector from `p` to the nearest image of `q`.
+    /// Returns the vector from `p` to the nearest periodic image of `q` on the torus.
     #[inline]
     pub(super) fn shortest(&self, p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
         let wrap = |d: f64, side: f64| {
@@ -52,7 +56,8 @@ impl NeighbourList {
         [wrap(q[0] - p[0], self.sides[0]), wrap(q[1] - p[1], self.sides[1])]
     }
 
-    /// Calls `pair(i, j, dx, dy, d²)` once for every pair nearer than the reach.
+    /// Calls `pair(i, j, dx, dy, d²)` once for every pair nearer than `reach`, with (dx, dy) the
+    /// vector from point i to point j.
     #[inline]
     pub(super) fn visit(&self, points: &[[f64; 2]], mut pair: impl FnMut(usize, usize, f64, f64, f64)) {
         let reach2 = self.reach * self.reach;
@@ -78,8 +83,8 @@ impl NeighbourList {
             let at = cell(p[1], self.sides[1], rows) * columns + cell(p[0], self.sides[0], columns);
             cells[at].push(i as u32);
         }
-        // Cells are at least half a reach wide, so two on either side are searched; on a small
-        // torus each cell once.
+        // Cells are at least half as wide as `far`, so two cells on either side are searched. On a
+        // small torus all cells are searched, each once.
         let around = |at: usize, cells: usize| -> Vec<usize> {
             if cells <= 5 {
                 (0..cells).collect()

@@ -4,14 +4,14 @@ use crate::sample::{Frame, SampleError, Sampler, Watch};
 use rand::Rng;
 use std::sync::LazyLock;
 
-/// Noise with known curves: [`Shaped`] under a name of its own.
+/// Noise with a known pair correlation function and spectrum: [`Shaped`] under a name of its own.
 #[derive(Debug)]
 pub struct Noise {
     /// Name that users type, see [`Sampler::name`].
     pub(in crate::sample) name: &'static str,
     /// One line about the pattern, see [`Sampler::about`].
     pub(in crate::sample) about: &'static str,
-    /// Sampler with the curves, made when first asked for.
+    /// Sampler with the pair correlation function and spectrum, created on first use.
     pub(in crate::sample) shaped: &'static LazyLock<Shaped>,
 }
 

@@ -11,16 +11,17 @@ const PCF: [f64; 25] = [
     0.956, 0.977, 0.997, 1.008, 1.013, 1.017, 1.016, 1.009, 0.999, 0.987,
 ];
 
-/// Power at .05, .1, …, .85 √n of the same patterns, and 1 beyond; it falls from low frequencies to
-/// .65 √n.
+/// Power at .05, .1, …, .85 √n of the patterns of [`PCF`]; the power beyond is taken as 1.
+///
+/// The power falls from low frequencies to .65 √n.
 const SPECTRUM: [f64; 17] =
     [3.44, 3.26, 3.28, 3.04, 2.99, 2.76, 2.35, 2.24, 2.05, 1.91, 1.71, 1.41, 1.22, 1.04, 1.04, 0.98, 0.99];
 
-/// Moments of the nearest-neighbour distances on the torus.
+/// Mean and standard deviation of the nearest-neighbour distances on the torus, in spacings.
 ///
-/// Their mean is that of the two pink sets that Lanaro et al. measured (.372 and .378). Their ratio
-/// to the standard deviation lies between that of these two (1.48, 1.50) and that of the mean of
-/// many.
+/// The mean lies between those of the two pink sets that Lanaro et al. measured (.372 and .378).
+/// The ratio of the mean to the standard deviation lies between the ratios of the two sets (1.48
+/// and 1.50) and that of the mean over many patterns.
 const NEAREST: NearestTarget = NearestTarget { mean: 0.376, sd: 0.2615 };
 
 static SHAPED: LazyLock<Shaped> =
@@ -28,7 +29,7 @@ static SHAPED: LazyLock<Shaped> =
 
 /// Pink noise: power falls with frequency, and points gather in clouds.
 ///
-/// It is [`Shaped`] with the curves of the patterns of Ahmed et al. (2015).
+/// The points are made by [`Shaped`] with the curves of the patterns of Ahmed et al. (2015).
 pub static PINK: Noise = Noise {
     name: "pink",
     about: "clouds, power that falls up to 0.65 √n: by optimisation towards the PCF and spectrum of Ahmed et al. (2015); exactly n",

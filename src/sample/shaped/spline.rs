@@ -10,7 +10,7 @@ pub(super) fn weights(u: f64) -> [f64; 4] {
     [v * v * v / 6., middle(u), middle(v), u * u * u / 6.]
 }
 
-/// Returns the derivatives of [`weights`] by `u`.
+/// Returns the derivatives of [`weights`] with respect to `u`.
 #[inline]
 pub(super) fn slopes(u: f64) -> [f64; 4] {
     let v = 1. - u;
@@ -18,7 +18,7 @@ pub(super) fn slopes(u: f64) -> [f64; 4] {
     [-0.5 * v * v, middle(u), -middle(v), 0.5 * u * u]
 }
 
-/// Returns the value at distance `t` from the centre.
+/// Returns the value of the spline at distance `t` from its centre.
 pub(super) fn at(t: f64) -> f64 {
     match t.abs() {
         t if t < 1. => 2. / 3. - t * t + 0.5 * t * t * t,

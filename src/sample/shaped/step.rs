@@ -4,13 +4,15 @@ use crate::sample::{Configure, Frame, SampleError, Sampler, Settable, Setting, W
 use rand::Rng;
 use std::f64::consts::FRAC_2_SQRT_PI;
 
-/// Highest frequency, in √n, at which g stays at or above 0: 1/√π, where g(0) = 1 − π f² = 0 (Heck
-/// et al. 2013, §4).
+/// Highest possible frequency of the step, in √n: 1/√π, at which g(0) = 1 − π f² is 0.
+///
+/// A higher frequency would need a negative g (Heck et al. 2013, §4).
 const HIGHEST: f64 = 0.5 * FRAC_2_SQRT_PI;
 
 /// Step blue noise: no power below a frequency, and the power of independent points above it.
 ///
-/// It is [`Shaped`] with g(r) = 1 − f J₁(2πfr)/r.
+/// The points are made by [`Shaped`] with the target g(r) = 1 − f J₁(2πfr)/r, where f is the
+/// frequency of the step and J₁ a Bessel function.
 ///
 /// Source: Heck, Schlömer and Deussen (2013), <https://doi.org/10.1145/2487228.2487233>.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +22,7 @@ pub struct Step {
 }
 
 impl Step {
-    /// Setting with the step at 1/√π √n, the highest possible.
+    /// Setting with the step at the highest possible frequency, 1/√π √n.
     pub const HIGHEST: Self = Self { frequency: HIGHEST };
 
     fn shaped(&self) -> Shaped {

@@ -4,17 +4,23 @@ use super::curve::TargetCurve;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
 
-/// Highest frequency of a long wave, in cycles per spacing.
+/// Highest frequency of a controlled wave, in cycles per hexagonal spacing.
 ///
-/// These waves reach farther than the pairs that are controlled; g determines the others.
+/// Waves up to this frequency are longer than the controlled distances of pairs, so g does not
+/// determine them; it determines all shorter waves.
 const HIGHEST: f64 = 0.25;
-/// Approximate number of waves to control at most, the longest ones: their number grows with n.
+/// Largest number of waves that are controlled, since the number of long waves grows with n.
+///
+/// The longest waves are taken, annulus by annulus; the first annulus is taken in any case.
 const MOST: usize = 256;
 
-/// Long waves of a torus of hexagonal spacing 1, by annuli of |k|√A, and the power that each
-/// annulus is to have.
+/// Long waves on a torus, grouped in annuli of similar frequency, with the power wanted for each
+/// annulus.
+///
+/// The hexagonal spacing is 1. With A the area of the torus, annulus k holds the waves whose
+/// frequency, times √A, rounds to k.
 pub(super) struct LongWaves {
-    /// Whole wave numbers (kx, ky), annulus by annulus; of a wave and its opposite only one is
+    /// Integer wave numbers (kx, ky), annulus by annulus. Of two opposite waves, only one is
     /// listed.
     waves: Vec<(usize, isize)>,
     annuli: Vec<Annulus>,
@@ -28,7 +34,7 @@ struct Annulus {
 }
 
 impl LongWaves {
-    /// Creates the list of waves; it is empty if the target says nothing about the spectrum.
+    /// Creates the list of waves; the list is empty if the spectrum of `target` is not known.
     pub(super) fn new(target: &TargetCurve, sides: [f64; 2]) -> Self {
         let mut long = Self { waves: Vec::new(), annuli: Vec::new(), sides, highest: [0; 2] };
         let root = (sides[0] * sides[1]).sqrt();
@@ -81,8 +87,8 @@ impl LongWaves {
         self.annuli.iter().map(mean).collect()
     }
 
-    /// Calls `add(i, a, gradient)` with the gradient of the power of annulus `a` by the place of
-    /// point `i`.
+    /// Calls `add(i, a, gradient)` with the gradient of the power of annulus `a` with respect to
+    /// the position of point `i`.
     pub(super) fn derive(&self, points: &[[f64; 2]], mut add: impl FnMut(usize, usize, [f64; 2])) {
         if self.waves.is_empty() {
             return;
