@@ -12,7 +12,8 @@ use crate::stats::{Deviation, moments};
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Two-sided 95 % point of the normal distribution, rounded as Bland & Altman print it.
+/// Half-width of a two-sided 95 % interval, in standard deviations of a normal distribution,
+/// rounded as Bland & Altman print it.
 const Z: f64 = 1.96;
 
 /// Agreement of two methods that measure the same quantity, computed from the differences first −

@@ -9,7 +9,8 @@
 use super::{Agreement, Interval, agreement};
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 
-/// Two-sided 95 % point of the normal distribution, rounded as Bland & Altman print it.
+/// Half-width of a two-sided 95 % interval, in standard deviations of a normal distribution,
+/// rounded as Bland & Altman print it.
 const Z: f64 = 1.96;
 
 /// Agreement of two methods for measurements that fall into clusters, such as the images of one

@@ -24,14 +24,14 @@ pub struct Intraclass {
     /// Number of raters, sessions or programs.
     pub raters: usize,
     /// Absolute agreement, ICC(2,1): reliability of a single measurement by a rater drawn at
-    /// random. Differences between the raters' means lower it. `None` if all measurements are
-    /// equal.
+    /// random. It is lower if the raters' means differ. `None` if all measurements are equal.
     pub agreement: Option<f64>,
     /// 95 % confidence interval of `agreement` (McGraw & Wong 1996, case 2A); `None` if it is
     /// undefined.
     pub agreement_interval: Option<Interval>,
     /// Consistency, ICC(3,1): reliability of a single measurement by one of exactly these raters.
-    /// Differences between the raters' means do not lower it. `None` if all measurements are equal.
+    /// It does not depend on differences between the raters' means. `None` if all measurements are
+    /// equal.
     pub consistency: Option<f64>,
     /// 95 % confidence interval of `consistency` (McGraw & Wong 1996, case 3C); `None` if it is
     /// undefined.

@@ -14,11 +14,14 @@ pub struct Difference {
     pub measure: &'static str,
     /// Number of images for which both detectors have a value of the measure.
     pub images: usize,
-    /// Mean of the measure for the first detector, over the images for which both have a value.
+    /// Mean of the measure for the first detector, over the images for which both detectors have a
+    /// value.
     pub first: f64,
-    /// Mean of the measure for the second detector, over the images for which both have a value.
+    /// Mean of the measure for the second detector, over the images for which both detectors have a
+    /// value.
     pub second: f64,
-    /// Mean difference, first − second, over the images for which both have a value.
+    /// Mean of the differences first − second, over the images for which both detectors have a
+    /// value.
     pub difference: f64,
     /// 95 % bootstrap interval (bias-corrected and accelerated, BCa) of the mean difference; `None`
     /// for fewer than two groups of images.

@@ -1,9 +1,10 @@
 //! Free-response ROC curves (FROC): sensitivity against false alarms as the threshold of the score
 //! falls (Bunch et al. 1978).
 //!
-//! 1. Each image is judged once, from the surest detection to the least sure ([`judge`]).
-//! 2. The judged detections of all images are merged in order of score. At each score that occurs,
-//!    the hits and false alarms so far give one point of the curve ([`froc`]).
+//! 1. Within each image, detections are compared with the marks once, from the highest score to the
+//!    lowest ([`judge`]).
+//! 2. The detections of all images are merged in order of score. At each score that occurs, the
+//!    hits and false alarms so far give one point of the curve ([`froc`]).
 
 use super::Rates;
 use super::matching::{Field, Index, MOST_CANDIDATES, MatchError, MatchOptions, check, reach};
@@ -39,7 +40,7 @@ pub struct Judged {
 pub struct JudgedImage {
     /// Judged detections, from the highest score to the lowest.
     pub judged: Vec<Judged>,
-    /// Number of marks outside the border.
+    /// Number of marks outside the border of the image.
     pub marks: usize,
     /// Area of the image without its border, in mm²; `None` if the scale is unknown. [`judge`]
     /// leaves the field `None`; the caller may set it.
@@ -102,9 +103,10 @@ pub fn judge(
 pub struct FrocPoint {
     /// Lowest score of a detection that counts at this point.
     pub threshold: f64,
-    /// Hits / (hits + misses), all images pooled.
+    /// Sensitivity: hits / (hits + misses), all images pooled.
     pub sensitivity: f64,
-    /// Hits / (hits + false alarms), all images pooled; 0 if there are no hits and no false alarms.
+    /// Precision: hits / (hits + false alarms), all images pooled; 0 if there are no hits and no
+    /// false alarms.
     pub precision: f64,
     /// Dice coefficient (F1), 2 hits / (2 hits + misses + false alarms), all images pooled.
     pub dice: f64,

@@ -3,7 +3,7 @@
 //!
 //! 1. The cut-off distance of a pair is a fraction of the median nearest-neighbour distance of the
 //!    marks.
-//! 2. Marks are paired with detections nearer than that ([`Assignment`]).
+//! 2. Marks are paired with detections within the cut-off distance ([`Assignment`]).
 //! 3. Pairs and unpaired points are counted, except in a border along the edges of the image.
 
 use super::assignment::assign;
@@ -66,7 +66,8 @@ pub struct MatchOptions {
     /// Largest distance allowed in a pair, as a positive fraction of the median nearest-neighbour
     /// distance of the marks. Default: 0.75.
     pub fraction: f64,
-    /// Rule that decides between several possible partners. Default: nearest.
+    /// Rule that decides between several possible partners of a mark or a detection. Default:
+    /// [`Assignment::Nearest`].
     pub assignment: Assignment,
 }
 
@@ -92,7 +93,7 @@ impl MatchOptions {
     }
 }
 
-/// Points with a coordinate beyond ± this value, in px, are refused. Up to it, distances are exact
+/// Largest absolute coordinate that is accepted, in px. Up to this value, distances are exact
 /// enough to compare.
 const LARGEST: f64 = 1e9;
 
@@ -141,9 +142,11 @@ pub struct Pair {
 pub struct Matching {
     /// All pairs, sorted by index of the mark.
     pub pairs: Vec<Pair>,
-    /// Marks outside the border without a detection: indices in ascending order.
+    /// Indices of the marks outside the border of the image that have no detection, in ascending
+    /// order.
     pub misses: Vec<usize>,
-    /// Detections outside the border without a mark: indices in ascending order.
+    /// Indices of the detections outside the border of the image that have no mark, in ascending
+    /// order.
     pub false_alarms: Vec<usize>,
     /// One flag per mark: `true` if the mark lies in the border of the image.
     pub marks_in_border: Vec<bool>,
@@ -151,22 +154,23 @@ pub struct Matching {
     pub detections_in_border: Vec<bool>,
     /// Largest distance allowed in a pair, in px.
     pub limit: f64,
-    /// Rule that decided between several possible partners.
+    /// Rule that decided between several possible partners of a mark or a detection.
     pub assignment: Assignment,
 }
 
 impl Matching {
-    /// Returns the number of hits: pairs outside the border.
+    /// Returns the number of hits: pairs with mark and detection outside the border of the image.
     pub fn true_positives(&self) -> usize {
         self.pairs.iter().filter(|p| p.counted).count()
     }
 
-    /// Returns the number of misses: marks outside the border without a detection.
+    /// Returns the number of misses: marks outside the border of the image that have no detection.
     pub fn false_negatives(&self) -> usize {
         self.misses.len()
     }
 
-    /// Returns the number of false alarms: detections outside the border without a mark.
+    /// Returns the number of false alarms: detections outside the border of the image that have no
+    /// mark.
     pub fn false_positives(&self) -> usize {
         self.false_alarms.len()
     }
@@ -259,13 +263,13 @@ impl Field {
         Self { width: width as f64, height: height as f64, border }
     }
 
-    /// Returns whether a point lies in the border.
+    /// Returns whether a point lies in the border of the image.
     pub(super) fn is_border(&self, p: &Point) -> bool {
         let Self { width: w, height: h, border: b } = *self;
         p.x <= b - 0.5 || p.x >= w - b - 0.5 || p.y <= b - 0.5 || p.y >= h - b - 0.5
     }
 
-    /// Returns the area inside the border, in px².
+    /// Returns the area of the image without its border, in px².
     pub(super) fn area(&self) -> f64 {
         let side = |pixels: f64| (pixels - 2. * self.border).max(0.);
         side(self.width) * side(self.height)
@@ -306,8 +310,8 @@ pub(super) struct Index<'a> {
     tree: NeighbourTree,
 }
 
-/// Pairing considers at most this number of nearest candidates per point. If more lie within the
-/// cut-off distance, the detections are no cones.
+/// Largest number of nearest candidates per point that the pairing considers. If more lie within
+/// the cut-off distance, the detections are no cones.
 pub(super) const MOST_CANDIDATES: usize = 64;
 
 impl<'a> Index<'a> {

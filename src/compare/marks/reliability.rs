@@ -8,9 +8,9 @@
 use crate::compare::Interval;
 use serde::Serialize;
 
-/// Scores between 0 and 1 are divided into this number of bins of equal width.
+/// Number of bins of equal width into which the scores between 0 and 1 are divided.
 const BINS: usize = 10;
-/// Half-width of a two-sided 95 % interval in standard deviations of the normal distribution.
+/// Half-width of a two-sided 95 % interval, in standard deviations of a normal distribution.
 const Z: f64 = 1.96;
 
 /// Detections with scores in one interval (bin), compared with the marks.

@@ -13,9 +13,9 @@ pub struct PrintedRegularity {
     /// Name of the mosaic or of the sampler's point set, as printed.
     #[serde(rename = "mosaic")]
     pub name: String,
-    /// Mean of the nearest-neighbour distances.
+    /// Mean of the nearest-neighbour distances, in µm for a mosaic.
     pub mean: f64,
-    /// Population standard deviation of the nearest-neighbour distances.
+    /// Population standard deviation of the nearest-neighbour distances, in µm for a mosaic.
     pub sd: f64,
     /// Regularity index: `mean` divided by `sd`, as printed.
     pub ri: f64,

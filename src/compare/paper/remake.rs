@@ -75,7 +75,7 @@ pub struct MadeRow {
     pub sampler: String,
     /// Number of points asked of the sampler.
     pub n: usize,
-    /// Number of patterns made.
+    /// Number of patterns that were drawn.
     pub patterns: usize,
     /// Mean and standard deviation, over the patterns, of a pattern's mean nearest-neighbour
     /// distance.
@@ -87,8 +87,8 @@ pub struct MadeRow {
     pub ri: Moments,
 }
 
-/// A printed value agrees with the computed ones if it lies at most this number of their standard
-/// deviations from their mean.
+/// Largest distance of a printed value from the mean of the computed values, in their standard
+/// deviations, at which the two are said to agree.
 const USUAL: f64 = 2.;
 
 impl MadeRow {

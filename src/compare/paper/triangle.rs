@@ -13,8 +13,8 @@ pub struct Tightest {
     pub mosaic: String,
     /// Pair of samplers, as indices of columns of Table 2.
     pub between: [usize; 2],
-    /// Margin that is left before the measured distance between the two samplers violates the
-    /// triangle inequality; negative if it violates it.
+    /// Distance that is left before the triangle inequality is violated; negative if it is
+    /// violated.
     pub room: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Classes of mosaics that share the reference curves of samplers.
+//! Classes of mosaics that share one reference curve per sampler.
 //!
 //! A mean curve depends on the mosaic only through the number of points and the shape of the
 //! window, and changes slowly with both. Number of points and aspect ratio are therefore rounded to
@@ -120,8 +120,8 @@ impl Class {
     }
 }
 
-/// A rectangle stands in for a polygon only up to this ratio of squared perimeter to area: that of
-/// a 2.16 : 1 rectangle.
+/// Largest ratio of squared perimeter to area at which a polygon uses the curve of a rectangle:
+/// that of a 2.16 : 1 rectangle.
 const LONGEST: f64 = 18.5;
 
 impl Shape {

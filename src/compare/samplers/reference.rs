@@ -287,8 +287,8 @@ mod tests {
         }
     }
 
-    /// Sampler that spreads its work over threads, so that its own thread may meanwhile be given
-    /// another question.
+    /// Sampler that distributes its work over threads, so that its own thread may meanwhile take up
+    /// another request for curves.
     #[derive(Debug)]
     struct Parallel;
 
@@ -314,7 +314,7 @@ mod tests {
             let answers: Vec<_> = pool.install(|| {
                 (0..200).into_par_iter().map(|i| shared.curves(40 + i % 3, &Window::unit_torus())).collect()
             });
-            // private and shared work must give the same curves
+            // requests from inside and outside the thread pool must give the same curves
             for (i, answer) in answers.iter().enumerate() {
                 assert_eq!(answer, &shared.curves(40 + i % 3, &Window::unit_torus()), "question {i}");
             }

@@ -1,7 +1,7 @@
 //! Reference curves that come with the program.
 //!
-//! They are those of the default samplers, options and seed, for the classes of mosaics that are
-//! usual for images. `scripts/make-curves` computes `curves.bin` again.
+//! The table has curves of the default samplers, with the default options and seed, for the classes
+//! of mosaics that are usual for images. `scripts/make-curves` computes `curves.bin` again.
 
 use super::curve_class::{Class, Shape};
 use super::shipped_codec::{self as codec, Entry, Key};
