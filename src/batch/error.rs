@@ -223,7 +223,7 @@ pub enum BatchError {
     /// A scale that is not a positive number.
     #[error(transparent)]
     Scale(#[from] crate::mosaic::ScaleError),
-    /// Points that form no mosaic.
+    /// Points from which no mosaic can be made.
     #[error("{file}: {source}", file = file.display())]
     Mosaic {
         /// Path of the coordinate file.

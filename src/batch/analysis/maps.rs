@@ -12,7 +12,8 @@ use std::path::Path;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MapWindow {
-    /// The square grows until it holds this number of bound cells; see [`LocalWindow::Cells`].
+    /// The square grows until it contains this number of bound cells (Voronoi cells strictly inside
+    /// the window of the mosaic); see [`LocalWindow::Cells`].
     Cells(usize),
     /// The square has a side of this length.
     Side(Length),

@@ -91,8 +91,8 @@ impl Plan {
         self.maps.is_some() || self.metrics.has_any_of(MetricGroup::Fourier, SummaryKind::Images)
     }
 
-    /// Returns, as JSON, the part of the plan on which the results of an image depend. Two plans
-    /// with the same value give the same results.
+    /// Returns, as JSON, the part of the plan on which the results of an image depend. It serves to
+    /// tell plans apart.
     ///
     /// The sources of scales and labels are left out, since only the scale and the labels of each
     /// image matter.

@@ -58,8 +58,8 @@ impl GroupBy {
     }
 }
 
-/// A density is reported as unlikely if it is more than this number of times the expected density,
-/// or less than the reciprocal.
+/// Limit of a likely density, as a ratio to the expected density: a density that is more than twice
+/// or less than half the expected one is reported as unlikely.
 ///
 /// In the foveal centre, where eyes differ most, Curcio et al. (1990,
 /// <https://doi.org/10.1002/cne.902920402>) counted 100 000 to 324 000 cones per mm² in healthy

@@ -48,7 +48,8 @@ pub struct Leftovers {
     pub moved: Vec<String>,
     /// Folder to which results of earlier runs were moved.
     pub place: PathBuf,
-    /// Files that a person made or changed. They stay where they are.
+    /// Files and folders in the result folder that a person made or changed; they stay where they
+    /// are.
     pub foreign: Vec<String>,
 }
 

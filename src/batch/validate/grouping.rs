@@ -5,8 +5,8 @@ use std::str::FromStr;
 /// The rule that derives the group of an image from its name.
 #[derive(Clone, Debug)]
 pub enum Grouping {
-    /// The group is the first parts of the name, as separated by underscores; the value is their
-    /// number.
+    /// The group is the first parts of the name, which underscores separate; the value is the
+    /// number of parts. By `prefix:2`, the group of `AD_10253_790nm` is `AD_10253`.
     Prefix(usize),
     /// The group is the text that the first capture group of a regular expression matches; in an
     /// expression without capture groups, it is the entire match.

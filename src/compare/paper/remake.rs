@@ -87,8 +87,8 @@ pub struct MadeRow {
     pub ri: Moments,
 }
 
-/// Largest distance of a printed value from the mean of the computed values, in their standard
-/// deviations, at which the two are said to agree.
+/// Largest distance between a printed value and the mean of the computed values, in standard
+/// deviations of the computed values, at which the two are said to agree.
 const USUAL: f64 = 2.;
 
 impl MadeRow {

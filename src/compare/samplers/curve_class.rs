@@ -128,7 +128,7 @@ impl Shape {
     /// Returns the class of the rectangle with the same perimeter² / area as a polygon; `None` for
     /// polygons with holes, and for polygons more elongated than [`LONGEST`] allows.
     ///
-    /// A rectangle with an aspect ratio of a has P²/A = 4 (a + 1/a) + 8.
+    /// For a rectangle with perimeter P, area A and aspect ratio a, P²/A = 4 (a + 1/a) + 8.
     fn like(polygon: &Polygon) -> Option<Self> {
         let [_] = polygon.rings() else { return None };
         let perimeter = Window::Polygon(polygon.clone()).perimeter();

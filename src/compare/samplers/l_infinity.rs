@@ -31,7 +31,8 @@ pub enum CompareError {
         /// Reason of the failure.
         source: SampleError,
     },
-    /// Sampler whose pattern has no pair correlation function or spectrum.
+    /// Sampler for whose pattern a statistic, such as the pair correlation function, could not be
+    /// computed.
     #[error("sampler {sampler}: {source}")]
     Stats {
         /// Name of the sampler.

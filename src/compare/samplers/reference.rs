@@ -22,8 +22,8 @@ use std::sync::Arc;
 pub struct ReferenceCurve {
     /// Name of the sampler.
     pub sampler: String,
-    /// Mean pair correlation function. Its field `spacing` is the hexagonal spacing of `n` points
-    /// in a window of area 1.
+    /// Mean pair correlation function. The field `spacing` of [`Pcf`] is the hexagonal spacing of
+    /// `n` points in a window of area 1.
     pub pcf: Pcf,
     /// Number of points asked of the sampler. It is the middle of the mosaic's class, so it may
     /// differ from the mosaic's own number by about 10 %.

@@ -13,7 +13,7 @@ use flate2::{Compression, read::ZlibDecoder, write::ZlibEncoder};
 use std::collections::HashMap;
 use std::io::{Read, Write};
 
-/// Step to multiples of which g is rounded: 1/100 of the noise of the best curves.
+/// Rounding step of g: 1/100 of the noise of the best curves.
 pub(super) const STEP: f64 = 1e-4;
 /// First bytes of the file: name and version of the format.
 const MAGIC: &[u8] = b"curves 1";
