@@ -1,7 +1,8 @@
-//! Sets `CONEMOSAIC_BUILD_HASH`, a SHA-256 of everything that decides what the program computes.
+//! Sets `CONEMOSAIC_BUILD_HASH`, a SHA-256 of the source code, weights, tables and `Cargo.lock`, on
+//! which the results of the program depend.
 //!
 //! A resumed run may keep an earlier result only if the same code and weights made it. The version
-//! cannot tell, as it stays the same while the code changes.
+//! number cannot tell, as it stays the same while the code changes.
 
 use sha2::{Digest, Sha256};
 use std::fs;
@@ -11,14 +12,14 @@ use std::path::{Path, PathBuf};
 fn main() -> io::Result<()> {
     let mut files = Vec::new();
     collect(Path::new("src"), &mut files)?;
-    // the crate must also build without its lock file, as in a vendored copy
+    // `Cargo.lock` may be missing, as in a vendored copy
     files.extend(Some(PathBuf::from("Cargo.lock")).filter(|lock| lock.is_file()));
     files.sort();
 
     let mut hash = Sha256::new();
     for file in &files {
         let bytes = fs::read(file)?;
-        // the lengths keep the end of one file from being read as the start of the next
+        // the lengths keep the end of one file from being taken for the start of the next
         hash.update(format!("{}\0{}\0", file.display().to_string().replace('\\', "/"), bytes.len()));
         hash.update(bytes);
     }
@@ -29,12 +30,14 @@ fn main() -> io::Result<()> {
     Ok(())
 }
 
-/// Adds the code and the weights below `folder` to `files`.
+/// Adds all source files, weights and tables below `folder` to `files`, except those of the command
+/// line.
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
-        // results depend on options, not on the words of the command line that set them; leaving
-        // the command line out of the hash lets an edit there recompile the binary only
+        // results depend on the values of options, not on the text of the command line that sets
+        // them; leaving the command line out of the hash lets an edit there recompile the binary
+        // only
         if path.ends_with("cli") || path.ends_with("main.rs") {
             continue;
         }

@@ -1,4 +1,4 @@
-//! Error for a word that names no variant of an enum.
+//! Error for a word that is not among the choices of an option.
 //!
 //! # Examples
 //! ```
@@ -11,7 +11,7 @@
 use strum::VariantNames;
 use thiserror::Error;
 
-/// Word that is none of those that may be chosen.
+/// Word that is not among the names of an enum's variants.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("“{given}” is none of {}", .choices.join(", "))]
 pub struct UnknownChoice {
@@ -25,7 +25,7 @@ impl UnknownChoice {
         Self { given: given.to_owned(), choices: T::VARIANTS }
     }
 
-    /// Returns the words that may be chosen.
+    /// Returns the words that would have been accepted.
     pub const fn choices(&self) -> &'static [&'static str] {
         self.choices
     }

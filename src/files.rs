@@ -1,4 +1,4 @@
-//! Atomic writing of files: a file appears whole or not at all.
+//! Atomic writing of files: a file appears complete or not at all.
 //!
 //! # Examples
 //! ```
@@ -17,14 +17,15 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Writes a file whole or not at all.
+/// Writes a file completely or not at all.
 ///
 /// The content goes into a temporary file in the same folder, which is synced to the disk and then
-/// renamed. A failure, a panic, an interruption or a loss of power leaves the earlier file as it
-/// was. Devices and pipes are written directly.
+/// renamed to `path`. A failure, a panic, an interruption or a loss of power leaves an earlier file
+/// at `path` as it was. Devices and pipes are written directly.
 ///
 /// # Errors
-/// Fails if the operating system or `write` refuses. Nothing then remains of the attempt.
+/// Fails if the operating system refuses or `write` returns an error. The temporary file is then
+/// removed.
 pub fn write_atomically(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
@@ -34,7 +35,7 @@ pub fn write_atomically(
         write(&mut writer)?;
         return writer.flush();
     }
-    // A symbolic link must keep pointing where it pointed, so its target is replaced.
+    // a symbolic link must stay a link to the same place, so the file behind it is replaced
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let (temporary, file) = Temporary::beside(&target)?;
     let mut writer = BufWriter::new(file);
@@ -44,17 +45,17 @@ pub fn write_atomically(
     fs::rename(&temporary.0, &target)
 }
 
-/// Syncs a folder's list of names to the disk, where the operating system can, so that renames in
-/// it survive a loss of power.
+/// Syncs a folder's list of names to the disk, if the operating system can, so that renames in the
+/// folder survive a loss of power.
 pub fn sync_folder(path: &Path) {
-    // Windows opens no folders as files and needs no such call; elsewhere the program could do
-    // nothing about a refusal
+    // Windows does not open folders as files and does not need this call. On other systems a
+    // refusal is ignored, as the program could do nothing about it.
     if let Ok(folder) = File::open(path) {
         let _ = folder.sync_all();
     }
 }
 
-/// Temporary file that is removed when dropped, unless it was renamed before.
+/// Temporary file that is removed when dropped, unless it has been renamed by then.
 struct Temporary(PathBuf);
 
 impl Temporary {
@@ -66,7 +67,8 @@ impl Temporary {
             let path = target.with_file_name(format!(".conemosaic-{}-{count}.tmp", std::process::id()));
             match OpenOptions::new().write(true).create_new(true).open(&path) {
                 Ok(file) => return Ok((Self(path), file)),
-                // left behind by a killed process with the same process number
+                // a killed process with the same process number has left this file: try the next
+                // name
                 Err(e) if e.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(e) => return Err(e),
             }

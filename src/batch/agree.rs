@@ -7,49 +7,55 @@ use crate::report::{AgreementLine, AgreementPanel, FigureFormat, agreement_figur
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Options of comparing graders, sessions or programs.
+/// Options of [`agree_files`], which compares graders, sessions or programs.
 #[derive(Clone, Debug, Default)]
 pub struct AgreementOptions {
-    /// Columns to compare; empty: all that hold numbers in every table.
+    /// Columns to compare. If the list is empty, all columns are compared that hold numbers in
+    /// every table.
     pub columns: Vec<String>,
-    /// Rule by which images form groups, such as those of a subject; images of a group do not count
-    /// as independent.
+    /// Rule by which images form groups, such as the images of one subject; images of a group do
+    /// not count as independent. `None`: every image counts as independent.
     pub grouping: Option<Grouping>,
     /// Formats of the figure besides SVG.
     pub figures: Vec<FigureFormat>,
 }
 
-/// Agreement of two graders in one column.
+/// Agreement of two graders in one column of their tables.
 #[derive(Clone, Debug)]
 pub struct ColumnAgreement {
     /// Name of the column.
     pub column: String,
-    /// Names of the two graders: differences are the first minus the second.
+    /// Names of the two graders. Differences are the value of the first grader minus that of the
+    /// second.
     pub graders: [String; 2],
-    /// Name of every image that both graders have, with their two values.
+    /// Name of each image that both graders have measured, with the values of the first and the
+    /// second grader.
     pub pairs: Vec<(String, [f64; 2])>,
-    /// Bias and limits of agreement.
+    /// Bias and limits of agreement of the differences, with their confidence intervals.
     pub agreement: ClusteredAgreement,
-    /// Intraclass correlation of the two; its interval takes images as independent.
+    /// Intraclass correlation of the two graders; its interval takes images as independent. `None`
+    /// if it cannot be computed.
     pub intraclass: Option<Intraclass>,
 }
 
-/// Results of comparing graders.
+/// Results of comparing graders by [`agree_files`].
 #[derive(Clone, Debug)]
 pub struct AgreementOutcome {
     /// Agreements, one per column and pair of graders.
     pub columns: Vec<ColumnAgreement>,
-    /// Correlation over all graders by column, where there are more than two graders.
+    /// Intraclass correlation over all graders, with the name of the column; empty if there are
+    /// only two graders.
     pub overall: Vec<(String, Intraclass)>,
-    /// Images that some graders lack, with the names of those graders.
+    /// Images that are missing from some tables: name of the image, and names of the graders who
+    /// lack it, separated by commas.
     pub unpaired: Vec<(String, String)>,
-    /// The state of grouping: `true` if images were grouped, so that those of a group do not count
-    /// as independent.
+    /// `true` if images were grouped, so that the images of one group did not count as independent.
     pub grouped: bool,
 }
 
 impl AgreementOutcome {
-    /// Returns in words what a reader must know about the intervals.
+    /// Describes, for the report, how the intervals treat several images of one subject. Returns an
+    /// empty text if nothing was compared.
     pub fn method(&self) -> String {
         let Some(first) = self.columns.first() else { return String::new() };
         let (images, groups) = (first.agreement.agreement.n, first.agreement.clusters);
@@ -65,23 +71,24 @@ impl AgreementOutcome {
     }
 }
 
-/// Columns that the figure shows: from each row the first that was compared.
+/// Columns for the two panels of the figure. Each panel shows the first column of its list that was
+/// compared.
 const SHOWN: [&[&str]; 2] =
     [&["density_per_mm2", "density_per_px2", "density", "n"], &["nn_mean_um", "nn_mean_px", "nn_mean", "ri"]];
 
 /// Compares the numbers of graders, sessions or programs image by image.
 ///
-/// Paired differences, limits of agreement and intraclass correlations are computed for every
-/// column of numbers that all of them have, or for the columns asked for.
+/// Computes paired differences, limits of agreement and intraclass correlations, either for the
+/// columns that `options` name or for every column that holds numbers in all tables.
 ///
 /// Writes `agreement.csv` (one row per column and pair of graders; with more than two graders also
 /// one row per column over all of them), `differences.csv` (one row per column, pair of graders and
-/// image), `unpaired.csv` (images that a grader lacks) and `agreement.svg`.
+/// image), `unpaired.csv` (images that are missing from some tables) and `agreement.svg`.
 ///
 /// # Errors
-/// If there are fewer than two tables, a table cannot be read or has no column that names images,
-/// an image stands in a table twice, an image has no group, a column asked for is missing, nothing
-/// can be paired, or `out` cannot be written to.
+/// Fails if there are fewer than two tables, a table cannot be read or has no column that names
+/// images, a table has two rows for one image, an image has no group, a column asked for is
+/// missing, no image has values in two tables, or `out` cannot be written to.
 pub fn agree_files(
     files: &[PathBuf],
     options: &AgreementOptions,
@@ -159,7 +166,8 @@ pub fn agree_files(
     Ok(outcome)
 }
 
-/// Returns the group of every image by its name; empty without a rule.
+/// Returns the group of every image, with the image's name as key. The map is empty if images are
+/// not to be grouped.
 fn groups_of<'a>(
     items: &[&'a String],
     grouping: Option<&Grouping>,
@@ -207,7 +215,7 @@ fn write(out: &OutputFolder, outcome: &AgreementOutcome, figures: &[FigureFormat
     write_figure(out, "agreement", &figure(outcome), figures)
 }
 
-/// Draws Bland–Altman plots of the first two graders.
+/// Draws Bland–Altman plots of the first pair of graders.
 fn figure(outcome: &AgreementOutcome) -> String {
     let Some(first) = outcome.columns.first() else { return agreement_figure("", &[]) };
     let of_pair: Vec<&ColumnAgreement> =

@@ -9,8 +9,8 @@ use crate::mosaic::io::format_points;
 use crate::report::{MarkKind, OverlayMark, counted, encode_png, overlay};
 use std::path::Path;
 
-/// Radius of the rings of an overlay, in cone spacings; inside the cone, so that rings of
-/// neighbours stay apart.
+/// Radius of the ring drawn around each cone, in cone spacings. It is less than half a spacing, so
+/// that the rings of neighbours stay apart.
 const RING: f64 = 0.3;
 
 /// Results of detecting cones in a batch of images.
@@ -18,31 +18,35 @@ const RING: f64 = 0.3;
 pub struct DetectionOutcome {
     /// Number of images with results.
     pub images: usize,
-    /// Number of cones found in all of them.
+    /// Total number of cones found.
     pub cones: usize,
-    /// Images without results, with the reasons.
+    /// Images without results, each with the reason.
     pub failures: Vec<Failure>,
-    /// The end of the batch: complete or stopped.
+    /// End of the batch: complete, or stopped early.
     pub ending: Ending,
 }
 
-/// Files that are written beside the cones of an image, and whether corrections may be replaced.
+/// Options of [`detect_files`]: additional files to write, and whether corrections may be replaced.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DetectionExtras {
-    /// Writes `NAME.overlay.png`: the image with its cones marked.
+    /// `true` to write `NAME.overlay.png`: the image with its cones marked.
     pub overlay: bool,
-    /// Writes `NAME.rejected.csv`: candidates that were not taken for cones.
+    /// `true` to write `NAME.rejected.csv`: candidates that the detector did not take for cones.
     pub rejected: bool,
-    /// Replaces coordinates that a person has made or corrected; the earlier files are put away.
+    /// `true` to replace files of coordinates that a person made or corrected; the earlier files
+    /// are moved to the folder of earlier results. `false` to refuse the images to which such files
+    /// belong.
     pub replace_corrections: bool,
 }
 
-/// Detects cones in every image and writes `NAME.csv` and the files of `extras` into `out`.
+/// Detects cones in every image and writes `NAME.csv`, and the additional files that `extras` asks
+/// for, into `out`.
 ///
-/// `NAME.csv` has the columns x_px, y_px and score, and x_um and y_um where the scale is known.
+/// `NAME.csv` has the columns x_px, y_px and score, and also x_um and y_um if the scale is known.
 ///
 /// # Errors
-/// If `out` cannot be written to. Images that fail are listed in the outcome and in `failures.csv`.
+/// Fails if `out` cannot be written to. Images that fail are listed in the outcome and in
+/// `failures.csv`.
 pub fn detect_files(
     inputs: &[Input],
     options: &DetectOptions,
@@ -82,8 +86,8 @@ pub fn detect_files(
     Ok(DetectionOutcome { images: worked.done.len(), cones, failures: worked.failures, ending })
 }
 
-/// Refuses to replace a file that a person made or changed. Hand marks may have the name of
-/// detections, and like corrections they are hours of work.
+/// Refuses to replace a file that a person made or changed. Hand marks may have the same name as a
+/// file of detections, and like corrections they are hours of work.
 fn refuse_foreign(out: &ResultFolder, name: &str) -> Result<(), BatchError> {
     match out.standing(name) {
         Standing::Missing | Standing::Own => Ok(()),
@@ -91,14 +95,14 @@ fn refuse_foreign(out: &ResultFolder, name: &str) -> Result<(), BatchError> {
     }
 }
 
-/// Reads an image file and returns its bytes and its image.
+/// Reads an image file. Returns its bytes and the decoded image.
 pub(super) fn read_image(input: &Input) -> Result<(Vec<u8>, Plane), BatchError> {
     let bytes = read_bytes(&input.path)?;
     let image = decode(&bytes, &input.path.display().to_string())?;
     Ok((bytes, image))
 }
 
-/// Detects cones in an image; an error names its file.
+/// Detects cones in an image. The error names the image file.
 pub(super) fn detect_in(
     input: &Input,
     image: &Plane,
@@ -107,28 +111,30 @@ pub(super) fn detect_in(
     detect(image, options).map_err(|source| BatchError::Detect { file: input.path.clone(), source })
 }
 
-/// Returns the content of a file of detections: x_px, y_px and score, and x_um and y_um where the
-/// scale is known.
+/// Returns the content of a CSV file of detections: columns x_px, y_px and score, and also x_um and
+/// y_um if the scale is known.
 pub(super) fn formatted(found: &[Detection], scale: Option<Scale>) -> Vec<u8> {
     let centres: Vec<Point> = found.iter().map(|d| d.centre).collect();
     let scores: Vec<f64> = found.iter().map(|d| d.score).collect();
     format_points(&centres, Some(&scores), scale).into_bytes()
 }
 
-/// Draws given cones on the image. `spacing` is theirs in px, `None` without neighbours.
+/// Draws a ring around each of `points` on the image and encodes the result as PNG.
+///
+/// `spacing` is the cone spacing in px; `None` if it is unknown, as for a single cone.
 pub(super) fn mark_cones(
     image: &Plane,
     points: &[Point],
     spacing: Option<f64>,
 ) -> Result<Vec<u8>, BatchError> {
-    // a single cone has no spacing: 10 px make a ring that can be seen
+    // a single cone has no spacing: 10 px give a visible ring
     let spacing = spacing.unwrap_or(10.);
     let mark = |p: &Point| OverlayMark { x: p.x, y: p.y, radius: RING * spacing, kind: MarkKind::Detection };
     let marks: Vec<OverlayMark> = points.iter().map(mark).collect();
     Ok(encode_png(&overlay(image, &marks, spacing))?)
 }
 
-/// Draws detected cones on the image.
+/// Draws a ring around each detected cone on the image and encodes the result as PNG.
 pub(super) fn overlay_of(image: &Plane, found: &Detections) -> Result<Vec<u8>, BatchError> {
     let marks: Vec<OverlayMark> = found
         .cones
@@ -143,7 +149,7 @@ pub(super) fn overlay_of(image: &Plane, found: &Detections) -> Result<Vec<u8>, B
     Ok(encode_png(&overlay(image, &marks, found.spacing))?)
 }
 
-/// Returns the line that tells a person what was found.
+/// Returns the line that is shown to the user about the detections in one image.
 pub(super) fn describe(found: &Detections) -> String {
     let cones = counted(found.cones.len(), "cone");
     let doubt = |confidence: f64| if confidence < CONFIDENT { " (uncertain)" } else { "" };

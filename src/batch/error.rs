@@ -10,7 +10,7 @@ use std::io;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// A reason why a batch, or one file of it, could not be worked on.
+/// A reason why a batch, or one file of a batch, could not be processed.
 #[derive(Debug, Error)]
 pub enum BatchError {
     /// A path that does not exist or cannot be listed.
@@ -21,14 +21,14 @@ pub enum BatchError {
         /// Message of the operating system.
         source: io::Error,
     },
-    /// Nothing to work on among the paths.
+    /// Paths among which there is no file of the kind that is needed.
     #[error("no {what} in {paths}: expected {expected}")]
     Nothing {
         /// Kind of file that was looked for.
         what: &'static str,
         /// Paths that were searched.
         paths: String,
-        /// Names by which such files are recognised.
+        /// Names of files that would have been found.
         expected: Cow<'static, str>,
     },
     /// A result that cannot be written.
@@ -39,7 +39,7 @@ pub enum BatchError {
         /// Message of the operating system.
         source: io::Error,
     },
-    /// Coordinates without the image that their window was to be taken from.
+    /// Coordinates whose image is missing, although their window was to be taken from the image.
     #[error(
         "{file}: no image of that name beside it to take the window from: give the folder of the images, or the window itself: its size WxH, its edges X0,Y0,X1,Y1, the unit square or a file of corners"
     )]
@@ -47,19 +47,19 @@ pub enum BatchError {
         /// Path of the coordinate file.
         file: PathBuf,
     },
-    /// A window or crop that lies outside the image.
+    /// A window or crop that leaves nothing of the image.
     #[error("{file}: the {window} leaves nothing of the image of {width} × {height} px: choose a part of it")]
     Nowhere {
         /// Path of the image.
         file: PathBuf,
-        /// The word “crop” or “window”, and the text that was given for it.
+        /// The word “crop” or “window”, followed by the text that was given for the crop or window.
         window: String,
         /// Width of the image in px.
         width: usize,
         /// Height of the image in px.
         height: usize,
     },
-    /// A crop that leaves nothing of the window of coordinates.
+    /// A crop that leaves nothing of the window of a coordinate file.
     #[error("{file}: the crop {crop} leaves nothing of the window: choose a part of it")]
     NothingCropped {
         /// Path of the coordinate file.
@@ -77,7 +77,7 @@ pub enum BatchError {
         /// Crop as it was given.
         crop: String,
     },
-    /// A torus that was asked for where the window is a polygon, which has no opposite edges to
+    /// A torus that was asked for although the window is a polygon, which has no opposite edges to
     /// join.
     #[error(
         "{file}: opposite edges can be the same place in a rectangle only, and its window is a polygon: give a window WxH, or do without"
@@ -86,21 +86,22 @@ pub enum BatchError {
         /// Path of the coordinate file.
         file: PathBuf,
     },
-    /// A length in micrometres where no scale is known.
+    /// A length in micrometres for a file whose scale is not known.
     #[error("{file}: {what} is in µm, but the scale is not known: give one")]
     NoScale {
-        /// Name of the length, or of the files that differ in unit.
+        /// Name of the length, or of the two things that are given in different units.
         what: &'static str,
         /// Path of the file that has no scale.
         file: PathBuf,
     },
-    /// A shrinkage without a scale to apply it to.
+    /// A shrinkage of tissue for a file whose scale is not known. The shrinkage corrects the scale,
+    /// so it needs one.
     #[error("{file}: shrinkage changes micrometres, but no scale is known: give one", file = file.display())]
     ShrinkageWithoutScale {
         /// Path of the file that has no scale.
         file: PathBuf,
     },
-    /// An input that results would overwrite.
+    /// An input file that lies in the folder of results and could be overwritten.
     #[error("{file} lies in {folder}, which results are written to: choose another folder for the results", folder = folder.display())]
     Overlap {
         /// Path of the input: an image or the table of regions.
@@ -108,7 +109,7 @@ pub enum BatchError {
         /// Path of the folder of results.
         folder: PathBuf,
     },
-    /// Coordinates of a person where detections would be written.
+    /// A file of coordinates that a person made or corrected and that detections would overwrite.
     #[error(
         "{path}: holds coordinates that a person has made or corrected: give up the corrections explicitly, or choose \
          another folder for the results",
@@ -118,7 +119,8 @@ pub enum BatchError {
         /// Path of the file of coordinates.
         path: PathBuf,
     },
-    /// A folder with other files than results where results would be written.
+    /// A folder that was to be replaced by results, but holds a file that this program did not
+    /// write.
     #[error(
         "{path}: holds {file}, which is no result of this program: move it away, or choose another folder for the results",
         path = path.display()
@@ -126,24 +128,24 @@ pub enum BatchError {
     ForeignFolder {
         /// Path of the folder.
         path: PathBuf,
-        /// Name of the first such file in it.
+        /// Name of the first foreign file in the folder.
         file: String,
     },
-    /// An image that fails now and whose earlier results stay.
+    /// An image that failed in this run, while its results from an earlier run stay in place.
     #[error("{source}; its earlier results stay in {folder}")]
     Outdated {
-        /// The reason why it fails.
+        /// The reason why the image failed in this run.
         source: Box<BatchError>,
-        /// Path of its earlier results in the result folder.
+        /// Path of the image's earlier results, inside the result folder.
         folder: String,
     },
-    /// A result folder that another command is writing into.
+    /// A result folder into which another command is writing.
     #[error("{path}: another run is writing into this folder: wait for its end, or choose another folder", path = path.display())]
     Busy {
         /// Path of the result folder.
         path: PathBuf,
     },
-    /// Cones that a person has corrected and that a run from the start would replace.
+    /// A file of cones that a person has corrected and that a run from the start would replace.
     #[error(
         "{path}: a person has corrected these cones, and a run from the start would replace them: go on with the earlier run, give \
          up the corrections explicitly, or choose another folder for the results",
@@ -153,7 +155,7 @@ pub enum BatchError {
         /// Path of the file of cones.
         path: PathBuf,
     },
-    /// An image whose results would be called like the list of failures.
+    /// An image whose results would have the name of the list of failures, `failures.csv`.
     #[error(
         "{file}: its results would be failures.csv, which lists the images that failed: rename the image"
     )]
@@ -161,21 +163,20 @@ pub enum BatchError {
         /// Path of the image.
         file: PathBuf,
     },
-    /// Coordinates in another unit where pixels are needed.
+    /// Coordinates in another unit than pixels, although pixels are needed.
     #[error("{file}: the coordinates are in {unit}, expected px", unit = unit.symbol())]
     NotPixels {
         /// Path of the coordinate file.
         file: PathBuf,
-        /// Unit of its coordinates.
+        /// Unit of the coordinates in the file.
         unit: LengthUnit,
     },
-    /// A file without the file that must accompany it, such as marks without an image or
-    /// detections.
+    /// A file whose companion is missing, such as marks without an image or without detections.
     #[error("{file}: {problem}")]
     Pairing {
         /// Path of the file.
         file: PathBuf,
-        /// The missing file and the remedy, in words.
+        /// Description of the missing file and of the remedy.
         problem: String,
     },
     /// An image that cannot be read or written.
@@ -186,7 +187,7 @@ pub enum BatchError {
     Detect {
         /// Path of the image.
         file: PathBuf,
-        /// The reason why nothing can be found in it.
+        /// The reason why the detection failed.
         source: DetectError,
     },
     /// A coordinate file, outline or table that cannot be read.
@@ -195,38 +196,39 @@ pub enum BatchError {
     /// A file that cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// A table of regions that gives a file no boxes, or boxes of several identifiers.
+    /// A table of regions that has no boxes for a file, or boxes of several identifiers that fit
+    /// its name.
     #[error(transparent)]
     RoiTable(#[from] RoiTableError),
-    /// A window that is smaller than the regions that are to slide over it.
+    /// A window into which no region fits, although squares were to slide over it.
     #[error("{file}: no square of side {side} fits into the window: give a smaller side", file = file.display())]
     NoRoi {
         /// Path of the coordinate file.
         file: PathBuf,
-        /// Side of the regions, in the unit of the coordinates.
+        /// Side of the square regions, in the unit of the coordinates.
         side: f64,
     },
-    /// A table of scales that gives an image no scale, or several.
+    /// A table of scales that has no scale for an image, or several.
     #[error(transparent)]
     ScaleTable(#[from] ScaleTableError),
-    /// An image that several rows of the manifest fit.
+    /// An image whose name fits several rows of the manifest.
     #[error(transparent)]
     Manifest(#[from] AmbiguousRow),
     /// Tables that cannot be compared with each other.
     #[error("{0}")]
     Tables(String),
-    /// Images that cannot be grouped as asked.
+    /// Images that cannot be grouped by the given rule.
     #[error("{0}")]
     Group(String),
     /// A scale that is not a positive number.
     #[error(transparent)]
     Scale(#[from] crate::mosaic::ScaleError),
-    /// Points that form no mosaic.
+    /// Points from which no mosaic can be made.
     #[error("{file}: {source}", file = file.display())]
     Mosaic {
         /// Path of the coordinate file.
         file: PathBuf,
-        /// The reason why the points form none.
+        /// The reason why the points form no mosaic.
         source: MosaicError,
     },
     /// A window without area.
@@ -235,13 +237,13 @@ pub enum BatchError {
     /// An outline that is no polygon.
     #[error(transparent)]
     Polygon(#[from] PolygonError),
-    /// A comparison with samplers that cannot be made.
+    /// A comparison with samplers that is impossible.
     #[error(transparent)]
     Compare(#[from] CompareError),
-    /// Statistics that cannot be computed as asked.
+    /// Statistics that cannot be computed with the given options.
     #[error(transparent)]
     Stats(#[from] crate::stats::StatsError),
-    /// Options of matching, or points to be matched, that are out of range.
+    /// Options of pairing marks with detections, or points to be paired, that are out of range.
     #[error(transparent)]
     Match(#[from] MatchError),
     /// A table or figure that cannot be made.

@@ -14,30 +14,34 @@ use std::path::{Path, PathBuf};
 /// Options of reading and analysing coordinate files.
 #[derive(Clone)]
 pub struct CoordinatesOptions {
-    /// The plan: everything that is computed and written for each mosaic.
+    /// The plan: what is computed and written for each mosaic.
     pub plan: Plan,
     /// Options of reading the files.
     pub read: ReadOptions,
-    /// The window in which points could have been seen.
+    /// The window: the area in which points could have been seen.
     pub region: Region,
-    /// Folder of the images that windows are taken from; `None`: they lie beside the files.
+    /// Folder of the images from which windows are taken, or the only image; `None`: each image
+    /// lies beside its coordinate file.
     pub images: Option<PathBuf>,
-    /// The rectangle of the window that counts; `None`: all of it.
+    /// A rectangle to which the window is cut; points outside do not count. `None`: the entire
+    /// window counts.
     pub crop: Option<Crop>,
-    /// Treats opposite edges of the window as the same place; not to be combined with a crop.
+    /// `true` to count opposite edges of the window as the same place (a torus). The window must
+    /// then be a rectangle, and there should be no crop.
     pub torus: bool,
 }
 
 /// Results of measuring or comparing coordinate files.
 #[derive(Clone, Debug)]
 pub struct CoordinatesOutcome {
-    /// Records of the files, one per file, in the order of the inputs.
+    /// Records of the files with results, in the order of the inputs.
     pub records: Vec<CoordinatesRecord>,
-    /// Files without results, with the reasons.
+    /// Files without results, each with the reason.
     pub failures: Vec<Failure>,
-    /// Correlation of regularity with the distance to each sampler; empty after [`measure_files`].
+    /// Correlation of the regularity index with the distance to each sampler, over all files; empty
+    /// after [`measure_files`].
     pub findings: Vec<FindingRecord>,
-    /// The end of the batch: complete or stopped.
+    /// End of the batch: complete, or stopped early.
     pub ending: Ending,
 }
 
@@ -48,17 +52,18 @@ struct Done {
     regions: Vec<RoiRow>,
 }
 
-/// Measures coordinate files and writes the results into `out`.
+/// Measures the points of coordinate files and writes the results into `out`.
 ///
-/// Writes `summary.csv` (one row per file) and the same as `summary.json`, `NAME.pcf.csv`, and what
-/// the plan asks for. That is `groups.csv`, `verdicts.csv`, `landmarks.csv` and `rois.csv` for the
-/// batch; and for each file `NAME.functions.csv`, `.density_recovery.csv`, `.points.csv`,
-/// `.spectrum.csv`, `.spectrum.png`, `.maps.csv`, `.maps.svg`, `.profiles.csv`, `.envelope.csv` and
-/// `.verdict.svg`.
+/// Always writes `summary.csv` (one row per file), the same as `summary.json`, `options.json`, and
+/// `NAME.pcf.csv` for each file. As the plan asks, it also writes `groups.csv`, `verdicts.csv`,
+/// `landmarks.csv` and `rois.csv` for the batch, and for each file `NAME.functions.csv`,
+/// `.density_recovery.csv`, `.points.csv`, `.spectrum.csv`, `.spectrum.png`, `.maps.csv`,
+/// `.maps.svg`, `.profiles.csv`, `.envelope.csv` and `.verdict.svg`.
 ///
 /// # Errors
-/// If an option is out of range, the file of a window cannot be read or `out` cannot be written to.
-/// Files that fail are listed in the outcome and in `failures.csv`.
+/// Fails if an option is out of range, a window is to be read from a file and that file cannot be
+/// read, or `out` cannot be written to. Coordinate files that fail are listed in the outcome and in
+/// `failures.csv`.
 pub fn measure_files(
     inputs: &[Input],
     options: &CoordinatesOptions,
@@ -68,11 +73,13 @@ pub fn measure_files(
     work_through(inputs, options, out, progress, |_, _| Ok(Vec::new()))
 }
 
-/// Measures coordinate files, compares them with samplers and writes the results into `out`.
+/// Measures the points of coordinate files, compares them with samplers and writes the results into
+/// `out`.
 ///
-/// Writes the files of [`measure_files`], and `regularity.csv` and `l_infinity.csv` (Tables 1 and 2
-/// of Lanaro et al. 2020, <https://doi.org/10.1088/2399-6528/ab8064>: one row per file) and
-/// `finding.csv` (one row per sampler: rank correlation of regularity index and l-infinity).
+/// Writes the same files as [`measure_files`]. Adds `regularity.csv` and `l_infinity.csv` (one row
+/// per file, as in Tables 1 and 2 of Lanaro et al. 2020,
+/// <https://doi.org/10.1088/2399-6528/ab8064>) and `finding.csv` (one row per sampler: rank
+/// correlation of regularity index and l-infinity distance).
 ///
 /// # Errors
 /// Fails as [`measure_files`] does.
@@ -94,7 +101,8 @@ pub fn compare_files(
     })
 }
 
-/// Runs the pipeline on every file; `more` writes what only one of the two commands writes.
+/// Measures every file and writes the results that both commands have in common; `more` writes
+/// those that only one of the commands adds.
 fn work_through(
     inputs: &[Input],
     options: &CoordinatesOptions,
@@ -156,7 +164,7 @@ fn write_tables(
     out.write_json("options.json", &options_json(options))
 }
 
-/// Returns the record of how coordinates were read, measured and compared.
+/// Returns the content of `options.json`: how coordinates were read, measured and compared.
 fn options_json(options: &CoordinatesOptions) -> serde_json::Value {
     let mut record = serde_json::json!({
         "program": "conemosaic",
@@ -174,15 +182,15 @@ fn options_json(options: &CoordinatesOptions) -> serde_json::Value {
     record
 }
 
-/// Returns the line that tells a person the result of one file.
+/// Returns the line that is shown to the user about the result of one file.
 fn line_about(record: &CoordinatesRecord) -> String {
     let ri = record.mosaic.stats.nearest.ri.map(|ri| format!(", RI {ri:.2}")).unwrap_or_default();
     let closest = record.mosaic.closest_sampler().map(|s| format!(", closest to {s}")).unwrap_or_default();
     format!("{}{ri}{closest}", counted(record.mosaic.n, "point"))
 }
 
-/// Correlates regularity with the distance to each sampler: the main finding of Lanaro et al.,
-/// tested on these mosaics.
+/// Correlates the regularity index with the distance to each sampler, over all files. This tests
+/// the main finding of Lanaro et al. on these mosaics.
 fn findings(done: &[Done], samplers: &[String], seed: u64) -> Vec<FindingRecord> {
     let of = |sampler: &String| {
         let both = |d: &Done| {
@@ -195,10 +203,11 @@ fn findings(done: &[Done], samplers: &[String], seed: u64) -> Vec<FindingRecord>
     samplers.iter().map(of).collect()
 }
 
-/// Reads the mosaic in a coordinate file, and counts its points outside the window.
+/// Reads the mosaic in a coordinate file. Also returns the number of its points that lie outside
+/// the window.
 ///
-/// Points that only a crop cuts off are not counted, since it is the purpose of a crop to leave
-/// them out.
+/// Points inside the window that a crop cuts off are not counted, since it is the purpose of a crop
+/// to leave them out.
 fn load(
     input: &Input,
     options: &CoordinatesOptions,

@@ -1,12 +1,12 @@
-//! Work on whole batches of files: finding them, naming their results, giving them scales,
-//! analysing them on all cores and writing the results.
+//! Work on batches of files: finding the files, naming their results, giving them scales, analysing
+//! them on all cores and writing the results.
 //!
-//! A file that fails is reported and stops no other; result files appear whole or not at all. The
-//! module holds no mathematics: that lies in the modules it calls.
+//! A file that fails is reported and does not stop the others. A result file appears only when it
+//! is complete. The module itself contains no mathematics, only calls to the modules that do.
 //!
-//! Every command that measures mosaics runs the same pipeline: [`run_files`] takes its cones from
-//! images, [`measure_files`] and [`compare_files`] from coordinate files. A [`Plan`] states what is
-//! computed from them and written.
+//! Every command that measures mosaics runs the same pipeline: [`run_files`] takes the cones from
+//! images, [`measure_files`] and [`compare_files`] take points from coordinate files. A [`Plan`]
+//! states what is computed for each mosaic and written.
 //!
 //! # Examples
 //! ```

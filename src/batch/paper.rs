@@ -1,11 +1,11 @@
-//! The tables and figures of Lanaro et al. (2020, <https://doi.org/10.1088/2399-6528/ab8064>) that
-//! concern samplers, made again.
+//! Computation of the results of Lanaro et al. (2020, <https://doi.org/10.1088/2399-6528/ab8064>)
+//! that concern samplers.
 //!
-//! 1. Draw every pattern and every spectrum that is needed, on all cores.
+//! 1. Draw all patterns and compute all spectra that are needed, on all cores.
 //! 2. Measure the patterns for the samplers' rows of Table 1.
 //! 3. Average the pair correlation functions for Figure 1, and take the l-infinity distances
 //!    between the samplers of Table 2, at several bandwidths.
-//! 4. Hold the printed rows of Table 2 against these distances by the triangle inequality.
+//! 4. Compare the printed rows of Table 2 with these distances by the triangle inequality.
 
 use super::output::{OutputFolder, ResultFolder};
 use super::{BatchError, Progress};
@@ -34,40 +34,40 @@ const SPECTRUM_POINTS: usize = 4096;
 /// Highest frequency of the spectra, in units of √n (n points in the unit square).
 const MAX_FREQUENCY: f64 = 2.5;
 
-/// Bandwidths, in spacings, at which the printed rows of Table 2 are tested against the samplers
-/// made here.
+/// Bandwidths, in hexagonal spacings, at which the distances between the samplers are computed and
+/// compared with the printed rows of Table 2.
 const BANDWIDTHS: [f64; 7] = [0.05, 0.07, 0.09, 0.1, 0.12, 0.15, 0.2];
 
-/// One piece of work for one core.
+/// Piece of work for one core.
 #[derive(Clone, Copy)]
 enum Task {
-    /// The pattern with index `k`, of about `n` points of a sampler.
+    /// Draws and measures pattern number `k` of a sampler, with about `n` points.
     Pattern { sampler: &'static dyn Sampler, n: usize, k: usize },
-    /// The spectrum of one pattern of a sampler on the unit torus.
+    /// Computes the spectrum of one pattern of a sampler on the unit torus.
     Spectrum { sampler: &'static dyn Sampler },
 }
 
-/// The result of a [`Task`].
+/// Result of a [`Task`] of the same name.
 enum Made {
     Pattern(Pattern),
     Spectrum(PowerSpectrum),
 }
 
-/// All patterns by sampler and number of points, and all spectra by sampler.
+/// All patterns, by sampler and number of points, and all spectra, by sampler.
 #[derive(Default)]
 struct Everything {
     patterns: BTreeMap<(&'static str, usize), Vec<Pattern>>,
     spectra: BTreeMap<&'static str, PowerSpectrum>,
 }
 
-/// Makes again the samplers' rows of Table 1, Figure 1 and the distances between the samplers of
-/// Table 2 of Lanaro et al.
+/// Computes again, with the samplers of this library, what Lanaro et al. show about samplers: their
+/// rows of Table 1, Figure 1, and the distances between the samplers of Table 2.
 ///
-/// `patterns` is the number of patterns drawn per sampler and number of points, at least 2. Writes
-/// `index.html`, `paper.md`, `figure1.svg` and tables as CSV into `out`.
+/// `patterns` is the number of patterns drawn for each sampler and number of points, at least 2.
+/// Writes `index.html`, `paper.md`, `figure1.svg` and tables as CSV into `out`.
 ///
 /// # Errors
-/// If a sampler is missing or makes no pattern, or `out` cannot be written to.
+/// Fails if a sampler is missing or makes no pattern, or `out` cannot be written to.
 pub fn remake_paper(
     patterns: usize,
     seed: u64,
@@ -98,8 +98,7 @@ pub fn remake_paper(
     Ok(results)
 }
 
-/// Lists all the work, the longest pieces first, so that no core is left waiting for one at the
-/// end.
+/// Lists all tasks, the longest first, so that no long task is left to a single core at the end.
 fn tasks(patterns: usize) -> Result<Vec<Task>, BatchError> {
     let named = |name: &str| {
         sampler(name)
@@ -121,7 +120,7 @@ fn tasks(patterns: usize) -> Result<Vec<Task>, BatchError> {
     Ok(tasks)
 }
 
-/// Does one piece of work and reports it to `progress`.
+/// Does one task and reports it to `progress`.
 fn work(task: &Task, seed: u64, progress: &dyn Progress) -> Result<Made, CompareError> {
     match *task {
         Task::Pattern { sampler, n, k } => {
@@ -153,7 +152,7 @@ impl Everything {
     }
 }
 
-/// Computes everything that the page and the tables show.
+/// Computes all numbers that the page and the tables show.
 fn results(all: &Everything, patterns: usize, seed: u64) -> Result<PaperResults, BatchError> {
     let regularity = printed_regularity();
     let rows = TABLE_1_SAMPLERS.iter().filter_map(|&(name, sampler, n)| {
@@ -192,8 +191,8 @@ fn results(all: &Everything, patterns: usize, seed: u64) -> Result<PaperResults,
     })
 }
 
-/// Returns one row per bandwidth: the distances between the samplers of Table 2, and how many of
-/// its printed rows satisfy the triangle inequality with them.
+/// Returns one row per bandwidth: the distances between the samplers of Table 2, and the number of
+/// printed rows that satisfy the triangle inequality with these distances.
 fn bandwidths(all: &Everything, printed: &[PrintedDistances]) -> Result<Vec<BandwidthRow>, BatchError> {
     let at = |&width: &f64| -> Result<_, CompareError> {
         let mut means = Vec::new();
@@ -210,7 +209,7 @@ fn bandwidths(all: &Everything, printed: &[PrintedDistances]) -> Result<Vec<Band
     Ok(BANDWIDTHS.par_iter().map(at).collect::<Result<Vec<_>, _>>()?)
 }
 
-/// Writes the tables, the figure and both forms of the page.
+/// Writes the tables, the figure, and the page as Markdown and HTML.
 fn write(all: &Everything, results: &PaperResults, out: &OutputFolder) -> Result<(), BatchError> {
     for (file, bytes) in results.tables()? {
         out.write(file, &bytes)?;
@@ -233,7 +232,8 @@ fn write(all: &Everything, results: &PaperResults, out: &OutputFolder) -> Result
     out.write("index.html", document.to_html().as_bytes())
 }
 
-/// Pairs each curve with the name of its sampler as tables spell it, with `_` for `-`.
+/// Pairs each curve with the name of its sampler as it is written in tables: with `_` instead of
+/// `-`.
 fn named<'a>(curves: impl Iterator<Item = (&'a str, &'a Vec<f64>, &'a Vec<f64>)>) -> Vec<SamplerCurve<'a>> {
     curves.map(|(name, x, y)| SamplerCurve { sampler: name.replace('-', "_"), x, y }).collect()
 }

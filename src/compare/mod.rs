@@ -8,7 +8,7 @@
 //! use conemosaic::sample::sampler;
 //! use rand::SeedableRng;
 //!
-//! // a mosaic against a sampler: the l-infinity distance of pair correlation functions
+//! // compare a mosaic with a sampler: l-infinity distance of their pair correlation functions
 //! let window = Window::rectangle(0., 0., 200., 200.)?;
 //! let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(3);
 //! let points = sampler("jittered")?.sample(400, &window, &mut rng)?;
@@ -17,7 +17,7 @@
 //! let uniform = &references.curves(points.len(), &window).curves[0];
 //! assert!(l_infinity(&g, &uniform.pcf)? > 0.5);
 //!
-//! // detections against marks of the same image, here of 200 × 200 px
+//! // compare detections with marks of the same image, here of 200 × 200 px
 //! let matching = match_points(&points, &points[..390], 200, 200, &MatchOptions::default())?;
 //! assert!(matching.false_positives() == 0 && matching.false_negatives() <= 10);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -5,9 +5,9 @@ use crate::mosaic::Mosaic;
 use crate::report::{Curve, MosaicFigure, MosaicRecord, ReferenceLine, mosaic_figure};
 use crate::stats::Measures;
 
-/// Draws the figure of one mosaic: a row of panels as in Lanaro et al. (2020,
-/// <https://doi.org/10.1088/2399-6528/ab8064>), with the picture, the points, their
-/// nearest-neighbour distances and g(r) beside the curves of the samplers.
+/// Draws the figure of one mosaic, a row of panels as in Lanaro et al. (2020,
+/// <https://doi.org/10.1088/2399-6528/ab8064>): the image, the points, their nearest-neighbour
+/// distances, and g(r) with the curves of the samplers.
 pub(super) fn figure(
     title: &str,
     picture: Option<&Plane>,

@@ -8,24 +8,27 @@ use crate::stats::{LocalWindow, MapOptions, Maps};
 use serde::Serialize;
 use std::path::Path;
 
-/// The window around each cone in which local values are taken.
+/// The square around each cone in which local values of a map are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MapWindow {
-    /// A square that grows until it holds this many bound cells; see [`LocalWindow::Cells`].
+    /// The square grows until it contains this number of bound cells (Voronoi cells strictly inside
+    /// the window of the mosaic); see [`LocalWindow::Cells`].
     Cells(usize),
-    /// A square of this side.
+    /// The square has a side of this length.
     Side(Length),
 }
 
-/// The request for maps of every mosaic of a batch; see [`MapOptions`].
+/// Options of maps, the same for every mosaic of a batch; see [`MapOptions`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MapRequest {
-    /// The window around each cone.
+    /// The square around each cone in which local values are computed.
     pub window: MapWindow,
-    /// Density of the contour whose inside is averaged, as a share of the peak, 0.01 to 0.99.
+    /// Density of the isodensity contour, as a fraction of the peak density, 0.01 to 0.99. The
+    /// region inside the contour gives the isodensity area and the cone density centroid.
     pub isodensity: f64,
-    /// Distance between rows of the profiles; `None`: two hexagonal spacings.
+    /// Distance between neighbouring rows of the profiles; `None`: two [hexagonal
+    /// spacings](crate::mosaic::hexagonal_spacing).
     pub profile_step: Option<Length>,
 }
 
@@ -44,20 +47,20 @@ impl MapRequest {
     /// Checks that every field is in its range.
     ///
     /// # Errors
-    /// The error names the first field that is not, and its range.
+    /// The error names the first field that is out of range, and the range.
     pub fn validate(&self) -> Result<(), BatchError> {
         let window = match self.window {
             MapWindow::Cells(n) => LocalWindow::Cells(n),
-            // a `Length` is positive, so any side in range will do
+            // a `Length` is always positive, so any valid side can stand in for it here
             MapWindow::Side(_) => LocalWindow::Side(1.),
         };
         Ok(MapOptions { window, isodensity: self.isodensity, profile_step: None }.validate()?)
     }
 
-    /// Returns the options for one mosaic, with lengths in its unit.
+    /// Returns the options for one mosaic, with lengths in the unit of its coordinates.
     ///
     /// # Errors
-    /// If a length is in µm and no scale is known.
+    /// Fails if a length is in µm and no scale is known.
     pub(super) fn of(&self, mosaic: &Mosaic, file: &Path) -> Result<MapOptions, BatchError> {
         let window = match self.window {
             MapWindow::Cells(n) => LocalWindow::Cells(n),
@@ -71,8 +74,8 @@ impl MapRequest {
     }
 }
 
-/// Writes the maps of one mosaic: `maps.csv` (one row per cone), `maps.svg` and `profiles.csv`,
-/// each with `prefix` before its name.
+/// Writes the maps of one mosaic: `maps.csv` (one row per cone), `maps.svg` and `profiles.csv`.
+/// Each name begins with `prefix`.
 pub(super) fn write(
     folder: &OutputFolder,
     prefix: &str,
@@ -95,8 +98,11 @@ pub(in crate::batch) fn write_landmarks<'a>(
     out.write(tables::LANDMARKS.file, &tables::LANDMARKS.csv(records)?)
 }
 
-/// Writes the spacing by the spectra of overlapping tiles of the image. The table has no rows if
-/// the spectrum of the whole image has no ring.
+/// Writes `fourier_map.csv`: the cone spacing in overlapping tiles of the image, estimated from the
+/// spectrum of each tile.
+///
+/// `whole` is the estimate from the spectrum of the entire image; without it, the table has no
+/// rows.
 pub(super) fn write_fourier(
     folder: &OutputFolder,
     image: &Plane,

@@ -5,16 +5,17 @@ use crate::geometry::Point;
 use crate::report::{MosaicRecord, SamplerDistance, counted};
 use crate::stats::Measures;
 
-/// Number of cones below which every statistic is uncertain: the RI of 30 points scatters by about
-/// 15 %.
+/// Least number of cones for which statistics are given without a warning that they are uncertain:
+/// the regularity index of 30 points scatters by about 15 %.
 const FEW: usize = 30;
-/// Number of points below which all coordinates may be whole by chance, or in an example.
+/// Least number of points for which coordinates are reported as rounded if all are integers. Fewer
+/// points may have integer coordinates by chance, or in an example.
 const ROUNDED: usize = 10;
-/// Confidence in the modality or the spacing below which a person should look.
+/// Least confidence in the modality or the spacing that is accepted without a warning.
 pub(in crate::batch) const CONFIDENT: f64 = 0.8;
 
-/// Returns the l-infinity distance of the mosaic to each curve; empty if the mosaic has no pair
-/// correlation function.
+/// Returns the l-infinity distance between the mosaic and each reference curve; empty if the mosaic
+/// has no pair correlation function.
 pub(super) fn distances(
     measures: &Measures,
     curves: &[ReferenceCurve],
@@ -26,20 +27,22 @@ pub(super) fn distances(
         .collect()
 }
 
-/// Returns a warning for every sampler that has no curve, with the reason.
+/// Returns one warning for each sampler without a reference curve, with the reason.
 pub(super) fn not_compared(curves: &SamplerCurves) -> impl Iterator<Item = String> {
     curves.missing.iter().map(NotCompared::to_string)
 }
 
-/// Returns whether points were rounded to whole units, wherever their origin lies. By chance that
-/// is rare from a few points on.
+/// Returns whether all points lie at integer distances from the first point along both axes, as
+/// rounded coordinates do. Returns `false` for fewer than [`ROUNDED`] points, which may do so by
+/// chance.
 fn whole_numbers(points: &[Point]) -> bool {
     let Some(first) = points.first() else { return false };
     let whole = |d: f64| (d - d.round()).abs() < 1e-9;
     points.len() >= ROUNDED && points.iter().all(|p| whole(p.x - first.x) && whole(p.y - first.y))
 }
 
-/// Returns the warnings that a reader of the numbers should know.
+/// Returns the warnings about the numbers of one mosaic: uncertain detection, rounded coordinates,
+/// few points, varying density, no pair correlation function.
 pub(super) fn warnings_of(
     found: Option<&Detections>,
     record: &MosaicRecord,

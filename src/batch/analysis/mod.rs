@@ -1,7 +1,7 @@
-//! The analysis of one mosaic, wherever it comes from.
+//! Analysis of one mosaic, from an image or from a coordinate file.
 //!
 //! It comprises statistics, comparison with samplers, maps, regions, warnings, and the files that
-//! hold them. The commands `run`, `measure` and `compare` only supply the mosaics.
+//! hold these results. The commands `run`, `measure` and `compare` only supply the mosaics.
 
 mod figure;
 mod maps;
@@ -34,52 +34,53 @@ use std::time::Instant;
 
 /// A mosaic to be analysed.
 pub(super) struct Specimen<'a> {
-    /// The file in which its points were found or marked.
+    /// The image or coordinate file from which the points come.
     pub input: &'a Input,
-    /// The points that count, in their window.
+    /// The points inside the window, and the window.
     pub mosaic: Mosaic,
     /// Number of points of the file that lie outside the window.
     pub outside: usize,
-    /// The image, if there is one.
+    /// The image; `None` for points from a coordinate file.
     pub image: Option<&'a Plane>,
-    /// The detections that the points come from, if this program made them.
+    /// The detections from which the points come; `None` if this program did not detect them.
     pub found: Option<&'a Detections>,
 }
 
-/// The results for one mosaic.
+/// The results of [`analyse`] for one mosaic.
 pub(super) struct Analysis {
-    /// All statistics, with their series.
+    /// Statistics of the mosaic, including values for each point and functions of distance.
     pub measures: Measures,
-    /// The numbers that go into summaries and records.
+    /// The numbers that are written into summaries and records.
     pub record: MosaicRecord,
-    /// Warnings about the numbers, each a sentence for a person.
+    /// Warnings about the numbers, each a sentence for the user.
     pub warnings: Vec<String>,
-    /// Mean curves of the samplers, and the samplers that have none.
+    /// Reference curves of the samplers, and the samplers that have none.
     pub curves: SamplerCurves,
-    /// Verdicts of the samplers on the mosaic, if they are wanted.
+    /// Test of the mosaic against each sampler; empty if the plan asks for none.
     pub verdicts: Vec<SamplerVerdict>,
-    /// Functions of distance, if they are wanted.
+    /// Functions of distance (G, F, J, K, L and g); `None` if the plan does not ask for them.
     pub functions: Option<Functions>,
-    /// The power spectrum of the points, if it is wanted and defined.
+    /// Power spectrum of the points; `None` if the plan does not ask for it or it is undefined.
     pub spectrum: Option<PowerSpectrum>,
-    /// Maps of local values, if they are wanted.
+    /// Maps of local values; `None` if the plan does not ask for them.
     pub maps: Option<Maps>,
-    /// Landmarks read off the maps.
+    /// Landmarks read off the maps; `None` without maps.
     pub landmarks: Option<LandmarkRecord>,
-    /// Rows of `rois.csv` that belong to the mosaic.
+    /// Rows of `rois.csv` that belong to the mosaic; empty if the plan asks for no regions.
     pub regions: Vec<RoiRow>,
-    /// Spacing by the spectrum of the image, if it is wanted and there is an image.
+    /// Cone spacing estimated from the spectrum of the image; `None` if it is not wanted or there
+    /// is no image.
     pub fourier: Option<FourierEstimate>,
-    /// Wall-clock seconds of measuring and of comparing.
+    /// Wall-clock time in seconds: first of measuring, then of comparing with samplers.
     pub seconds: [f64; 2],
 }
 
-/// Analyses one mosaic as planned.
+/// Computes for one mosaic everything that the plan asks for.
 ///
 /// # Errors
-/// If something that was asked for cannot be computed for this mosaic: functions of distance, maps,
-/// regions, the spectrum of the image, or an unambiguous row of the manifest. Statistics that are
-/// not defined become missing values or warnings.
+/// Fails if something that the plan asks for cannot be computed for this mosaic: functions of
+/// distance, maps, regions, or the spectrum of the image. Also fails if several rows of the
+/// manifest fit the file. Statistics that are undefined become missing values or warnings.
 pub(super) fn analyse(
     specimen: &Specimen,
     plan: &Plan,

@@ -7,32 +7,33 @@ use crate::sample::Sampler;
 use crate::stats::{FunctionOptions, MeasureOptions, SpectrumOptions};
 use serde_json::{Value, json};
 
-/// The plan of a batch: everything that is computed and written for each mosaic, wherever its
-/// points come from.
+/// The plan of a batch: what is computed and written for each mosaic, whether its points come from
+/// an image or from a coordinate file.
 #[derive(Clone)]
 pub struct Plan {
     /// Options of the statistics.
     pub measure: MeasureOptions,
-    /// Samplers that the mosaics are compared with; may be empty.
+    /// Samplers with which the mosaics are compared; may be empty.
     pub samplers: Vec<&'static dyn Sampler>,
-    /// Options of the verdicts, which simulate each sampler at every mosaic's own n and window;
-    /// `None`: distances only.
+    /// Options of the test of every mosaic against each sampler, which simulates the sampler with
+    /// the mosaic's own number of points and window. `None`: no test, only l-infinity distances.
     pub verdict: Option<VerdictOptions>,
-    /// Seed of everything that is random.
+    /// Seed of all random numbers.
     pub seed: u64,
-    /// Distances at which G, F, J, K, L and g are written, together with a table of the points.
+    /// Distances at which the functions G, F, J, K, L and g are written, together with a table of
+    /// the points. `None`: neither is written.
     pub functions: Option<FunctionOptions>,
-    /// Options of power spectra, and the scale on which they are drawn.
+    /// Options of power spectra, and the scale on which they are drawn; `None`: no spectra.
     pub spectrum: Option<(SpectrumOptions, PowerScale)>,
-    /// The request for maps and the landmarks read off them.
+    /// Options of maps and of the landmarks read off them; `None`: no maps.
     pub maps: Option<MapRequest>,
-    /// The request for regions measured as mosaics of their own.
+    /// Regions of interest, each of which is measured as a mosaic of its own; `None`: no regions.
     pub rois: Option<RoiRequest>,
-    /// Source of the scales.
+    /// Source of the scales of the images or files.
     pub scales: ScaleSource,
-    /// Facts about the files from a manifest, and the rule by which they form groups.
+    /// Facts about the files from a manifest, and the rule by which the files form groups.
     pub labels: Labels,
-    /// Choice of the columns of `summary.csv`.
+    /// Selection of the columns of `summary.csv`.
     pub metrics: MetricSelection,
     /// Formats of the figures besides SVG.
     pub figures: Vec<FigureFormat>,
@@ -58,20 +59,21 @@ impl Default for Plan {
 }
 
 impl Plan {
-    /// Returns the names of the samplers that mosaics are compared with.
+    /// Returns the names of the samplers with which mosaics are compared.
     pub fn sampler_names(&self) -> Vec<String> {
         self.samplers.iter().map(|s| s.name().to_owned()).collect()
     }
 
-    /// Returns the columns of `summary.csv` for images or for coordinate files.
+    /// Returns the description of `summary.csv`, with its columns, for images or for coordinate
+    /// files.
     pub fn summary(&self, kind: SummaryKind) -> Summary {
         Summary::new(kind, &self.metrics, &self.sampler_names(), self.labels.columns())
     }
 
-    /// Refuses options that are out of range or do not fit together, before any work is done.
+    /// Checks, before any work is done, that options are in their ranges and fit together.
     ///
     /// # Errors
-    /// The error names the first such option, and its range.
+    /// The error names the first option that is not valid, and its range.
     pub fn validate(&self) -> Result<(), BatchError> {
         self.verdict.iter().try_for_each(VerdictOptions::validate)?;
         self.labels.validate()?;
@@ -79,20 +81,21 @@ impl Plan {
         self.rois.iter().try_for_each(RoiRequest::validate)
     }
 
-    /// Prepares the mean curves of the samplers.
+    /// Prepares the reference curves of the samplers.
     pub(in crate::batch) fn references(&self) -> References {
         References::new(self.samplers.clone(), self.measure.pcf, self.seed)
     }
 
-    /// Returns whether any output needs the spacing by the spectrum of an image.
+    /// Returns whether any output needs the cone spacing estimated from the spectrum of an image.
     pub(in crate::batch) fn wants_fourier(&self) -> bool {
         self.maps.is_some() || self.metrics.has_any_of(MetricGroup::Fourier, SummaryKind::Images)
     }
 
-    /// Returns the part of the plan that results depend on, to tell plans apart.
+    /// Returns, as JSON, the part of the plan on which the results of an image depend. It serves to
+    /// tell plans apart.
     ///
-    /// The sources of scales and labels are left out, since only the scale and labels of each image
-    /// matter.
+    /// The sources of scales and labels are left out, since only the scale and the labels of each
+    /// image matter.
     pub(in crate::batch) fn identity(&self) -> Value {
         let mut identity = self.describe();
         if let Some(identity) = identity.as_object_mut() {

@@ -11,30 +11,31 @@ use crate::stats::{grown, lies_in, measure, sliding};
 use rayon::prelude::*;
 use std::path::Path;
 
-/// File of the regions, one row per region.
+/// Name of the table of the regions, with one row per region.
 const FILE: &str = "rois.csv";
 
-/// The request for regions of interest in every mosaic of a batch.
+/// Options of regions of interest, the same for every mosaic of a batch.
 #[derive(Clone, Debug)]
 pub struct RoiRequest {
-    /// Source of the boxes of the regions.
+    /// Source of the rectangles (boxes) in which the regions lie.
     pub source: RoiSource,
-    /// Number of bound cells that each box is to hold, 1 to 100 000; it grows about its centre
-    /// until it does. `None`: boxes stay as they are.
+    /// Number of bound cells (Voronoi cells strictly inside the box) that each box is to hold, 1 to
+    /// 100 000. A box with fewer grows about its centre until it holds that number. `None`: boxes
+    /// stay as they are.
     pub cells: Option<usize>,
 }
 
 /// Source of the boxes of regions of interest.
 #[derive(Clone, Debug)]
 pub enum RoiSource {
-    /// A table of boxes.
+    /// Boxes are read from a table.
     Table(RoiTable),
-    /// Squares that slide over the bounds of the window.
+    /// Boxes are squares at regular steps over the bounds of the window.
     Sliding {
         /// Side of the squares.
         side: Length,
-        /// Distance from one square to the next; `None`: the side, so that the squares tile the
-        /// window.
+        /// Distance from one square to the next; `None`: equal to `side`, so that the squares tile
+        /// the window.
         step: Option<Length>,
     },
 }
@@ -43,7 +44,7 @@ impl RoiRequest {
     /// Checks that every field is in its range.
     ///
     /// # Errors
-    /// If the number of cells is out of range.
+    /// Fails if the number of cells is out of range.
     pub fn validate(&self) -> Result<(), BatchError> {
         match self.cells {
             Some(n) if !(1..=100_000).contains(&n) => Err(crate::stats::StatsError::Option {
@@ -56,7 +57,7 @@ impl RoiRequest {
         }
     }
 
-    /// Refuses a table of regions that is the very file to be written.
+    /// Refuses a table of regions that is the very file to which the regions would be written.
     pub(in crate::batch) fn refuse_overlap(&self, out: &Path) -> Result<(), BatchError> {
         let RoiSource::Table(table) = &self.source else { return Ok(()) };
         let (read, written) = (Path::new(table.file()).canonicalize(), out.join(FILE).canonicalize());
@@ -68,7 +69,7 @@ impl RoiRequest {
         }
     }
 
-    /// Returns the request as JSON, for the record of a batch.
+    /// Returns the options as JSON, for the record of a batch.
     pub(super) fn describe(&self) -> serde_json::Value {
         let source = match &self.source {
             RoiSource::Table(table) => serde_json::json!({ "table": table.file() }),
@@ -77,7 +78,8 @@ impl RoiRequest {
         serde_json::json!({ "source": source, "cells": self.cells })
     }
 
-    /// Returns the boxes of a mosaic and their names, in the unit of its coordinates.
+    /// Returns the names of the boxes of a mosaic, and the boxes in the unit of the mosaic's
+    /// coordinates.
     fn boxes(&self, input: &Input, mosaic: &Mosaic) -> Result<Vec<(String, Rectangle)>, BatchError> {
         let file = &input.path;
         match &self.source {
@@ -104,7 +106,8 @@ impl RoiRequest {
     }
 }
 
-/// Returns the factor that converts the unit of a table to that of a mosaic.
+/// Returns the factor that converts lengths from the unit of a table to the unit of a mosaic; 1 if
+/// either is in the unit square or the table has no unit.
 fn factor(table: &RoiTable, mosaic: &Mosaic, file: &Path) -> Result<f64, BatchError> {
     let no_scale = || BatchError::NoScale { what: "one of regions and coordinates", file: file.to_owned() };
     match (table.unit(), mosaic.unit()) {
@@ -113,14 +116,15 @@ fn factor(table: &RoiTable, mosaic: &Mosaic, file: &Path) -> Result<f64, BatchEr
     }
 }
 
-/// Measures the regions of one mosaic, each as a mosaic of its own, and returns one row per region.
+/// Measures each region of one mosaic as a mosaic of its own, and returns one row per region.
 ///
-/// A region consists of the points in the part of the window that lies in its box. Their Voronoi
-/// cells are computed among themselves, and count as bound if they lie strictly inside that part. A
-/// region outside the window has no values. The result is the same for any number of threads.
+/// A region is the part of the window inside its box, with the points in that part. The Voronoi
+/// cells are those of these points alone, and a cell counts as bound if it lies strictly inside the
+/// region. A region entirely outside the window has no values. The result is the same for any
+/// number of threads.
 ///
 /// # Errors
-/// If a table has no boxes for the file, or a length is in µm and no scale is known.
+/// Fails if a table has no boxes for the file, or a length is in µm and no scale is known.
 pub(super) fn rows(
     input: &Input,
     mosaic: &Mosaic,

@@ -7,13 +7,14 @@ use crate::report::{Curve, EnvelopePanel, FigureFormat, VerdictRecord, envelope_
 use crate::sample::Sampler;
 use crate::stats::Measures;
 
-/// File of the curves and envelopes, after the name of the mosaic.
+/// Name of the table of curves and envelopes, less the name of the mosaic.
 const ENVELOPE: &str = "envelope.csv";
 
-/// Returns the verdict of each sampler on a mosaic, in the order of the samplers, and a warning for
-/// each sampler without one.
+/// Tests a mosaic against each sampler. Returns the verdicts in the order of the samplers, and a
+/// warning for each sampler without one.
 ///
-/// A mosaic without a pair correlation function has neither; another warning tells of that.
+/// Both lists are empty without `options`, and for a mosaic without a pair correlation function,
+/// about which there is another warning already.
 pub(super) fn verdicts_on(
     mosaic: &Mosaic,
     measures: &Measures,
@@ -32,7 +33,7 @@ pub(super) fn verdicts_on(
     (verdicts, warnings)
 }
 
-/// Returns the records of verdicts, as they stand in JSON and tables.
+/// Converts verdicts to the form in which they are written to JSON and tables.
 pub(super) fn records(verdicts: &[SamplerVerdict]) -> Vec<VerdictRecord> {
     verdicts.iter().map(VerdictRecord::from).collect()
 }
@@ -46,8 +47,8 @@ pub(in crate::batch) fn write_table<'a>(
     out.write(VERDICTS.file, &VERDICTS.csv(rows)?)
 }
 
-/// Writes the envelopes and their figure, with `prefix` before their names. Nothing is written
-/// without verdicts.
+/// Writes the envelopes and their figure, with `prefix` before the names of the files. Nothing is
+/// written if there are no verdicts.
 pub(super) fn write(
     out: &OutputFolder,
     prefix: &str,
@@ -62,7 +63,7 @@ pub(super) fn write(
     write_figure(out, &format!("{prefix}verdict"), &figure(title, measures, verdicts)?, figures)
 }
 
-/// Draws the mosaic's g(r) in the envelope of each sampler.
+/// Draws the mosaic's g(r) over the envelope of each sampler.
 fn figure(title: &str, measures: &Measures, verdicts: &[SamplerVerdict]) -> Result<String, BatchError> {
     let notes: Vec<String> =
         verdicts.iter().map(|v| format!("p = {}", significant(v.p_envelope, 2))).collect();

@@ -1,35 +1,38 @@
-//! The files of one mosaic.
+//! Files that are written for one mosaic.
 //!
-//! In a folder of its own they have plain names. Beside those of other mosaics, each name begins
-//! with that of the mosaic and a dot.
+//! In a folder of the mosaic's own, the files have plain names, such as `pcf.csv`. In a folder that
+//! several mosaics share, the name of the mosaic and a dot come first.
 
 use super::{Analysis, Plan, Specimen, figure, maps, verdicts};
 use crate::batch::BatchError;
 use crate::batch::output::{OutputFolder, write_figure};
 use crate::report::{spectrum_png, tables};
 
-// names of the files, less the mosaic's own name
+// names of the files, without the name of the mosaic
 const PCF: &str = "pcf.csv";
 const FIGURE: &str = "figure";
 const FUNCTIONS: [&str; 2] = ["functions.csv", "density_recovery.csv"];
 const SPECTRUM: [&str; 2] = ["spectrum.csv", "spectrum.png"];
-/// The table of the points with their neighbours and cells, beside other mosaics and in a folder.
-/// In an image's folder `points.csv` already holds the cones as they were found.
+/// Names of the table of points with their neighbours and cells: first in a shared folder, then in
+/// a folder of the mosaic's own. The names differ because `points.csv` in an image's folder already
+/// holds the cones as they were found.
 const POINTS: [&str; 2] = ["points.csv", "cells.csv"];
 
-/// The place of the files of a mosaic.
+/// Kind of folder into which the files of a mosaic are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::batch) enum Layout {
-    /// A folder of the mosaic's own, which also gets the figure.
+    /// Every mosaic has a folder of its own. Files have plain names, and `figure.svg` is written
+    /// too.
     Folder,
-    /// A folder shared with other mosaics.
+    /// All mosaics share one folder. Each file name begins with the name of the mosaic, and
+    /// `figure.svg` is left out.
     Beside,
 }
 
 /// Writes the files of a mosaic into `folder`.
 ///
 /// # Errors
-/// If a figure cannot be drawn or a file cannot be written.
+/// Fails if a figure cannot be drawn or a file cannot be written.
 pub(in crate::batch) fn write(
     analysis: &Analysis,
     specimen: &Specimen,

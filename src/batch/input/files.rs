@@ -5,26 +5,28 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 use walkdir::WalkDir;
 
-/// A file to work on and the name of its results.
+/// A file to process, and the name under which its results are written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Input {
     /// Path of the file.
     pub path: PathBuf,
-    /// File name without its last extension, unique within the batch.
+    /// Name of the results: the file name without its last extension. If several files share this
+    /// name, names of folders, extensions or numbers make it unique within the batch.
     pub name: String,
 }
 
-/// Extensions of coordinate files found in folders; a file that is given by name may have any.
+/// Extensions by which coordinate files in folders are recognised. A file that is given by its own
+/// path may have any extension.
 const COORDINATE_EXTENSIONS: [&str; 7] = ["csv", "tsv", "txt", "json", "tar", "roi", "zip"];
 
-/// Returns all PNG and TIFF files among `paths` and in their subfolders.
+/// Returns all images (PNG and TIFF files) among `paths` and in their subfolders.
 ///
-/// Paths keep the order given; the files of a folder are sorted by name. Hidden files, overlays of
-/// this program and the content of `except` (the output folder) are left out. A file that is given
-/// by name is taken whatever it is called; one that is found twice counts once.
+/// Paths keep the order given; the files of a folder are sorted by name. Hidden files, overlays
+/// drawn by this program and the content of `except` (the output folder) are left out. A file that
+/// is given by its own path is taken whatever its name. A file that is found twice is listed once.
 ///
 /// # Errors
-/// If a path does not exist or there is no image at all.
+/// Fails if a path does not exist or there is no image at all.
 pub fn image_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec<Input>, BatchError> {
     let files = walk(paths, except, |path| is_image_path(path) && !is_overlay(path))?;
     if files.is_empty() {
@@ -37,11 +39,11 @@ pub fn image_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec<Input
 /// Returns all coordinate files among `paths` and in their subfolders, in the order of
 /// [`image_files`].
 ///
-/// Tables and records of this program that hold no coordinates are left out, unless they are given
-/// by name.
+/// Tables and records that this program writes and that hold no coordinates are left out, unless
+/// they are given by their own path.
 ///
 /// # Errors
-/// If a path does not exist or there is no coordinate file at all.
+/// Fails if a path does not exist or there is no coordinate file at all.
 pub fn coordinate_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec<Input>, BatchError> {
     let known = |path: &Path| COORDINATE_EXTENSIONS.contains(&extension(path).as_str()) && !is_table(path);
     let files = walk(paths, except, known)?;
@@ -52,9 +54,9 @@ pub fn coordinate_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec<
     Ok(named(files))
 }
 
-/// Returns whether a file is an overlay that this program drew, and so no image of a retina.
+/// Returns whether a file is an overlay that this program drew, and so not an image of a retina.
 ///
-/// An overlay is known by the file of coordinates, scores or metrics that was written beside it.
+/// An overlay is recognised by the file of coordinates, scores or metrics that lies beside it.
 fn is_overlay(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default();
     if name == "overlay.png" {
@@ -65,7 +67,8 @@ fn is_overlay(path: &Path) -> bool {
     drawn.is_some_and(|name| beside(&format!("{name}.csv")) || beside("validation.csv"))
 }
 
-/// Returns whether a file is a table or record of this program that holds no coordinates.
+/// Returns whether a file is a table or record that this program writes and that holds no
+/// coordinates.
 fn is_table(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let known = [
@@ -107,14 +110,15 @@ fn is_table(path: &Path) -> bool {
     known.contains(&&*name) || endings.iter().any(|ending| name.ends_with(ending))
 }
 
-/// Returns the paths in one line, for an error message.
+/// Returns the paths as one line of text, for an error message.
 fn listed(paths: &[PathBuf]) -> String {
     paths.iter().map(|p| p.display().to_string()).collect::<Vec<_>>().join(", ")
 }
 
-/// Returns the files given by name, and the `wanted` ones in the folders given, except hidden ones.
+/// Returns the files among `paths`, and the `wanted` files in the folders among `paths`, except
+/// hidden ones.
 ///
-/// The folder `except` is not entered. A file that is found twice counts once.
+/// The folder `except` is not searched. A file that is found twice is listed once.
 fn walk(
     paths: &[PathBuf],
     except: Option<&Path>,
@@ -145,10 +149,10 @@ fn walk(
             match entry {
                 Ok(entry) if entry.file_type().is_file() && wanted(entry.path()) => add(entry.into_path()),
                 Ok(_) => {}
-                // a link back to a folder above: that folder is being walked already
+                // this is a link back to a folder above, which is being searched already
                 Err(error) if error.loop_ancestor().is_some() => {}
-                // a file or folder that cannot be examined is listed all the same: it fails alone
-                // when it is read, and stops no other
+                // a file or folder that cannot be examined is listed all the same: it will fail by
+                // itself when it is read, and stop no other
                 Err(error) => match error.path() {
                     Some(path) if path != given => {
                         let folder = path.symlink_metadata().is_ok_and(|m| m.is_dir());
@@ -167,14 +171,14 @@ fn walk(
     Ok(files)
 }
 
-/// Gives every file the name of its results: the file name without its last extension.
+/// Gives every file the name of its results: the file name without its last extension, made unique.
 ///
-/// Files of the same name get as many of their folders prefixed as tell them apart. Where only the
-/// extension differs, it is appended.
+/// If files share a name, the names of their innermost folders are put before it, as many as are
+/// needed to tell them apart. If they differ only in their extensions, the extension is appended.
 fn named(files: Vec<PathBuf>) -> Vec<Input> {
     let mut names: Vec<String> = files.iter().map(|f| stem(f)).collect();
     for folders in 1..16 {
-        // from the second folder on, a prefix tells apart only files of different folders
+        // a second or further folder name only helps to tell apart files in different folders
         let helps = |a: &Path, b: &Path| folders == 1 || a.parent() != b.parent();
         let clashing = clashes(&files, &names, helps);
         if clashing.is_empty() {
@@ -187,8 +191,8 @@ fn named(files: Vec<PathBuf>) -> Vec<Input> {
     for i in clashes(&files, &names, |a, b| extension(a) != extension(b)) {
         names[i] = format!("{}_{}", names[i], extension(&files[i]));
     }
-    // names may still differ in case only, or be equal by underscores in names of folders: a number
-    // always tells them apart
+    // names may still differ only in case, or be equal because of underscores in names of folders:
+    // a number always tells them apart
     let mut taken: HashSet<String> = HashSet::new();
     for name in &mut names {
         let wish = name.clone();
@@ -201,20 +205,21 @@ fn named(files: Vec<PathBuf>) -> Vec<Input> {
     files.into_iter().zip(names).map(|(path, name)| Input { path, name }).collect()
 }
 
-/// Returns the name in lower case, since some file systems take names that differ only in case for
-/// the same.
+/// Returns the name in lower case, for comparisons: some file systems treat names that differ only
+/// in case as the same.
 fn folded(name: &str) -> String {
     name.to_lowercase()
 }
 
-/// Returns the file name without its last extension, or `image` where nothing usable is left.
+/// Returns the file name without its last extension, or `image` if nothing usable is left.
 fn stem(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     // "...png" has the stem "..", which as the name of a folder would lead out of the results
     if matches!(&*stem, "" | "." | "..") { "image".into() } else { stem.into_owned() }
 }
 
-/// Returns the stem of a file with the names of its `count` innermost folders before it.
+/// Returns the stem of a file with the names of its `count` innermost folders before it, joined by
+/// underscores.
 fn with_folders(path: &Path, count: usize) -> String {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let folders: Vec<String> = absolute
@@ -235,7 +240,8 @@ fn extension(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 
-/// Returns the indices of files that share their name with another file for which `matters` holds.
+/// Returns the indices of files that share their name with another file, if `matters` returns
+/// `true` for the two paths.
 fn clashes(files: &[PathBuf], names: &[String], matters: impl Fn(&Path, &Path) -> bool) -> Vec<usize> {
     let mut groups: HashMap<String, Vec<usize>> = HashMap::new();
     for (i, name) in names.iter().enumerate() {

@@ -8,28 +8,30 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::str::FromStr;
 
-/// Facts about images that are not in their pixels, and the rule by which images form groups.
+/// Facts about images that cannot be read from the image itself, and the rule by which images form
+/// groups.
 #[derive(Clone, Debug, Default)]
 pub struct Labels {
-    /// The manifest: a table with one row per image.
+    /// The manifest: a table with one row per image, such as its subject and its place on the
+    /// retina.
     pub manifest: Option<Manifest>,
-    /// The rule of the groups whose means are wanted.
+    /// The rule by which images form groups; `None`: no means over groups are wanted.
     pub group_by: Option<GroupBy>,
 }
 
 /// The rule by which images form groups.
 #[derive(Clone, Debug)]
 pub enum GroupBy {
-    /// Images with the same text in all of these columns of the manifest.
+    /// Images form a group if they have the same text in all of these columns of the manifest.
     Columns(Vec<String>),
-    /// Images whose names give the same group.
+    /// Images form a group if this rule derives the same group from their names.
     Name(Grouping),
 }
 
 impl FromStr for GroupBy {
     type Err = String;
 
-    /// Reads `column:NAME[,NAME…]` or, without that prefix, a [`Grouping`].
+    /// Reads `column:NAME[,NAME…]` as [`GroupBy::Columns`] and any other text as a [`Grouping`].
     fn from_str(text: &str) -> Result<Self, String> {
         let Some(names) = text.strip_prefix("column:") else { return text.parse().map(Self::Name) };
         let names: Vec<String> =
@@ -43,11 +45,11 @@ impl FromStr for GroupBy {
 }
 
 impl GroupBy {
-    /// Turns a rule that consists only of column names of the manifest into a rule by those
-    /// columns.
+    /// Reinterprets a regular expression as column names if it consists only of names of columns of
+    /// the manifest.
     ///
-    /// A person who writes `diagnosis` and has a manifest with such a column means no regular
-    /// expression.
+    /// For example, someone who writes `diagnosis` and has a manifest with a column of that name
+    /// means the column.
     #[must_use]
     pub fn with(self, manifest: &Manifest) -> Self {
         let Self::Name(Grouping::Pattern(pattern)) = &self else { return self };
@@ -56,15 +58,15 @@ impl GroupBy {
     }
 }
 
-/// Ratio to the expected density from which a density is reported as unlikely, both upwards and (as
-/// its reciprocal) downwards.
+/// Limit of a likely density, as a ratio to the expected density: a density that is more than twice
+/// or less than half the expected one is reported as unlikely.
 ///
 /// In the foveal centre, where eyes differ most, Curcio et al. (1990,
 /// <https://doi.org/10.1002/cne.902920402>) counted 100 000 to 324 000 cones per mm² in healthy
 /// eyes: 0.5 to 1.6 times their mean.
 const UNLIKELY: f64 = 2.;
 
-/// Columns of a manifest that name the person, in lower case.
+/// Names of columns of a manifest that hold the person, in lower case.
 const PERSON: [&str; 2] = ["subject", "subject_id"];
 
 /// Facts that a manifest states about one image.
@@ -72,15 +74,15 @@ const PERSON: [&str; 2] = ["subject", "subject_id"];
 pub(in crate::batch) struct Label {
     /// Text of each column of the manifest, in its order; empty text if no row fits the image.
     pub labels: Vec<String>,
-    /// Place on the retina, if the manifest states it.
+    /// Place on the retina; `None` if the manifest does not state it.
     pub place: Option<RetinalPlace>,
-    /// A warning if the manifest has no row for the image.
+    /// Warning that the manifest has no row for the image; `None` if it has one.
     pub warning: Option<String>,
 }
 
 impl Label {
-    /// Puts the facts on a record, with a warning if its density is unlikely at its place on the
-    /// retina.
+    /// Adds the facts to the record of an image, and adds warnings: that the image has no row, or
+    /// that its density is unlikely at its place on the retina.
     pub fn put_on(self, record: &mut MosaicRecord, warnings: &mut Vec<String>) {
         record.labels = self.labels;
         record.place = self.place;
@@ -96,17 +98,19 @@ impl Label {
 }
 
 impl Labels {
-    /// Returns the columns that the manifest adds to a summary.
+    /// Returns the names of the columns that the manifest adds to a summary; empty without a
+    /// manifest.
     pub(in crate::batch) fn columns(&self) -> &[String] {
         self.manifest.as_ref().map_or(&[], |m| m.columns())
     }
 
     /// Returns the facts that the manifest states about an image.
     ///
-    /// Eccentricities in degrees are converted by `scale`, or by the average eye without one.
+    /// Eccentricities in degrees are converted to lengths by `scale`, or as for the average eye if
+    /// there is no scale.
     ///
     /// # Errors
-    /// If several rows of the manifest fit the name equally well.
+    /// Fails if several rows of the manifest fit the name equally well.
     pub(in crate::batch) fn of(&self, path: &Path, scale: Option<Scale>) -> Result<Label, BatchError> {
         let Some(manifest) = &self.manifest else { return Ok(Label::default()) };
         let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -127,7 +131,7 @@ impl Labels {
         })
     }
 
-    /// Refuses columns to group by that the manifest does not have, before any work is done.
+    /// Checks, before any work is done, that the manifest has all columns to group by.
     pub(in crate::batch) fn validate(&self) -> Result<(), BatchError> {
         let Some(GroupBy::Columns(names)) = &self.group_by else { return Ok(()) };
         let has = self.columns();
@@ -142,8 +146,8 @@ impl Labels {
         }
     }
 
-    /// Returns the group of an image in words; `None` if no groups are wanted or the image lacks a
-    /// label that they need.
+    /// Returns the name of the group of an image; `None` if no groups are wanted, or if a cell that
+    /// the group needs is empty.
     fn group_of(&self, name: &str, record: &MosaicRecord) -> Result<Option<String>, BatchError> {
         match &self.group_by {
             None => Ok(None),
@@ -161,15 +165,15 @@ impl Labels {
         }
     }
 
-    /// Returns the person that an image belongs to, from the manifest's column `subject` or
-    /// `subject_id`.
+    /// Returns the person to whom an image belongs, from the column `subject` or `subject_id` of
+    /// the manifest; `None` if there is no such column or its cell is empty.
     fn person_of<'a>(&self, record: &'a MosaicRecord) -> Option<&'a str> {
         let is_person = |name: &String| PERSON.contains(&name.to_lowercase().as_str());
         let k = self.columns().iter().position(is_person)?;
         record.labels.get(k).map(String::as_str).filter(|text| !text.is_empty())
     }
 
-    /// Writes `groups.csv` if groups are wanted.
+    /// Writes `groups.csv`, one row per group; nothing is written if no groups are wanted.
     pub(in crate::batch) fn write_groups(
         &self,
         out: &OutputFolder,

@@ -1,28 +1,28 @@
 use crate::image::extensions;
 use std::path::{Path, PathBuf};
 
-/// Returns the name of the image that a coordinate file belongs to: the file's name without its
-/// extension and a final `_coords`.
+/// Returns the name of the image to which a coordinate file belongs: the name of the file without
+/// its extension and without `_coords` at the end.
 pub(in crate::batch) fn image_name(coordinates: &Path) -> String {
     let stem = coordinates.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     stem.strip_suffix("_coords").map_or(stem.clone(), str::to_owned)
 }
 
-/// Returns whether the name of a file says that it holds marks: whether it ends in `_coords`.
+/// Returns whether the name of a file ends in `_coords`, which marks it as a file of hand marks.
 pub(in crate::batch) fn says_coords(path: &Path) -> bool {
     path.file_stem().unwrap_or_default().to_string_lossy().ends_with("_coords")
 }
 
-/// Returns the image of this name in `folder`; `None` if there is none.
+/// Returns the image called `name` in `folder`; `None` if there is none.
 ///
-/// Its extension may be in lower case, in upper case or capitalised.
+/// The extension of the image may be in lower case, in upper case or capitalised.
 pub(in crate::batch) fn image_in(folder: &Path, name: &str) -> Option<PathBuf> {
     let spellings: [fn(&str) -> String; 3] = [str::to_owned, str::to_uppercase, capitalised];
     let endings = spellings.iter().flat_map(|spelt| extensions().map(spelt));
     endings.map(|e| folder.join(format!("{name}.{e}"))).find(|p| p.is_file())
 }
 
-/// Returns the word with its first letter in upper case.
+/// Returns a word with the first letter in upper case.
 fn capitalised(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())

@@ -4,22 +4,24 @@ use crate::report::{ColumnNames, column_names};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// Columns with numbers that describe how an image was taken and are no measurements.
+/// Columns whose numbers describe how an image was taken. They are not measurements, and so are not
+/// compared.
 const NO_MEASURE: [&str; 6] =
     ["width_px", "height_px", "um_per_px", "um_per_unit", "um_per_degree", "eccentricity_mm"];
 
-/// Numbers measured on a set of images by one grader, session or program.
+/// Table of numbers that one grader, session or program measured on a set of images.
 ///
 /// Read from a `summary.csv`, or from any CSV with a column `name`, `file`, `image` or
 /// `identifier`.
 pub(in crate::batch) struct Readings {
-    /// Name of the grader: that of the folder or file.
+    /// Name of the grader: the name of the folder or file that was read.
     pub label: String,
     /// Names of all columns of the table.
     pub columns: Vec<String>,
-    /// Unit of the coordinates, if the table states the same one in every row.
+    /// Unit of the coordinates; `None` unless the table states the same unit in every row.
     pub unit: Option<String>,
-    /// Values of all columns by image; `None` where a cell holds no number.
+    /// Values of all columns, in their order, with the name of the image as key; `None` for a cell
+    /// without a number.
     pub items: BTreeMap<String, Vec<Option<f64>>>,
 }
 
@@ -27,7 +29,7 @@ impl Readings {
     /// Reads a table, or the `summary.csv` in a folder.
     ///
     /// # Errors
-    /// If the table cannot be read, no column names the images, or an image has two rows.
+    /// Fails if the table cannot be read, no column names the images, or an image has two rows.
     pub fn read(path: &Path) -> Result<Self, BatchError> {
         let inside = path.join("summary.csv");
         let file = if path.is_dir() { &inside } else { path };
@@ -90,7 +92,7 @@ impl Readings {
 
     /// Returns the first of `names` under which this table has a column with numbers.
     ///
-    /// Names without a unit count only where the coordinates of the table are in px.
+    /// Names without a unit are tried only if the coordinates of the table are in px.
     fn name_of(&self, names: &ColumnNames) -> Option<String> {
         let pixels = self.unit.as_deref() == Some("px");
         let plain = names.in_pixels.iter().copied().filter(|_| pixels);
@@ -98,7 +100,7 @@ impl Readings {
         all.find(|name| self.has_numbers(name)).map(str::to_owned)
     }
 
-    /// Returns the value of an image in a column; `None` if the image has no row or the cell no
+    /// Returns the value of an image in a column; `None` if the image has no row or the cell has no
     /// number.
     pub fn value(&self, item: &str, column: &str) -> Option<f64> {
         let k = self.columns.iter().position(|c| c == column)?;
@@ -106,23 +108,25 @@ impl Readings {
     }
 }
 
-/// A column to compare, and its name in each table.
+/// A column to compare, with its name in each table.
 #[derive(Clone, Debug)]
 pub(in crate::batch) struct Chosen {
-    /// Name in the results, with its unit where the tables name the column differently.
+    /// Name of the column in the results. It includes the unit if the tables use different names
+    /// for the column.
     pub name: String,
-    /// Name in each table, in the order of the tables.
+    /// Name of the column in each table, in the order of the tables.
     pub named: Vec<String>,
 }
 
-/// Returns the columns asked for, or all columns that hold numbers in every table.
+/// Returns the columns in `asked`; if `asked` is empty, all columns that hold numbers in every
+/// table.
 ///
 /// A column may have a different name in each table. `density` is found as `density_per_px2`, or in
-/// any other unit that all tables have; the name that a column had in an earlier version is found
-/// as its present one.
+/// any other unit that all tables have. A name that a column had in an earlier version of the
+/// program finds the column under its present name.
 ///
 /// # Errors
-/// If a column asked for is missing from a table, or the tables have it in no common unit.
+/// Fails if a column asked for is missing from a table, or if the tables have it in no common unit.
 pub(in crate::batch) fn chosen_columns(
     readings: &[Readings],
     asked: &[String],
@@ -134,7 +138,8 @@ pub(in crate::batch) fn chosen_columns(
     let numbers = |column: &&String| readings.iter().all(|r| r.has_numbers(column));
     let common = first.iter().filter(|c| !NO_MEASURE.contains(&c.as_str()));
     let common: Vec<&String> = common.filter(numbers).collect();
-    // a column in the unit of the coordinates says nothing new beside one that names its unit
+    // a column in the unit of the coordinates adds nothing to a column of the same quantity that
+    // names its unit
     let twice = |column: &String| {
         let names = column_names(column);
         names.len() > 1 && names.iter().any(|n| common.contains(&&n.name))
@@ -143,7 +148,7 @@ pub(in crate::batch) fn chosen_columns(
     Ok(kept.map(|column| literal(readings, column)).collect())
 }
 
-/// Returns a column that has the same name in every table.
+/// Returns the entry for a column that has the same name in every table.
 fn literal(readings: &[Readings], column: &str) -> Chosen {
     Chosen { name: column.to_owned(), named: vec![column.to_owned(); readings.len()] }
 }

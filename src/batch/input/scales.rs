@@ -6,36 +6,37 @@ use std::path::Path;
 /// The source of the scale of images.
 #[derive(Clone, Debug)]
 pub enum ScaleSource {
-    /// No source: results stay in pixels.
+    /// No image has a scale: results stay in pixels.
     Unknown,
-    /// The same scale for every image.
+    /// Every image has this scale.
     Given(Scale),
-    /// A field width shared by all images, from which the scale follows by their width in px.
+    /// All images show a field of the same width. The scale of an image follows from its width in
+    /// px.
     FieldWidth {
         /// Width of the field in µm.
         um: f64,
         /// Length on the retina per degree of visual angle, in µm.
         um_per_degree: f64,
     },
-    /// A table with one row per image, matched by the image's name.
+    /// Scales are read from a table with one row per image, by the image's name.
     Table {
         /// The table of scales.
         table: ScaleTable,
-        /// Allows images without a row; they stay in pixels.
+        /// `true` to allow images without a row, which stay in pixels.
         optional: bool,
     },
-    /// The scale that another source gives for a slide, corrected for tissue that shrank in
-    /// preparation.
+    /// Another source gives the scale of a slide, which is corrected for the shrinkage of the
+    /// tissue in preparation.
     Shrunk {
-        /// The scale of the slide.
+        /// The source of the scale of the slide.
         slide: Box<Self>,
-        /// Lost share of the living length, 0 to 0.9.
+        /// Fraction of the living length that was lost, 0 to 0.9.
         shrinkage: f64,
     },
 }
 
 impl ScaleSource {
-    /// Returns the source in words, for the record of a run.
+    /// Describes the source, for the record of a run.
     pub fn describe(&self) -> String {
         match self {
             Self::Unknown => "unknown: lengths in px".into(),
@@ -48,7 +49,7 @@ impl ScaleSource {
         }
     }
 
-    /// Returns whether no image is given a scale.
+    /// Returns whether the source gives no image a scale.
     pub fn is_unknown(&self) -> bool {
         match self {
             Self::Unknown => true,
@@ -57,7 +58,8 @@ impl ScaleSource {
         }
     }
 
-    /// Returns the living length over the length on the slide: 1 unless the tissue shrank.
+    /// Returns the length in the living eye divided by the length on the slide: 1 unless the tissue
+    /// shrank.
     pub fn expansion(&self) -> f64 {
         match self {
             Self::Shrunk { shrinkage, .. } => 1. / (1. - shrinkage),
@@ -66,11 +68,11 @@ impl ScaleSource {
     }
 
     /// Returns the scale of an image that is `width` px wide, in µm of living tissue per px; `None`
-    /// where it is not known.
+    /// if the scale is not known.
     ///
     /// # Errors
-    /// If a table has several rows for the image, or none where it must have one; if a scale is out
-    /// of range; or if a shrinkage is given without a scale.
+    /// Fails if a table has several rows for the image, or no row although it must have one; if a
+    /// scale is out of range; or if a shrinkage is given without a scale.
     pub fn scale_of(&self, path: &Path, width: usize) -> Result<Option<Scale>, BatchError> {
         match self {
             Self::Unknown => Ok(None),

@@ -3,7 +3,7 @@ use crate::batch::BatchError;
 pub use crate::report::Failure;
 use crate::report::tables::FAILURES;
 
-/// Writes `failures.csv`, one row per failure; no such table is written if nothing failed.
+/// Writes `failures.csv`, one row per failure. Nothing is written if nothing failed.
 pub(in crate::batch) fn write_failures(out: &OutputFolder, failures: &[Failure]) -> Result<(), BatchError> {
     if failures.is_empty() {
         return Ok(());

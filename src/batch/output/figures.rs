@@ -2,8 +2,8 @@ use super::OutputFolder;
 use crate::batch::BatchError;
 use crate::report::{FigureFormat, convert};
 
-/// Writes a figure as `NAME.svg`, the form that pages show, and beside it in every other format
-/// asked for.
+/// Writes a figure as `NAME.svg`, which the pages show, and also in every other format of
+/// `formats`.
 pub(in crate::batch) fn write_figure(
     out: &OutputFolder,
     name: &str,

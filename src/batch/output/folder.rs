@@ -7,12 +7,14 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// A folder inside a result folder, or the result folder itself.
+/// The result folder, or a folder inside it, into which results are written.
 ///
-/// Files and folders appear in it whole or not at all, and the ledger knows them.
+/// A file or folder gets its final name only when it is complete, and every file is noted in the
+/// ledger.
 pub(in crate::batch) struct OutputFolder {
     path: PathBuf,
-    /// Text that makes a name a path from the result folder when it is put before the name.
+    /// Path of this folder inside the result folder, ending in a slash; empty for the result folder
+    /// itself.
     prefix: String,
     ledger: Arc<Ledger>,
 }
@@ -22,16 +24,17 @@ impl OutputFolder {
         Self { path: path.to_owned(), prefix: prefix.to_owned(), ledger: Arc::clone(ledger) }
     }
 
-    /// Returns the path of the file of this name.
+    /// Returns the path of the file `name` in this folder.
     pub fn join(&self, name: impl AsRef<Path>) -> PathBuf {
         self.path.join(name)
     }
 
-    /// Writes a file. If a person has made or changed the file of that name, it is put away first.
+    /// Writes a file. If there is a file of that name that a person made or changed, it is moved to
+    /// the folder of earlier results first.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), BatchError> {
         let listed = format!("{}{name}", self.prefix);
-        // files of a partial folder are the program's own: a file of a person under the later name
-        // does not concern them
+        // files of a folder that is still being filled are the program's own: a person's file under
+        // the later name does not concern them
         let path = self.join(name);
         let in_place = path == self.ledger.root().join(&listed);
         if in_place && self.ledger.would_lose(&listed, bytes) {
@@ -45,27 +48,28 @@ impl OutputFolder {
             .map_err(|source| BatchError::Output { path, source })
     }
 
-    /// Writes a record as JSON, indented so that people can read it too.
+    /// Writes a value as indented JSON, which people can read too.
     pub fn write_json(&self, name: &str, value: &impl Serialize) -> Result<(), BatchError> {
         let mut json = serde_json::to_vec_pretty(value)?;
         json.push(b'\n');
         self.write(name, &json)
     }
 
-    /// Opens a subfolder, and makes it if it is missing.
+    /// Opens a subfolder, and creates it if it is missing.
     pub fn folder(&self, name: &str) -> Result<Self, BatchError> {
         let path = self.join(name);
         fs::create_dir_all(&path).map_err(|source| BatchError::Output { path: path.clone(), source })?;
         Ok(Self::new(&path, &format!("{}{name}/", self.prefix), &self.ledger))
     }
 
-    /// Fills a new subfolder under a temporary name and moves it to its place when it is whole.
+    /// Fills a new subfolder under a temporary name, and renames it to `name` when it is complete.
     ///
-    /// Until then, and if `fill` fails, the earlier folder stays.
+    /// Until then, an earlier folder called `name` stays in place, and also if `fill` fails. Files
+    /// in it that a person has changed are copied to the folder of earlier results.
     ///
     /// # Errors
-    /// If the earlier folder holds files that the program has not written, if `fill` fails, or if
-    /// the operating system refuses.
+    /// Fails if the earlier folder holds files that the program has not written, if `fill` fails,
+    /// or if the operating system refuses.
     pub fn replace_folder(
         &self,
         name: &str,
@@ -93,25 +97,26 @@ impl OutputFolder {
             remove_folder(&old).map_err(refused)
         });
         if done.is_err() {
-            // the error is reported anyway: one in tidying up would add nothing
+            // the error is reported anyway: a second one about tidying up would add nothing
             let _ = remove_folder(&partial);
             self.ledger.forget(&prefix);
         }
         done
     }
 
-    /// Tidies up after a run that was killed.
+    /// Tidies up this folder after a run that was killed.
     ///
-    /// Unfinished files and folders are removed, and a folder whose replacement was cut off between
-    /// its two renames is put back.
+    /// Unfinished files and folders are removed. If [`Self::replace_folder`] was cut off between
+    /// its two renames, the earlier folder gets its name back.
     pub fn sweep(&self) {
         for name in names_in(&self.path) {
             let Some(hidden) = name.strip_prefix('.') else { continue };
             let path = self.join(&name);
-            // only folders of results that the ledger knows are touched: others may belong to a
-            // person
+            // only folders of results that the ledger knows are touched: other folders may belong
+            // to a person
             let ours = |result: &&str| self.ledger.knows_below(&format!("{}{result}/", self.prefix));
-            // errors do no harm: a file or folder that stays is replaced later or is ignored
+            // errors do no harm: a file or folder that cannot be removed is replaced later or is
+            // ignored
             if hidden.starts_with("conemosaic-") && hidden.ends_with(".tmp") {
                 let _ = fs::remove_file(&path);
             } else if hidden.strip_suffix(".partial").filter(ours).is_some() {
@@ -123,8 +128,8 @@ impl OutputFolder {
         }
     }
 
-    /// Copies away the files of a subfolder that a person has changed, before the folder is
-    /// replaced.
+    /// Copies files of a subfolder that a person has changed to the folder of earlier results,
+    /// before the subfolder is replaced.
     fn rescue_changed(&self, name: &str) -> Result<(), BatchError> {
         let listed =
             names_in(&self.join(name)).into_iter().map(|file| format!("{}{name}/{file}", self.prefix));
@@ -133,12 +138,13 @@ impl OutputFolder {
             .try_for_each(|file| self.ledger.copy_away(&file))
     }
 
-    /// Returns whether a subfolder holds results that the program has written.
+    /// Returns whether a subfolder exists and the program has written files into it.
     pub fn has_results(&self, name: &str) -> bool {
         self.join(name).is_dir() && self.ledger.knows_below(&format!("{}{name}/", self.prefix))
     }
 
-    /// Returns the first file of a subfolder whose name the ledger does not know.
+    /// Returns the first file of a subfolder whose name the ledger does not know; `None` if it
+    /// knows all of them. Files that file managers create are ignored.
     fn foreign_in(&self, name: &str) -> Option<String> {
         let known = |file: &str| self.ledger.knows(&format!("{}{name}/{file}", self.prefix));
         names_in(&self.join(name))
@@ -147,10 +153,11 @@ impl OutputFolder {
     }
 }
 
-/// Names of files that file managers leave in every folder they show.
+/// Names of files that file managers create in every folder they show.
 const OF_SYSTEMS: [&str; 3] = [".DS_Store", "Thumbs.db", "desktop.ini"];
 
-/// Returns the names in a folder, sorted; none if the folder cannot be read.
+/// Returns the sorted names of the files and folders in a folder; empty if the folder cannot be
+/// read.
 fn names_in(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let mut names: Vec<String> =
@@ -159,7 +166,7 @@ fn names_in(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Removes a folder, or the link to a folder that stands in its place; succeeds if there is none.
+/// Removes a folder, or a link that has its name. Succeeds if neither exists.
 fn remove_folder(path: &Path) -> io::Result<()> {
     let link = fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink());
     let removed = if link { fs::remove_file(path) } else { fs::remove_dir_all(path) };

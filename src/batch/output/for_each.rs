@@ -6,21 +6,21 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Results of the work on the files of a batch.
+/// Results of [`for_each`] for the files of a batch.
 pub(in crate::batch) struct Worked<T> {
     /// Results of the files that succeeded, in the order of the inputs.
     pub done: Vec<T>,
-    /// Files without results, in the order of the inputs.
+    /// Files that failed, with the reasons, in the order of the inputs.
     pub failures: Vec<Failure>,
     /// Number of files that were not begun because the batch was stopped.
     pub left: usize,
 }
 
-/// Calls `work` for every input, on all cores and in about the order given, and reports each
-/// result.
+/// Calls `work` for every input and reports each result to `progress`. Inputs are processed on all
+/// cores, in about the order given.
 ///
-/// An error or a panic of one file stops no other. Besides its result, `work` returns the line that
-/// tells a person about it.
+/// An error or a panic in one file does not stop the others. Besides its result, `work` returns the
+/// line that is shown to the user about the file.
 pub(in crate::batch) fn for_each<T: Send>(
     inputs: &[Input],
     progress: &dyn Progress,
@@ -34,8 +34,8 @@ pub(in crate::batch) fn for_each<T: Send>(
             left.fetch_add(1, Ordering::Relaxed);
             return;
         }
-        // nothing is left half-changed for other files after a panic: results are written whole or
-        // not at all
+        // a panic leaves nothing half-changed that other files use: results are written completely
+        // or not at all
         let attempt = catch_unwind(AssertUnwindSafe(|| work(input)));
         let result = match attempt {
             Ok(Ok((value, line))) => {
@@ -60,7 +60,8 @@ pub(in crate::batch) fn for_each<T: Send>(
     worked
 }
 
-/// Reports and returns the failure of a file. Its reason is one line that names the file.
+/// Reports the failure of a file to `progress` and returns it. The reason is made one line that
+/// names the file.
 fn failed(input: &Input, reason: &str, progress: &dyn Progress) -> Failure {
     let file = input.path.display().to_string();
     let reason = reason.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -69,7 +70,7 @@ fn failed(input: &Input, reason: &str, progress: &dyn Progress) -> Failure {
     Failure { file, reason }
 }
 
-/// Returns the reason of a failure by panic, with the message of the panic.
+/// Returns the text of the error for a panic, with the message of the panic.
 fn internal(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().copied();
     let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));

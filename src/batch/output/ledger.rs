@@ -1,14 +1,14 @@
-//! The ledger of a result folder: the list of the files that the program wrote there, each with its
+//! The ledger of a result folder: the list of all files that the program wrote there, each with its
 //! SHA-256.
 //!
-//! It tells the program's own files from those of a person, reveals files that were truncated or
-//! edited, and names what earlier runs left behind.
+//! The ledger tells the program's own files from those of a person, reveals files that were
+//! truncated or edited, and names the files that earlier runs left behind.
 //!
-//! `.conemosaic/files.sha256` has one line per file, in the format of `sha256sum`. While a command
-//! works, it appends each line *before* the file takes its name, so that a killed run leaves no
-//! file that the ledger does not know. At the end the list is written anew, sorted. `run.json` is
-//! not listed: it holds times, and the rest of the folder must be the same bytes for the same
-//! input.
+//! The list is `.conemosaic/files.sha256`, with one line per file, in the format of `sha256sum`.
+//! While a command works, it appends each line *before* the file gets its name, so that a killed
+//! run leaves no file that the ledger does not know. At the end the list is written again, sorted.
+//! `run.json` is not listed: it holds times, and the rest of the folder must have the same bytes
+//! for the same input.
 
 use crate::batch::BatchError;
 use crate::files::write_atomically;
@@ -20,19 +20,20 @@ use std::ops::Bound;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The program's own folder inside a result folder; hidden, so that it is never taken for input.
+/// Name of the program's own folder inside a result folder. It is hidden, so that it is never taken
+/// for input.
 pub(super) const OWN: &str = ".conemosaic";
-/// Name of the list, in that folder.
+/// Name of the list of files, inside [`OWN`].
 const LIST: &str = "files.sha256";
-/// Folder for results of earlier runs that the present one does not replace, in the program's own
-/// folder.
+/// Folder inside [`OWN`] for results of earlier runs that the present run has not written again.
 const EARLIER: &str = "earlier";
-/// File that marks a folder whose tables may not belong together yet.
+/// File that exists while results are being written, or after a run that was cut off. The tables in
+/// the folder may then be of different runs.
 const MARKER: &str = "INCOMPLETE.txt";
-/// File that holds times, so that its bytes are never the same.
+/// File that differs in every run, since it holds times. It is not in the list.
 const VOLATILE: &str = "run.json";
 
-/// Content of the marker, for a person who opens the folder too early.
+/// Content of the file [`MARKER`], for a person who opens the folder too early.
 const MARKER_TEXT: &str = "\
 conemosaic is writing results into this folder, or was cut off while it did.
 Until this file is gone, tables here may belong to an earlier run.
@@ -42,70 +43,74 @@ To finish, run the same command again: what is done is kept.
 /// Files in a result folder that do not belong to the run that has just ended.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Leftovers {
-    /// Results of earlier runs that were moved to [`Self::place`], by their path in the result
+    /// Results of earlier runs that were moved to [`Self::place`], as paths inside the result
     /// folder.
     pub moved: Vec<String>,
-    /// Folder to which they were moved.
+    /// Folder to which results of earlier runs were moved.
     pub place: PathBuf,
-    /// Files that a person made or changed, which stay where they are.
+    /// Files and folders in the result folder that a person made or changed; they stay where they
+    /// are.
     pub foreign: Vec<String>,
 }
 
-/// Relation of a file on the disk to the one that the program wrote under its name.
+/// State of a file, compared with what the program wrote under its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::batch) enum Standing {
     /// There is no such file.
     Missing,
     /// The file is as the program wrote it.
     Own,
-    /// The file was changed since, or the program never wrote it.
+    /// The file was changed after the program wrote it, or the program never wrote it.
     Changed,
 }
 
-/// The list of the program's own files in a result folder; see the head of this file.
+/// Ledger of a result folder: the list of the files that the program wrote there. The head of this
+/// file describes it.
 pub(super) struct Ledger {
     root: PathBuf,
-    /// SHA-256 of files of earlier runs, by path; several where a run was cut off.
+    /// SHA-256 of the files that earlier runs wrote, by path. A path has several hashes if a run
+    /// was cut off.
     earlier: BTreeMap<String, BTreeSet<String>>,
     now: Mutex<Now>,
 }
 
-/// The state of the present run.
+/// State of the ledger in the present run.
 #[derive(Default)]
 struct Now {
     journal: Option<File>,
     written: BTreeMap<String, String>,
-    /// Beginnings of paths whose files from earlier runs still hold.
+    /// Prefixes of paths: files of earlier runs whose path has one of these prefixes count as
+    /// results of this run.
     kept: BTreeSet<String>,
-    /// Paths of the files that were put away.
+    /// Paths of the files that were moved or copied to the folder of earlier results.
     moved: Vec<String>,
 }
 
 impl Ledger {
-    /// Reads the ledger of the folder `root`; an empty one if there is none.
+    /// Reads the ledger of the folder `root`. The ledger is empty if the folder has none.
     pub fn open(root: &Path) -> Result<Self, BatchError> {
         let path = root.join(OWN).join(LIST);
         let text = match fs::read(&path) {
-            // bytes that are not text name no file: files that only such a list names then count as
-            // a person's
+            // damaged bytes name no file: a file that only they named then counts as a person's
             Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
             Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
             Err(source) => return Err(BatchError::Output { path, source }),
         };
         let mut earlier: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-        // a line that a loss of power cut off names no file
+        // a line that was cut off by a loss of power names no file
         for (hash, name) in text.split('\n').filter_map(parsed) {
             earlier.entry(name).or_default().insert(hash);
         }
         Ok(Self { root: root.to_owned(), earlier, now: Mutex::default() })
     }
 
-    /// Returns the state of the present run; a panic of another thread does not block it.
+    /// Locks and returns the state of the present run, even after a panic in another thread.
     fn now(&self) -> MutexGuard<'_, Now> {
         self.now.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Notes that `bytes` are about to be written under `name`, and marks the folder as incomplete.
+    /// Notes that `bytes` are about to be written to the file `name`. The first call of a run marks
+    /// the folder as incomplete.
     pub fn note(&self, name: &str, bytes: &[u8]) -> Result<(), BatchError> {
         let hash = hex(&Sha256::digest(bytes));
         let path = self.root.join(OWN).join(LIST);
@@ -119,38 +124,41 @@ impl Ledger {
             now.journal = Some(opened.map_err(refused)?);
         }
         if let Some(journal) = now.journal.as_mut().filter(|_| name != VOLATILE) {
-            // the break comes first: it ends a line that a kill or a full disk cut off
+            // the line break comes first: it ends a line that a kill or a full disk cut off
             journal.write_all(format!("\n{}", line(&hash, name)).as_bytes()).map_err(refused)?;
         }
         now.written.insert(name.to_owned(), hash);
         Ok(())
     }
 
-    /// Syncs the notes to the disk before the files that they are about take their names.
+    /// Syncs the notes to the disk. Called before the files in question get their names.
     ///
-    /// After a loss of power, no file is then there that the ledger does not know.
+    /// After a loss of power, the folder then contains no file that the ledger does not know.
     pub fn sync(&self) -> Result<(), BatchError> {
         let refused = |source| BatchError::Output { path: self.root.join(OWN).join(LIST), source };
         self.now().journal.as_ref().map_or(Ok(()), File::sync_data).map_err(refused)
     }
 
-    /// Takes back the notes of files whose paths begin with `prefix`, which were not written after
-    /// all.
+    /// Removes the notes of this run on files whose paths begin with `prefix`, as these files were
+    /// not written after all.
     pub fn forget(&self, prefix: &str) {
         self.now().written.retain(|name, _| !name.starts_with(prefix));
     }
 
-    /// Counts earlier files whose paths begin with `prefix` among the results of this run.
+    /// Counts files of earlier runs whose paths begin with `prefix` among the results of this run,
+    /// so that [`Self::close`] leaves them in place.
     pub fn keep(&self, prefix: &str) {
         self.now().kept.insert(prefix.to_owned());
     }
 
-    /// Returns the SHA-256 of the file `name` as it is now; `None` if it cannot be read.
+    /// Returns the SHA-256 of the present content of the file `name`; `None` if the file cannot be
+    /// read.
     fn current(&self, name: &str) -> Option<String> {
         fs::read(self.root.join(name)).ok().map(|bytes| hex(&Sha256::digest(bytes)))
     }
 
-    /// Returns how the file `name` compares with the one that the program wrote, now or earlier.
+    /// Returns whether the file `name` is missing, as the program wrote it (in this or an earlier
+    /// run), or changed.
     pub fn standing(&self, name: &str) -> Standing {
         match self.current(name) {
             None => Standing::Missing,
@@ -159,14 +167,15 @@ impl Ledger {
         }
     }
 
-    /// Returns whether the program has written a file of this name and hash, now or earlier.
+    /// Returns whether the program has written a file of this name and hash, in this or an earlier
+    /// run.
     fn is_own(&self, name: &str, hash: &str) -> bool {
         name == VOLATILE
             || self.earlier.get(name).is_some_and(|known| known.contains(hash))
             || self.now().written.get(name).is_some_and(|written| written == hash)
     }
 
-    /// Returns whether writing `bytes` under this name would destroy a person's work.
+    /// Returns whether writing `bytes` to the file `name` would destroy a person's work.
     pub fn would_lose(&self, name: &str, bytes: &[u8]) -> bool {
         let there = fs::read(self.root.join(name)).ok().filter(|there| there != bytes);
         there.is_some_and(|there| !self.is_own(name, &hex(&Sha256::digest(there))))
@@ -185,8 +194,9 @@ impl Ledger {
             || self.now().written.range(from..).next().is_some_and(|(name, _)| name.starts_with(prefix))
     }
 
-    /// Returns whether every file that earlier runs have written below `prefix`, except those in
-    /// `aside`, is there as it was written; `false` if there is none.
+    /// Returns whether every file that earlier runs have written below `prefix` is as it was
+    /// written. Files in `aside`, named relative to `prefix`, are not checked. Returns `false` if
+    /// earlier runs have written none.
     pub fn is_whole(&self, prefix: &str, aside: &[&str]) -> bool {
         let below = self.earlier.range(prefix.to_owned()..).map(|(name, _)| name);
         let mut names = below.take_while(|name| name.starts_with(prefix)).peekable();
@@ -200,13 +210,14 @@ impl Ledger {
         &self.root
     }
 
-    /// Moves a file or folder to the folder of earlier results.
+    /// Moves a file to the folder of earlier results.
     pub fn put_away(&self, name: &str) -> Result<(), BatchError> {
         let from = self.root.join(name);
         let to = self.free_place(name)?;
         fs::rename(&from, &to).map_err(|source| BatchError::Output { path: to, source })?;
         self.now().moved.push(name.to_owned());
-        // a folder that this leaves empty goes too; `remove_dir` refuses any other
+        // the folder of the file is removed if it is empty now; `remove_dir` refuses any other
+        // folder
         match from.parent() {
             Some(parent) if parent != self.root => fs::remove_dir(parent).or(Ok(())),
             _ => Ok(()),
@@ -221,7 +232,8 @@ impl Ledger {
         Ok(())
     }
 
-    /// Finds a free path for earlier results of this name, and makes its folder.
+    /// Finds an unused path in the folder of earlier results for the file `name`, and creates the
+    /// folders on that path.
     fn free_place(&self, name: &str) -> Result<PathBuf, BatchError> {
         let place = self.root.join(OWN).join(EARLIER);
         let refused = |source| BatchError::Output { path: place.clone(), source };
@@ -234,24 +246,25 @@ impl Ledger {
         Ok(to)
     }
 
-    /// Ends a run that worked through all its input.
+    /// Ends a run in which no input was left out.
     ///
-    /// Results of earlier runs that this one neither replaced nor kept are put away, the list is
-    /// written anew, and the marker is removed.
+    /// Results of earlier runs that this run neither replaced nor kept are moved to the folder of
+    /// earlier results, the list of files is written again, and the marker of an incomplete folder
+    /// is removed.
     pub fn close(&self) -> Result<Leftovers, BatchError> {
         let mut left = Leftovers { place: self.root.join(OWN).join(EARLIER), ..Leftovers::default() };
         let (written, kept) = {
             let now = self.now();
             (now.written.clone(), now.kept.clone())
         };
-        // no prefix is the beginning of another, so only the greatest one up to `name` can be that
-        // of `name`
+        // no prefix in `kept` is the beginning of another one, so only the greatest prefix up to
+        // `name` can be a prefix of `name`
         let below = |name: &str| kept.range::<str, _>((Bound::Unbounded, Bound::Included(name))).next_back();
         let holds = |name: &str| below(name).is_some_and(|prefix| name.starts_with(prefix.as_str()));
         let mut list = written.clone();
         for (name, hashes) in self.earlier.iter().filter(|(name, _)| !written.contains_key(*name)) {
-            // kept results were checked when they were kept; only a killed run leaves several
-            // hashes
+            // kept results were checked when they were kept; a name has several hashes only after a
+            // killed run
             let kept = holds(name);
             match hashes.first().filter(|_| kept && hashes.len() == 1) {
                 Some(hash) if self.root.join(name).exists() => {
@@ -263,8 +276,8 @@ impl Ledger {
                         let listed = if hashes.contains(&hash) { Some(&hash) } else { hashes.first() };
                         list.extend(listed.map(|hash| (name.clone(), hash.clone())));
                     }
-                    // all results are written by now: a file that cannot be moved is reported, and
-                    // stops nothing
+                    // all results are written by now, so a file that cannot be moved is only
+                    // reported
                     (Some(hash), false) if hashes.contains(&hash) && self.put_away(name).is_ok() => {}
                     (Some(_), false) => left.foreign.push(name.clone()),
                 },
@@ -290,10 +303,10 @@ impl Ledger {
     }
 }
 
-/// Returns the line of a file in the list.
+/// Returns the line of the list for a file.
 ///
-/// Line breaks and backslashes in the name are written as in `sha256sum`: as `\n`, `\r` and
-/// `\\`, announced by a backslash before the hash.
+/// Line breaks and backslashes in the name are written as in `sha256sum`: as `\n`, `\r` and `\\`,
+/// with a backslash before the hash to announce this.
 fn line(hash: &str, name: &str) -> String {
     if !name.contains(['\n', '\r', '\\']) {
         return format!("{hash}  {name}");
@@ -302,7 +315,7 @@ fn line(hash: &str, name: &str) -> String {
     format!("\\{hash}  {name}")
 }
 
-/// Reads a line of the list; returns `None` if the line is not whole.
+/// Reads a line of the list and returns hash and name; `None` if the line is incomplete.
 fn parsed(line: &str) -> Option<(String, String)> {
     let (hash, name) = line.split_once("  ")?;
     let Some(hash) = hash.strip_prefix('\\') else { return Some((hash.to_owned(), name.to_owned())) };

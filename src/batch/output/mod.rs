@@ -1,5 +1,5 @@
-//! Output of a batch: the locked result folder, whose files appear whole or not at all and are
-//! known by their hashes, and the loop that works on every file of a batch.
+//! Output of a batch: the locked result folder, in which files appear only when complete and are
+//! listed with their hashes, and the loop over the files of a batch.
 
 mod ending;
 mod failures;

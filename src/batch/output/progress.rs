@@ -1,21 +1,24 @@
 use crate::batch::BatchError;
 
-/// A listener that hears how a batch goes on and may stop it. Its methods are called from several
-/// threads.
+/// A listener that is told about the progress of a batch and may stop it. The methods are called
+/// from several threads.
 pub trait Progress: Sync {
-    /// Announces that `total` files are going to be worked on.
+    /// Announces that the work on `total` files begins.
     fn begin(&self, total: usize);
-    /// Reports that one file is done, with a line about its result or the reason why it failed.
+    /// Reports that one file is done. `outcome` is a line about the result, or the reason why the
+    /// file failed.
     fn done(&self, name: &str, outcome: Result<&str, &str>);
     /// Reports that the batch has ended.
     fn end(&self);
 
-    /// Returns whether the batch is to stop: files in hand are finished, no other is begun.
+    /// Returns whether the batch is to stop. If so, files in progress are finished and no other is
+    /// begun.
     fn stopped(&self) -> bool {
         false
     }
 
-    /// Puts an error into words. A command line may add which of its options help.
+    /// Returns the text of an error. A command line may override this to say which of its options
+    /// help.
     fn words(&self, error: &BatchError) -> String {
         error.to_string()
     }

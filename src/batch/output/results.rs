@@ -1,5 +1,4 @@
-//! The result folder: locked while a command writes into it, and the results of one run when that
-//! is done.
+//! The result folder, which is locked while a command writes into it.
 
 use super::Ending;
 use super::folder::OutputFolder;
@@ -11,12 +10,12 @@ use std::ops::Deref;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Name of the lock file, in the program's own folder.
+/// Name of the lock file, inside [`OWN`].
 const LOCK: &str = "lock";
 
 /// A result folder, into which only one command at a time can write.
 ///
-/// The lock belongs to the operating system: it ends with the process, however that ends.
+/// The lock belongs to the operating system: it ends with the process, however the process ends.
 pub(in crate::batch) struct ResultFolder {
     folder: OutputFolder,
     ledger: Arc<Ledger>,
@@ -24,10 +23,11 @@ pub(in crate::batch) struct ResultFolder {
 }
 
 impl ResultFolder {
-    /// Makes the folder if it is missing, locks it and reads its ledger.
+    /// Creates the folder if it is missing, locks it, reads its ledger and tidies up after a run
+    /// that was killed.
     ///
     /// # Errors
-    /// If the folder cannot be written to, or another command is writing into it.
+    /// Fails if the folder cannot be written to, or another command is writing into it.
     pub fn open(path: &Path) -> Result<Self, BatchError> {
         let refused = |source: io::Error| BatchError::Output { path: path.to_owned(), source };
         let own = path.join(OWN);
@@ -36,7 +36,7 @@ impl ResultFolder {
         match lock.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => return Err(BatchError::Busy { path: path.to_owned() }),
-            // some network drives know no locks: results without a lock are better than none
+            // some network drives have no locks: results without a lock are better than none
             Err(TryLockError::Error(error)) => {
                 tracing::warn!("no lock on {}: {error}", path.display());
             }
@@ -48,18 +48,19 @@ impl ResultFolder {
         Ok(Self { folder, ledger, _lock: lock })
     }
 
-    /// Returns how the file of this path compares with the one that the program wrote there.
+    /// Returns whether the file `name` is missing, as the program wrote it, or changed.
     pub fn standing(&self, name: &str) -> Standing {
         self.ledger.standing(name)
     }
 
-    /// Returns whether the program has ever written a file of this path.
+    /// Returns whether the program has ever written a file called `name`.
     pub fn knows(&self, name: &str) -> bool {
         self.ledger.knows(name)
     }
 
-    /// Returns whether every file that the program has written below `prefix`, except those in
-    /// `aside`, is as it was written; `false` if there is none.
+    /// Returns whether every file that earlier runs have written below `prefix` is as it was
+    /// written. Files in `aside`, named relative to `prefix`, are not checked. Returns `false` if
+    /// earlier runs have written none.
     pub fn is_whole(&self, prefix: &str, aside: &[&str]) -> bool {
         self.ledger.is_whole(prefix, aside)
     }
@@ -67,24 +68,26 @@ impl ResultFolder {
     /// Copies a file that is about to be replaced to the folder of earlier results.
     ///
     /// # Errors
-    /// If the file cannot be copied.
+    /// Fails if the file cannot be copied.
     pub fn copy_away(&self, name: &str) -> Result<(), BatchError> {
         self.ledger.copy_away(name)
     }
 
-    /// Counts the earlier files whose paths begin with `prefix` among the results of this run.
+    /// Counts the files of earlier runs whose paths begin with `prefix` among the results of this
+    /// run, so that [`Self::close`] leaves them in place.
     pub fn keep(&self, prefix: &str) {
         self.ledger.keep(prefix);
     }
 
-    /// Ends a run and returns what is left over from earlier ones.
+    /// Ends a run and returns the files that are left over from earlier runs.
     ///
-    /// If the run was stopped, with files `left` to do, everything stays where it is, the marker of
-    /// an incomplete folder included. Otherwise results of earlier runs that do not belong to this
-    /// one are put away.
+    /// `left` is the number of files that were not begun because the run was stopped. If it is not
+    /// 0, every file stays where it is, and so does the marker of an incomplete folder. Otherwise
+    /// results of earlier runs that do not belong to this run are moved to the folder of earlier
+    /// results.
     ///
     /// # Errors
-    /// If the folder cannot be written to.
+    /// Fails if the folder cannot be written to.
     pub fn close(self, left: usize) -> Result<Ending, BatchError> {
         let leftovers = if left > 0 { Leftovers::default() } else { self.ledger.close()? };
         Ok(Ending { left, leftovers })
@@ -99,8 +102,8 @@ impl Deref for ResultFolder {
     }
 }
 
-/// Writes a file and removes it. Permissions alone do not tell whether a folder can be written to:
-/// the file system may be read-only or a quota used up.
+/// Checks that a folder can be written to, by writing and removing a file. Permissions alone do not
+/// tell: the file system may be read-only or a quota used up.
 fn probe(folder: &Path) -> io::Result<()> {
     let probe = folder.join(format!(".conemosaic-{}", std::process::id()));
     fs::write(&probe, b"")?;

@@ -1,5 +1,5 @@
-//! The origin of the cones of an image: detection by this program, marks from elsewhere, or
-//! detections that a person has corrected.
+//! Origin of the cones of an image: detected by this program, marked elsewhere, or detected and
+//! then corrected by a person.
 
 use super::done::{POINTS, earlier_cones};
 use super::{GivenCones, IMAGES, Job};
@@ -19,9 +19,9 @@ use std::path::Path;
 /// The source of the cones of a run.
 #[derive(Clone, Debug)]
 pub enum ConeSource {
-    /// Cones are detected in the images.
+    /// Cones are detected in the images by this program.
     Detector(DetectOptions),
-    /// Cones were marked or detected before and are read from files.
+    /// Cones were marked or detected before, and are read from files.
     Given(GivenCones),
 }
 
@@ -29,11 +29,12 @@ pub enum ConeSource {
 pub(super) struct Cones {
     /// Centres of the cones within the window, in px.
     pub points: Vec<Point>,
-    /// Number of given cones that lie outside the window.
+    /// Number of cones outside the window, if the cones were read from a file; 0 if they were
+    /// detected.
     pub outside: usize,
-    /// Number of cones in the whole image.
+    /// Number of cones in the entire image, inside and outside the window.
     pub all: usize,
-    /// Detections, if the cones were detected in this run.
+    /// Detections inside the window; `None` if the cones were read from a file.
     pub found: Option<Detections>,
     /// Origin of the cones, for the record.
     pub from: ConesFrom,
@@ -42,7 +43,7 @@ pub(super) struct Cones {
 }
 
 impl Cones {
-    /// Returns the line that tells a person which cones were found.
+    /// Returns the line that is shown to the user about the cones of one image.
     pub fn line(&self) -> String {
         match &self.found {
             Some(found) => describe(found),
@@ -51,17 +52,19 @@ impl Cones {
     }
 }
 
-/// The origin of an image's cones, before they are read or detected.
+/// Origin of an image's cones, before the cones are read or detected.
 pub(super) enum Origin<'a> {
+    /// Options of the detector that is to find the cones.
     Detector(&'a DetectOptions),
-    /// Bytes of the file of cones, and its path.
+    /// Content of the file of cones, and the path of the file.
     Given(Vec<u8>, &'a Path),
-    /// Bytes of the corrected `points.csv`.
+    /// Content of `points.csv` as a person has corrected it.
     Corrected(Vec<u8>),
 }
 
 impl Origin<'_> {
-    /// Adds everything to a hash that tells these cones from others.
+    /// Adds everything on which the cones depend to a hash: the options and weights of the
+    /// detector, or the content of the file.
     pub fn identify(&self, digest: &mut Sha256) -> Result<(), BatchError> {
         match self {
             Self::Detector(options) => {
@@ -82,12 +85,15 @@ impl Origin<'_> {
 }
 
 impl Job<'_> {
-    /// Decides where the cones of an image come from.
+    /// Decides whether the cones of an image are detected, read from a given file, or read from a
+    /// corrected `points.csv`.
     ///
-    /// A `points.csv` that a person has corrected is used, and replaced only if that was asked for.
+    /// A `points.csv` that a person has corrected takes the place of the detector, unless
+    /// corrections are to be replaced.
     ///
     /// # Errors
-    /// If a correction would be replaced, or given cones are missing or cannot be read.
+    /// Fails if a correction would be lost because the run starts anew or uses given cones, or if
+    /// given cones are missing or cannot be read.
     pub(super) fn origin(&self, input: &Input, image: &Plane) -> Result<Origin<'_>, BatchError> {
         let corrected = match self.options.replace_corrections {
             true => None,
@@ -110,8 +116,8 @@ impl Job<'_> {
         }
     }
 
-    /// Returns whether `points.csv` among an image's earlier results was changed since the program
-    /// wrote it, or was already corrected before an earlier run.
+    /// Returns whether the `points.csv` of an image holds a person's corrections: it was changed
+    /// after the program wrote it, or an earlier run already took it as corrected.
     pub(super) fn is_corrected(&self, input: &Input) -> bool {
         let listed = format!("{IMAGES}/{}/{POINTS}", input.name);
         let before = || earlier_cones(&self.images.join(&input.name)) == Some(ConesFrom::Corrected);
@@ -122,7 +128,7 @@ impl Job<'_> {
         }
     }
 
-    /// Returns `points.csv` among an image's earlier results if a person has corrected it; `None`
+    /// Returns the content of the `points.csv` of an image if a person has corrected it; `None`
     /// otherwise.
     fn correction(&self, input: &Input, image: &Plane) -> Result<Option<Vec<u8>>, BatchError> {
         if !self.is_corrected(input) {
@@ -130,9 +136,9 @@ impl Job<'_> {
         }
         let path = self.images.join(&input.name).join(POINTS);
         let bytes = fs::read(&path).map_err(|source| BatchError::Unreadable { path, source })?;
-        // A file that was cut off ends within a row and is the beginning of what was written: no
-        // correction. One that ends with a whole row was saved by an editor without a last line
-        // break.
+        // A file that was cut off while it was written ends within a row, and is the beginning of
+        // what the program would write. That is no correction. A file that ends with a complete row
+        // but without a line break was saved by an editor.
         if let (false, ConeSource::Detector(options)) = (bytes.ends_with(b"\n"), &self.options.cones) {
             let found = detect_in(input, image, options)?;
             let scale = self.options.plan.scales.scale_of(&input.path, image.ncols())?;
@@ -148,7 +154,8 @@ impl Job<'_> {
 /// Detects or reads the cones of an image.
 ///
 /// # Errors
-/// If detection fails, or a file of cones cannot be read or is in µm and no scale is known.
+/// Fails if detection fails, if a file of cones cannot be read, or if it is in µm and no scale is
+/// known.
 pub(super) fn cones_of(
     origin: &Origin,
     input: &Input,
@@ -186,8 +193,8 @@ pub(super) fn cones_of(
     }
 }
 
-/// Returns the first two columns of a file of detections, as a person who adds a row need not know
-/// scores or µm. Any other file is returned unchanged.
+/// Returns only the first two columns of a file of detections. A person who adds a row need not
+/// know its score or its position in µm. Any other file is returned unchanged.
 fn without_scores(bytes: &[u8]) -> Vec<u8> {
     match std::str::from_utf8(bytes) {
         Ok(text) if text.starts_with("x_px,y_px,") => {
@@ -198,7 +205,8 @@ fn without_scores(bytes: &[u8]) -> Vec<u8> {
     }
 }
 
-/// Reads cones in px, and counts those outside the window.
+/// Reads a file of cones and returns those inside the window, in px, and the number of those
+/// outside.
 fn read_cones(
     (path, bytes): (&Path, &[u8]),
     read: &ReadOptions,
@@ -210,7 +218,7 @@ fn read_cones(
     let factor = match file.unit.unwrap_or(LengthUnit::Pixel) {
         unit @ LengthUnit::Unit => return Err(BatchError::NotPixels { file: path.to_owned(), unit }),
         unit @ LengthUnit::Pixel => unit.factor_to(unit, scale),
-        // the file is in µm on the slide, but the scale in µm of living tissue
+        // the file holds µm on the slide, but the scale is in µm of living tissue
         unit @ LengthUnit::Micrometre => {
             let expansion = job.options.plan.scales.expansion();
             unit.factor_to(LengthUnit::Pixel, scale).map(|factor| factor * expansion)

@@ -1,4 +1,4 @@
-//! The results of an image: the files in its folder, and the parts that stay in memory.
+//! Results of an image: the names of the files in its folder, and the parts that stay in memory.
 
 use crate::report::tables::RoiRow;
 use crate::report::{ConesFrom, ImageRecord, LandmarkRecord};
@@ -6,27 +6,28 @@ use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::Path;
 
-/// File of the cones.
+/// Name of the file of the cones.
 pub(super) const POINTS: &str = "points.csv";
-/// File of the image with its cones marked.
+/// Name of the file that shows the image with its cones marked.
 pub(super) const OVERLAY: &str = "overlay.png";
-/// File of all numbers.
+/// Name of the file with all numbers about the image.
 pub(super) const METRICS: &str = "metrics.json";
 
-/// Wall-clock seconds of the stages of one image.
+/// Wall-clock time of each stage of the work on one image, in seconds.
 ///
-/// While a thread waits in one image it may help another; that time counts for both.
+/// A thread that waits during the work on one image may work on another image; that time is counted
+/// for both images.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub(super) struct Seconds {
-    /// Reading the image, its window and its labels.
+    /// Time for reading the image and deriving its window and labels.
     pub read: f64,
-    /// Detecting or reading the cones.
+    /// Time for detecting or reading the cones.
     pub detect: f64,
-    /// Measuring the mosaic of the cones.
+    /// Time for measuring the mosaic of the cones.
     pub measure: f64,
-    /// Comparing the mosaic with samplers.
+    /// Time for comparing the mosaic with samplers.
     pub compare: f64,
-    /// Writing the image's folder.
+    /// Time for writing the image's folder.
     pub report: f64,
 }
 
@@ -34,15 +35,16 @@ pub(super) struct Seconds {
 pub(super) struct Done {
     /// The record of the image, from which tables and the page are made.
     pub record: ImageRecord,
-    /// The landmarks of its maps, if maps were asked for.
+    /// The landmarks read off the image's maps; `None` if no maps were asked for.
     pub landmarks: Option<LandmarkRecord>,
     /// Rows of `rois.csv` that belong to the image.
     pub regions: Vec<RoiRow>,
-    /// Seconds of the stages; `None` if earlier results were kept.
+    /// Time of each stage; `None` if the results of an earlier run were kept.
     pub seconds: Option<Seconds>,
 }
 
-/// Returns the origin of the cones in earlier results; `None` if it cannot be read.
+/// Returns the origin of the cones in the results of an earlier run, which lie in `folder`; `None`
+/// if it cannot be read.
 pub(super) fn earlier_cones(folder: &Path) -> Option<ConesFrom> {
     #[derive(Deserialize)]
     struct Origin {

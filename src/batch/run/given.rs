@@ -5,25 +5,26 @@ use crate::mosaic::io::ReadOptions;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Cones that were marked by hand, corrected or found by another program: one file per image.
+/// Files of cones that were marked by hand, corrected or found by another program, one file per
+/// image.
 #[derive(Clone, Debug)]
 pub struct GivenCones {
     /// Options of reading the files.
     pub read: ReadOptions,
-    /// The folder or file in which they were looked for.
+    /// The folder that was searched for files, or the only file.
     place: PathBuf,
-    /// Files by the name of the image to which they belong.
+    /// Paths of the files, with the name of the image to which they belong as key.
     files: BTreeMap<String, Vec<PathBuf>>,
 }
 
 impl GivenCones {
-    /// Looks for files of cones at `place`, a folder or one file.
+    /// Finds the files of cones at `place`, which is a folder or a single file.
     ///
-    /// A file belongs to the image of the same name, without the extension and a final `_coords`.
-    /// `NAME/points.csv`, as this program writes it, belongs to the image NAME.
+    /// A file belongs to the image of the same name; the extension and `_coords` at the end do not
+    /// count. A file `NAME/points.csv`, as this program writes it, belongs to the image NAME.
     ///
     /// # Errors
-    /// If there is no such folder, or no coordinate file in it.
+    /// Fails if `place` does not exist or holds no coordinate file.
     pub fn find(place: &Path, read: ReadOptions) -> Result<Self, BatchError> {
         let mut files: BTreeMap<String, Vec<PathBuf>> = BTreeMap::new();
         for found in coordinate_files(&[place.to_owned()], None)? {
@@ -32,13 +33,13 @@ impl GivenCones {
         Ok(Self { read, place: place.to_owned(), files })
     }
 
-    /// Returns the file of an image's cones.
+    /// Returns the file that holds the cones of an image.
     ///
     /// # Errors
-    /// If there is none, or more than one.
+    /// Fails if there is no such file, or more than one.
     pub(super) fn file_of(&self, input: &Input) -> Result<&Path, BatchError> {
         let stem = input.path.file_stem().unwrap_or_default().to_string_lossy();
-        // a single file was meant for the image, whatever it is called
+        // a file that was given instead of a folder is meant for the image, whatever its name
         let only = self.place.is_file().then(|| self.files.values().next()).flatten();
         let found = only.or_else(|| self.files.get(&input.name)).or_else(|| self.files.get(&*stem));
         match found.map(Vec::as_slice) {
@@ -61,7 +62,7 @@ impl GivenCones {
         }
     }
 
-    /// Returns the place that the cones come from, in words.
+    /// Returns the path of the folder or file of cones, for the record of a run.
     pub(super) fn describe(&self) -> String {
         self.place.display().to_string()
     }

@@ -1,4 +1,4 @@
-//! The work on one image of a run: its cones, their analysis and its folder.
+//! Work on one image of a run: finding the cones, analysing them and writing the image's folder.
 
 use super::cones::{Cones, Origin, cones_of};
 use super::done::{Done, METRICS, OVERLAY, POINTS, Seconds, earlier_cones};
@@ -15,7 +15,8 @@ use crate::report::{ConesFrom, DetectionRecord, ImageRecord};
 use sha2::{Digest, Sha256};
 use std::time::Instant;
 
-/// Works on one image and writes its folder, or keeps the folder of an earlier run.
+/// Processes one image and writes its folder, or keeps the results of an earlier run if they are
+/// still valid. Also returns the line that is shown to the user.
 pub(super) fn one_image(input: &Input, job: &Job) -> Result<(Done, String), BatchError> {
     let mut clock = Instant::now();
     let mut lap = || std::mem::replace(&mut clock, Instant::now()).elapsed().as_secs_f64();
@@ -63,10 +64,11 @@ pub(super) fn one_image(input: &Input, job: &Job) -> Result<(Done, String), Batc
 }
 
 impl Job<'_> {
-    /// Replaces the folder of an image.
+    /// Replaces the folder of an image with a new one that `fill` writes.
     ///
-    /// Cones that an earlier run took from a person's corrections, and that this run gives up, are
-    /// put away first; so are cones whose origin is no longer recorded.
+    /// If an earlier run used a person's corrections and this run does not, the corrected
+    /// `points.csv` is first copied to the folder of earlier results. The same is done if the
+    /// record does not tell where the earlier cones came from.
     fn replace(
         &self,
         input: &Input,
@@ -83,7 +85,7 @@ impl Job<'_> {
     }
 }
 
-/// Draws the cones of an image on it.
+/// Draws the cones of an image on the image and encodes the result as PNG.
 fn picture(image: &Plane, cones: &Cones, specimen: &Specimen) -> Result<Vec<u8>, BatchError> {
     match &cones.found {
         Some(found) => overlay_of(image, found),

@@ -1,4 +1,4 @@
-//! The main job: the cones of every image, detected or given, analysed and reported into one
+//! The main job: the cones of every image are detected or read, analysed, and reported into one
 //! folder.
 
 mod cones;
@@ -25,34 +25,36 @@ use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
-/// Name of the folder that holds the folders of the images.
+/// Name of the folder, inside the result folder, that holds one folder per image.
 const IMAGES: &str = "images";
-/// Note among an image's earlier results that the image failed in the latest run.
+/// Name of the note that is put into the folder of an image whose results are of an earlier run,
+/// because the image failed in the latest run.
 const FAILED: &str = "FAILED.txt";
 
-/// Options of the main job.
+/// Options of the main job, [`run_files`].
 #[derive(Clone)]
 pub struct RunOptions {
-    /// The plan: everything that is computed and written for each mosaic.
+    /// The plan: what is computed and written for each mosaic.
     pub plan: Plan,
     /// Source of the cones.
     pub cones: ConeSource,
-    /// The area of each image that counts.
+    /// The window: the area of each image whose cones count.
     pub window: ImageWindow,
-    /// The rectangle of that area that counts; `None`: all of it.
+    /// A rectangle to which the window of each image is cut; `None`: the entire window counts.
     pub crop: Option<Crop>,
-    /// Starts anew. Otherwise results of an earlier run are kept where image, options and program
-    /// have not changed.
+    /// `true` to compute everything anew; `false` to keep the results of an earlier run for every
+    /// image for which image, options and program have not changed.
     pub fresh: bool,
-    /// Replaces cones that a person has corrected; the corrected files are put away.
+    /// `true` to replace cones that a person has corrected; the corrected files are kept in the
+    /// folder of earlier results.
     pub replace_corrections: bool,
-    /// The command line, for `run.json`.
+    /// The command line, which is recorded in `run.json`.
     pub command: Vec<String>,
 }
 
 impl Default for RunOptions {
-    /// Returns options by which the default detector finds the cones in all that was imaged, and
-    /// earlier results are kept.
+    /// Returns options by which the default detector finds the cones in the imaged part of each
+    /// image, and results of an earlier run are kept.
     fn default() -> Self {
         Self {
             plan: Plan::default(),
@@ -66,20 +68,20 @@ impl Default for RunOptions {
     }
 }
 
-/// Results of a run, and everything about it that remains to be told.
+/// Results of the main job, [`run_files`].
 #[derive(Clone, Debug)]
 pub struct RunOutcome {
-    /// Records of the images, one per image, in the order of the inputs.
+    /// Records of the images with results, in the order of the inputs.
     pub records: Vec<ImageRecord>,
-    /// Images without results, with the reasons.
+    /// Images without results, each with the reason.
     pub failures: Vec<Failure>,
-    /// Number of images whose earlier results were kept.
+    /// Number of images for which the results of an earlier run were kept.
     pub reused: usize,
-    /// The end of the run: complete or stopped.
+    /// End of the run: complete, or stopped early.
     pub ending: Ending,
 }
 
-/// The state that the work on all images shares.
+/// Data that the work on all images shares.
 struct Job<'a> {
     options: &'a RunOptions,
     windows: ImageWindows<'a>,
@@ -91,15 +93,16 @@ struct Job<'a> {
 
 /// Detects or reads the cones of every image, analyses them and writes the results into `out`.
 ///
-/// Writes `images/NAME/` (`points.csv`, `overlay.png`, `metrics.json`, `pcf.csv`, `figure.svg` and
-/// what the plan asks for), `summary.csv`, `index.html` and `run.json`; as the plan asks,
-/// `groups.csv`, `verdicts.csv`, `landmarks.csv` and `rois.csv`; and, if an image failed,
-/// `failures.csv`. The folder of an image is replaced when its new content is complete.
+/// Writes one folder per image, `images/NAME/`, with `points.csv`, `overlay.png`, `metrics.json`,
+/// `pcf.csv`, `figure.svg` and what the plan asks for. Also writes `summary.csv`, `index.html` and
+/// `run.json`; as the plan asks, `groups.csv`, `verdicts.csv`, `landmarks.csv` and `rois.csv`; and,
+/// if an image failed, `failures.csv`. The folder of an image is replaced when its new content is
+/// complete.
 ///
 /// # Errors
-/// If an option is out of range, the file of a window cannot be read, an image lies among the
-/// results, another run writes into `out`, or that folder cannot be written to. Images that fail
-/// are listed in the outcome and in `failures.csv`.
+/// Fails if an option is out of range, a window is to be read from a file and that file cannot be
+/// read, an image lies among the results, another run is writing into `out`, or that folder cannot
+/// be written to. Images that fail are listed in the outcome and in `failures.csv`.
 pub fn run_files(
     inputs: &[Input],
     options: &RunOptions,
@@ -122,7 +125,7 @@ pub fn run_files(
     job.finish(inputs, worked)
 }
 
-/// Refuses images that lie where the results of an image would replace them.
+/// Refuses input images that lie in the folder whose content results will replace.
 fn refuse_overlap(inputs: &[Input], images: &Path) -> Result<(), BatchError> {
     let Ok(results) = images.canonicalize() else { return Ok(()) };
     let within = |input: &&Input| input.path.canonicalize().is_ok_and(|path| path.starts_with(&results));
@@ -133,7 +136,8 @@ fn refuse_overlap(inputs: &[Input], images: &Path) -> Result<(), BatchError> {
 }
 
 impl Job<'_> {
-    /// Keeps the earlier results of an image that fails now, with a note beside them that says so.
+    /// Keeps the earlier results of an image that fails now, and writes a note beside them that
+    /// says so. Returns the error to report.
     fn keep_earlier<T>(
         &self,
         input: &Input,
@@ -150,7 +154,7 @@ impl Job<'_> {
              They are not part of summary.csv and the page.\n",
             progress.words(&error)
         );
-        // the failure itself is reported whether or not the note can be written
+        // the failure is reported whether or not the note can be written
         let _ = self.images.folder(name).and_then(|folder| folder.write(FAILED, note.as_bytes()));
         Err(BatchError::Outdated { source: Box::new(error), folder: format!("{IMAGES}/{name}") })
     }
@@ -184,7 +188,7 @@ impl Job<'_> {
         out.write_json("run.json", &record::run_json(self.options, worked, started))
     }
 
-    /// Ends the run and collects what remains to be told about it.
+    /// Ends the run and collects its outcome.
     fn finish(self, inputs: &[Input], worked: Worked<Done>) -> Result<RunOutcome, BatchError> {
         let foreign = self.foreign_folders(inputs);
         let mut ending = self.out.close(worked.left)?;
@@ -194,8 +198,8 @@ impl Job<'_> {
         Ok(RunOutcome { records, failures: worked.failures, reused, ending })
     }
 
-    /// Returns the folders in `images/` that belong to no image of the run and that the program did
-    /// not write.
+    /// Returns the folders in `images/` that belong to no image of the run and in which the program
+    /// has written nothing.
     fn foreign_folders(&self, inputs: &[Input]) -> Vec<String> {
         let entries = fs::read_dir(self.images.join("")).into_iter().flatten().flatten();
         let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());

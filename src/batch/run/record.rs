@@ -1,4 +1,4 @@
-//! The records of a run: `metrics.json` of every image, `run.json` of all.
+//! Records of a run: `metrics.json` of every image, and `run.json` of the entire run.
 
 use super::done::Done;
 use super::{ConeSource, RunOptions};
@@ -11,7 +11,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 use std::time::Instant;
 
-/// The whole content of `metrics.json`.
+/// Complete content of `metrics.json`.
 #[derive(Serialize)]
 pub(super) struct Metrics<'a> {
     #[serde(flatten)]
@@ -25,18 +25,18 @@ pub(super) struct Metrics<'a> {
     regions: &'a [RoiRow],
 }
 
-/// Provenance of a sampler's mean curve.
+/// Origin of the mean curve with which a sampler entered the comparison.
 #[derive(Serialize)]
 struct SamplerNote<'a> {
     sampler: &'a str,
     n: usize,
     realisations: usize,
     ri: Option<f64>,
-    /// Marks a curve from the table that comes with the program.
+    /// `true` if the curve comes from the table that is part of the program.
     shipped: bool,
 }
 
-/// Returns the content of `metrics.json`.
+/// Returns the content of `metrics.json` for one image.
 pub(super) fn metrics<'a>(record: &'a ImageRecord, analysis: &'a Analysis) -> Metrics<'a> {
     let note = |c: &'a crate::compare::ReferenceCurve| SamplerNote {
         sampler: &c.sampler,
@@ -56,7 +56,7 @@ pub(super) fn metrics<'a>(record: &'a ImageRecord, analysis: &'a Analysis) -> Me
     }
 }
 
-/// Returns the content of `run.json`: the origin of the results.
+/// Returns the content of `run.json`: program, options, times, and the images with their hashes.
 pub(super) fn run_json(options: &RunOptions, worked: &Worked<Done>, started: Instant) -> Value {
     let image = |d: &Done| {
         json!({

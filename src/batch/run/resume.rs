@@ -1,6 +1,7 @@
-//! Results of an earlier run that still hold.
+//! Check of whether the results of an earlier run are still valid for an image.
 //!
-//! They do if image, options, cones and program are the same and every file is as it was written.
+//! The results are valid if image, options, cones and program are the same and every file is as the
+//! program wrote it.
 
 use super::cones::Origin;
 use super::done::{Done, METRICS, POINTS};
@@ -17,7 +18,7 @@ use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use std::fs;
 
-/// Parts of `metrics.json` beside the record that are read back.
+/// Parts of `metrics.json`, besides the record of the image, that are read back.
 #[derive(Deserialize)]
 struct Kept {
     #[serde(default)]
@@ -26,8 +27,9 @@ struct Kept {
     regions: Vec<RoiRow>,
 }
 
-/// Returns a hash of everything but the image that its results depend on: the program with all its
-/// weights, the plan, scale, window, labels and origin of the cones.
+/// Returns a hash of everything on which the results of an image depend, except the image itself:
+/// the program with all its weights, the plan, scale, window, labels, and the options or file from
+/// which the cones come.
 pub(super) fn fingerprint(
     plan: &Plan,
     scale: Option<Scale>,
@@ -41,7 +43,7 @@ pub(super) fn fingerprint(
     Ok(hex(&digest.finalize()))
 }
 
-/// A hash of the program's source and weights, made when it was built.
+/// Hash of the program's source code and weights, computed when the program was built.
 const BUILD: &str = env!("CONEMOSAIC_BUILD_HASH");
 
 /// Returns the results of an earlier run for an image; `None` unless they are complete, unchanged
@@ -54,7 +56,7 @@ pub(super) fn earlier(job: &Job, input: &Input, sha256: &str, options_sha256: &s
     if record.sha256 != sha256 || record.options_sha256 != options_sha256 {
         return None;
     }
-    // corrected cones differ from what was written, and are already part of `options_sha256`
+    // corrected cones differ from what the program wrote; they are already part of `options_sha256`
     let corrected = record.cones_from == ConesFrom::Corrected;
     let aside: &[&str] = if corrected { &[FAILED, POINTS] } else { &[FAILED] };
     let whole = job.out.is_whole(&format!("{IMAGES}/{}/", input.name), aside);
@@ -65,7 +67,8 @@ pub(super) fn earlier(job: &Job, input: &Input, sha256: &str, options_sha256: &s
     if landmarks.is_some() != plan.maps.is_some() {
         return None;
     }
-    // an earlier failure is over; a note that cannot be removed does no harm
+    // the image no longer fails, so the note about a failure goes; a note that cannot be removed
+    // does no harm
     let _ = fs::remove_file(folder.join(FAILED));
     let file = input.path.display().to_string();
     let landmarks = landmarks.map(|l| LandmarkRecord { file: file.clone(), ..l });

@@ -10,29 +10,31 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
 
-/// The results of a validation over all images, computed from their scores.
+/// The results of a validation over all images.
 #[derive(Clone, Debug)]
 pub struct Analysis {
-    /// Means over images and pooled rates.
+    /// Means over images, and rates computed from the counts of all images together.
     pub summary: Summary,
-    /// Intervals (95 %) of the values of `summary`, by name.
+    /// 95 % confidence intervals of the values of `summary`, by the name of the value in
+    /// `validation.json`.
     pub intervals: BTreeMap<&'static str, Interval>,
-    /// The method of the intervals, in words.
+    /// Description of the method by which the intervals were computed.
     pub method: String,
     /// Summaries of the groups, one per group; empty without groups.
     pub groups: Vec<GroupSummary>,
-    /// Means over the groups, where there are groups.
+    /// Means over the groups, in which every group counts once; `None` without groups.
     pub over_groups: Option<MeanOverGroups>,
-    /// The FROC curve over the threshold of the score, where all detections have a score.
+    /// The FROC curve: sensitivity and false alarms at every threshold of the score. `None` unless
+    /// all detections have a score.
     pub froc: Option<Froc>,
-    /// Reliability of the score, where all scores lie between 0 and 1.
+    /// Reliability of the scores as probabilities; `None` unless all scores lie between 0 and 1.
     pub reliability: Option<Reliability>,
-    /// False alarms per image, first expected from the scores, then observed, where all scores lie
-    /// between 0 and 1.
+    /// Mean number of false alarms per image: first the number expected from the scores, then the
+    /// number observed. `None` unless all scores lie between 0 and 1.
     pub false_alarms: Option<(f64, f64)>,
     /// The comparison with a second detector or grader, if one was given.
     pub comparison: Option<Comparison>,
-    /// Remarks that a reader of the numbers needs, each a sentence.
+    /// Remarks that are needed to understand the numbers, each a sentence.
     pub notes: Vec<String>,
 }
 
@@ -43,25 +45,27 @@ pub struct Comparison {
     pub first: String,
     /// Name of the second detector or grader.
     pub second: String,
-    /// Paired differences between the scores of the two.
+    /// Differences between the two in accuracy, count and density, paired by image.
     pub differences: Vec<Difference>,
-    /// Summary of the second against the marks.
+    /// Summary of the second detector or grader, scored against the marks.
     pub summary: Summary,
-    /// FROC curve of the second, where its detections have scores.
+    /// FROC curve of the second detector or grader; `None` unless all its detections have scores.
     pub froc: Option<Froc>,
-    /// Summary of the first against the second, whose points are taken as marks.
+    /// Summary of the first detector or grader, scored against the second one, whose points are
+    /// taken as marks.
     pub between: Summary,
-    /// Intervals (95 %) of the values of `between`, by name.
+    /// 95 % confidence intervals of the values of `between`, by the name of the value in
+    /// `validation.json`.
     pub between_intervals: BTreeMap<&'static str, Interval>,
 }
 
-/// Numbers of random streams: with a stream of its own, no interval depends on what else is asked
-/// for.
+/// Numbers of the random streams of two computations of intervals. As each has a stream of its own,
+/// no interval depends on what else is computed.
 const AGAINST_MARKS: u64 = 1;
 const OF_TWO: u64 = 2;
 
 impl Analysis {
-    /// Computes the results of all images; `None` without an image.
+    /// Computes the results over all images; `None` without images.
     pub(super) fn of(rows: &[ValidationRow], options: &ValidationOptions) -> Option<Self> {
         let scores: Vec<Score> = rows.iter().map(|r| r.score).collect();
         let summary = summarise(&scores)?;
@@ -113,10 +117,10 @@ impl Analysis {
         Some(analysis)
     }
 
-    /// Returns the remarks that a reader of the numbers needs.
+    /// Returns the remarks that are needed to understand the numbers, each a sentence.
     fn remarks(&self, rows: &[ValidationRow]) -> Vec<String> {
         let mut notes = Vec::new();
-        // The conventions of the field differ by half a pixel along both axes.
+        // Programs differ by half a pixel along both axes in where they put the origin.
         if let Some([x, y]) = self.summary.offset_px
             && x.abs().min(y.abs()) > 0.3
             && x * y > 0.
@@ -157,7 +161,7 @@ impl Analysis {
         notes
     }
 
-    /// Returns the tables that a person reads, each with its heading.
+    /// Returns the tables for the terminal and the page, each with its heading.
     pub fn tables(&self) -> Vec<(&'static str, TextTable)> {
         let mut tables = vec![
             ("Accuracy", accuracy_table(&self.summary, &self.intervals)),
@@ -182,7 +186,7 @@ impl Analysis {
     }
 }
 
-/// Returns the score of every detection that counts, and whether it is a hit.
+/// Returns the scores of all hits and false alarms, each with a flag that is `true` for a hit.
 fn counted(images: &[JudgedImage]) -> Vec<(f64, bool)> {
     let all = images.iter().flat_map(|image| &image.judged);
     all.filter_map(|j| match j.verdict {
@@ -193,7 +197,7 @@ fn counted(images: &[JudgedImage]) -> Vec<(f64, bool)> {
     .collect()
 }
 
-/// Returns the method of the intervals, in words.
+/// Describes, for the report, the method by which the intervals were computed.
 fn method(groups: &[GroupSummary], resamples: usize) -> String {
     if groups.is_empty() {
         format!(

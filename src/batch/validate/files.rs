@@ -1,4 +1,4 @@
-//! The files of a validation: its tables and figures, and the page that shows them.
+//! Files that a validation writes: tables, figures, and the page that shows them.
 
 use super::figures::{agreement, froc_svg, marks_as_detections};
 use super::{Analysis, ValidationOptions, ValidationRow};
@@ -13,7 +13,7 @@ use crate::report::{
 };
 use serde_json::json;
 
-/// Writes all files of a validation but its overlays and the list of failures.
+/// Writes all files of a validation except its overlays and the list of failures.
 pub(super) fn write(
     out: &OutputFolder,
     rows: &[ValidationRow],
@@ -87,8 +87,8 @@ pub(super) fn write(
     out.write("index.html", page.as_bytes())
 }
 
-/// Returns the content of `validation.json`: the means by their plain names, everything else below
-/// them.
+/// Returns the content of `validation.json`. The means over images stand at the top level;
+/// everything else follows under names of its own.
 fn record(analysis: &Analysis, options: &ValidationOptions) -> serde_json::Value {
     let best = |froc: &Froc| froc.points.get(froc.best).copied();
     let mut record = json!(analysis.summary);
@@ -127,7 +127,7 @@ fn record(analysis: &Analysis, options: &ValidationOptions) -> serde_json::Value
     record
 }
 
-/// Returns the page, which lists the images from the lowest Dice coefficient upwards.
+/// Returns the page in HTML. It lists the images from the lowest Dice coefficient to the highest.
 fn page(
     rows: &[ValidationRow],
     analysis: Option<&Analysis>,

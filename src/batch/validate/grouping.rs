@@ -2,15 +2,16 @@ use crate::mosaic::io::GroupTable;
 use regex_lite::Regex;
 use std::str::FromStr;
 
-/// The rule by which images form groups, from their names.
+/// The rule that derives the group of an image from its name.
 #[derive(Clone, Debug)]
 pub enum Grouping {
-    /// The first parts of the name, this many, as separated by underscores.
+    /// The group is the first parts of the name, which underscores separate; the value is the
+    /// number of parts. By `prefix:2`, the group of `AD_10253_790nm` is `AD_10253`.
     Prefix(usize),
-    /// The text that the first group of a regular expression matches; in an expression without
-    /// groups, all that it matches.
+    /// The group is the text that the first capture group of a regular expression matches; in an
+    /// expression without capture groups, it is the entire match.
     Pattern(Regex),
-    /// A table of names and their groups.
+    /// The group is looked up in a table of names and groups.
     Table(GroupTable),
 }
 
@@ -32,10 +33,10 @@ impl FromStr for Grouping {
 }
 
 impl Grouping {
-    /// Returns the group of the image called `name`.
+    /// Returns the group of the image `name`.
     ///
     /// # Errors
-    /// If the name does not match or is not in the table. The error says what to do about it.
+    /// Fails if the name does not match or is not in the table. The error says what to do.
     pub fn group_of(&self, name: &str) -> Result<String, String> {
         match self {
             Self::Prefix(parts) => Ok(name.split('_').take(*parts).collect::<Vec<_>>().join("_")),

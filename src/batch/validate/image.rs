@@ -1,4 +1,4 @@
-//! The validation of one image: its marks, the detections in it, and how well they agree.
+//! Validation of one image: its marks, its detections, and the agreement of the two.
 
 use super::pairs::Pairs;
 use super::{Detected, ValidationRow, VersusRow};
@@ -15,19 +15,20 @@ use crate::mosaic::{LengthUnit, hexagonal_spacing};
 use crate::report::{MarkKind, OverlayMark, encode_png, overlay_with_border};
 use std::path::Path;
 
-/// Radius of the rings of an overlay, in cone spacings.
+/// Radius of the ring drawn around each point, in spacings of the marks.
 const RING: f64 = 0.3;
 
-/// Detected points, each with a score if the file or the detector gives any.
+/// Detected points. `scores` holds one score per point, if the file or the detector gives scores.
 struct Found {
     points: Vec<Point>,
     scores: Option<Vec<f64>>,
-    /// Candidates that the detector did not take for cones; they continue the FROC curve below the
+    /// Candidates that the detector did not take for cones. They continue the FROC curve below the
     /// detector's threshold.
     rejected: Vec<Detection>,
 }
 
-/// Scores the detections of the image that a file of marks belongs to, and draws them if asked to.
+/// Scores the detections of the image to which a file of marks belongs, and draws an overlay if
+/// asked to.
 pub(super) fn score(input: &Input, pairs: &Pairs, out: &OutputFolder) -> Result<ValidationRow, BatchError> {
     let options = pairs.options;
     let group = match &options.grouping {
@@ -72,7 +73,8 @@ pub(super) fn score(input: &Input, pairs: &Pairs, out: &OutputFolder) -> Result<
     Ok(ValidationRow { file, name: input.name.clone(), group, score, judged, expected_false_alarms, versus })
 }
 
-/// Everything but the points that is needed to score detections of an image against marks.
+/// Settings for scoring the detections of one image: its size in px, its scale and the options of
+/// pairing.
 struct Against<'a> {
     size: (usize, usize),
     um_per_px: Option<f64>,
@@ -80,7 +82,8 @@ struct Against<'a> {
 }
 
 impl Against<'_> {
-    /// Scores detections against marks; the last value judges each detection, if they have scores.
+    /// Scores detections against marks, and pairs them. The last value holds the outcome of every
+    /// detection; `None` if the detections have no scores.
     fn marks(
         &self,
         marks: &[Point],
@@ -105,8 +108,9 @@ impl Against<'_> {
     }
 }
 
-/// Returns the expected number of false alarms: Σ (1 − score) over the detections that count as
-/// hits or false alarms; `None` if a score is missing or not between 0 and 1.
+/// Returns the number of false alarms that the scores predict: Σ (1 − score) over the detections
+/// that count as hits or false alarms. `None` if such a detection has no score, or one that is not
+/// between 0 and 1.
 fn expected(scores: &[f64], matching: &Matching) -> Option<f64> {
     let hits = matching.pairs.iter().filter(|p| p.counted).map(|p| p.detection);
     let mut counted: Vec<usize> = hits.chain(matching.false_alarms.iter().copied()).collect();
@@ -115,7 +119,8 @@ fn expected(scores: &[f64], matching: &Matching) -> Option<f64> {
     counted.into_iter().map(lack).sum()
 }
 
-/// Reads the image of a file of marks; `pixels_matter` tells whether more than its size is needed.
+/// Reads the image that belongs to a file of marks. `pixels_matter` is `false` if only the size of
+/// the image is needed, which changes the error message.
 fn picture(input: &Input, pairs: &Pairs, pixels_matter: bool) -> Result<Plane, BatchError> {
     let name = image_name(&input.path);
     let missing = || {
@@ -133,8 +138,8 @@ fn picture(input: &Input, pairs: &Pairs, pixels_matter: bool) -> Result<Plane, B
     Ok(read_image(&Input { path, name })?.1)
 }
 
-/// Says in words that what was sought is not in the folder `given`, or that the file `given` is
-/// another.
+/// Returns the error text for files that were not found: `given` is the folder that was searched,
+/// or the only file given, which has another name.
 fn nothing_in(given: &Path, sought: &str) -> String {
     let given_as = given.display();
     if given.is_file() {
@@ -171,8 +176,8 @@ fn find(
     }
 }
 
-/// Reads the points of a file in px. A file without points counts as one with scores, since none is
-/// missing.
+/// Reads the points of a file in px. A file without points is treated as a file with scores, since
+/// no score is missing.
 fn read(path: &Path, options: &ReadOptions) -> Result<Found, BatchError> {
     let file = read_coordinates(path, options)?;
     match file.unit {
@@ -184,13 +189,14 @@ fn read(path: &Path, options: &ReadOptions) -> Result<Found, BatchError> {
     }
 }
 
-/// Returns the spacing of the marks in px, or the reach of a mark where there are too few.
+/// Returns the hexagonal spacing of the marks in px; without marks, the largest distance allowed in
+/// a pair.
 fn spacing_of(score: &Score) -> f64 {
     hexagonal_spacing(score.marks_inside, score.area_px).unwrap_or(score.limit_px)
 }
 
-/// Returns the marks of an overlay: hits, misses and false alarms, and in grey the detections that
-/// do not count.
+/// Returns the rings of an overlay: hits, misses, false alarms, and in grey the detections that do
+/// not count.
 fn drawn(marks: &[Point], found: &[Point], matching: &Matching, score: &Score) -> Vec<OverlayMark> {
     let radius = RING * spacing_of(score);
     let mark = |p: Point, kind: MarkKind| OverlayMark { x: p.x, y: p.y, radius, kind };

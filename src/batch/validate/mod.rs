@@ -19,22 +19,23 @@ use crate::detect::DetectOptions;
 use crate::mosaic::io::ReadOptions;
 use std::path::{Path, PathBuf};
 
-/// The source of detections.
+/// The source of the detections that are validated.
 #[derive(Clone, Debug)]
 pub enum Detected {
-    /// Coordinate files NAME.csv of any program, with or without a column `score`.
+    /// The detections are read from coordinate files NAME.csv, written by any program, with or
+    /// without a column `score`.
     Files {
-        /// Folder of the files, or the only file.
+        /// Folder of the coordinate files, or the only file.
         path: PathBuf,
         /// Options of reading the files.
         read: ReadOptions,
     },
-    /// Cones that this program detects in the images.
+    /// The detections are made by this program in the images.
     Detector(DetectOptions),
 }
 
 impl Detected {
-    /// Returns the source in a word or two.
+    /// Returns the path of the files or the name of the detector, for the report.
     fn label(&self) -> String {
         match self {
             Self::Files { path, .. } => path.display().to_string(),
@@ -43,27 +44,28 @@ impl Detected {
     }
 }
 
-/// Options of scoring detections against hand marks.
+/// Options of [`validate_files`], which scores detections against hand marks.
 #[derive(Clone, Debug)]
 pub struct ValidationOptions {
     /// Options of reading the marks.
     pub read: ReadOptions,
     /// Source of the detections.
     pub detected: Detected,
-    /// Detections, or marks of another grader, to compare the detections with.
+    /// Second set of detections, or marks of another grader, to compare the detections with;
+    /// `None`: no comparison.
     pub versus: Option<Detected>,
-    /// Folder of the images NAME.png or NAME.tif, or the only image; `None`: they lie beside the
-    /// marks.
+    /// Folder of the images NAME.png or NAME.tif, or the only image; `None`: each image lies beside
+    /// its marks.
     pub images: Option<PathBuf>,
-    /// Width and height of all images in px; `None`: read from the images.
+    /// Width and height of every image in px; `None`: read from the images.
     pub size: Option<(usize, usize)>,
-    /// Options of matching detections with marks.
+    /// Options of pairing detections with marks.
     pub matching: MatchOptions,
-    /// Rule by which images form groups; `None`: every image stands alone.
+    /// Rule by which images form groups; `None`: every image counts as independent.
     pub grouping: Option<Grouping>,
     /// Source of the scales of the images.
     pub scales: ScaleSource,
-    /// Draws hits, misses and false alarms on the images.
+    /// `true` to write an overlay for every image, which shows hits, misses and false alarms.
     pub overlays: bool,
     /// Number of resamples of the bootstrap.
     pub resamples: usize,
@@ -71,36 +73,36 @@ pub struct ValidationOptions {
     pub seed: u64,
 }
 
-/// Results of a validation.
+/// Results of a validation by [`validate_files`].
 #[derive(Clone, Debug)]
 pub struct ValidationOutcome {
     /// Scores of the images, one row per image, in the order of the files of marks.
     pub rows: Vec<ValidationRow>,
-    /// Results over all images; `None` without an image.
+    /// Results over all images; `None` if no image was scored.
     pub analysis: Option<Analysis>,
-    /// Files of marks that could not be scored.
+    /// Files of marks that could not be scored, with the reasons.
     pub failures: Vec<Failure>,
     /// Coordinate files beside the marks that belong to no image, such as tables of scales.
     pub ignored: Vec<PathBuf>,
-    /// The end of the batch: complete or stopped.
+    /// End of the batch: complete, or stopped early.
     pub ending: Ending,
 }
 
 /// Scores the detections of every file of marks in `reference` and writes the results into `out`.
 ///
-/// Files of marks are `NAME_coords.csv` or `NAME.csv`; `reference` may also be one such file.
-/// These files are written:
+/// Files of marks are called `NAME_coords.csv` or `NAME.csv`; `reference` is a folder of them or a
+/// single file. These files are written:
 /// - `validation.csv` (one row per image), `validation.json` (everything), `index.html` and
 ///   `bland_altman.svg`;
-/// - `groups.csv` with groups;
-/// - `froc.csv` and `froc.svg` where detections have scores;
-/// - `reliability.csv` and `reliability.svg` where the scores lie between 0 and 1;
-/// - `comparison.csv` and `comparison.svg` where two detectors or graders are compared;
-/// - `NAME.overlay.png` if overlays are asked for.
+/// - `groups.csv` if images form groups;
+/// - `froc.csv` and `froc.svg` if all detections have scores;
+/// - `reliability.csv` and `reliability.svg` if all scores lie between 0 and 1;
+/// - `comparison.csv` and `comparison.svg` if two detectors or graders are compared;
+/// - `NAME.overlay.png` for each image if overlays are asked for.
 ///
 /// # Errors
-/// If a folder or file cannot be read, there are no marks, or `out` cannot be written to. Files of
-/// marks that fail are listed in the outcome and in `failures.csv`.
+/// Fails if a folder or file cannot be read, there are no marks, or `out` cannot be written to.
+/// Files of marks that cannot be scored are listed in the outcome and in `failures.csv`.
 pub fn validate_files(
     reference: &Path,
     options: &ValidationOptions,

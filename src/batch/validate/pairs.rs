@@ -5,7 +5,7 @@ use crate::batch::{BatchError, Input};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-/// The search for the files that belong to a file of marks.
+/// Search for the image and the detections that belong to a file of marks.
 #[derive(Clone, Copy)]
 pub(super) struct Pairs<'a> {
     /// The folder of marks, or the only file of marks.
@@ -15,11 +15,12 @@ pub(super) struct Pairs<'a> {
 }
 
 impl Pairs<'_> {
-    /// Returns the files of marks, one per image and named like it, and the other coordinate files
-    /// that lie there.
+    /// Returns the files of marks, and the other coordinate files among them. There is one file of
+    /// marks per image, with the name of the image.
     ///
-    /// A file counts as marks if its name ends in `_coords`, or if an image or detections of its
-    /// name are found. Where both `NAME_coords` and `NAME` exist, only the first is returned.
+    /// A file counts as marks if its name ends in `_coords`, or if an image or detections of the
+    /// same name are found. If both `NAME_coords` and `NAME` exist in a folder, only the first is
+    /// returned.
     pub fn marks(&self, out: &Path) -> Result<(Vec<Input>, Vec<PathBuf>), BatchError> {
         let files = coordinate_files(&[self.reference.to_owned()], Some(out))?;
         let belongs = |input: &Input| {
@@ -61,8 +62,8 @@ impl Pairs<'_> {
         }
     }
 
-    /// Returns the file of detections that belongs to a file of marks, never that file itself;
-    /// `None` if there is none.
+    /// Returns the file of detections that belongs to a file of marks; `None` if there is none. The
+    /// file of marks itself is never returned.
     pub fn detections(&self, marks: &Path, detected: &Detected) -> Option<PathBuf> {
         let Detected::Files { path: given, .. } = detected else { return None };
         let name = image_name(marks);
@@ -75,8 +76,8 @@ impl Pairs<'_> {
         self.sought(given, marks, in_folder).filter(is_other)
     }
 
-    /// Returns `given` if it is a file that belongs to `marks`, or, if it is a folder, the file
-    /// that `in_folder` finds in it.
+    /// Returns `given` if it is a file that belongs to `marks`. If `given` is a folder, returns the
+    /// file that `in_folder` finds in it or in its corresponding subfolder.
     fn sought(
         &self,
         given: &Path,
@@ -89,16 +90,16 @@ impl Pairs<'_> {
         self.places(marks, given).iter().find_map(|folder| in_folder(folder))
     }
 
-    /// Returns whether a file that was given instead of a folder belongs to a file of marks.
+    /// Returns whether `file`, which was given instead of a folder, belongs to a file of marks.
     ///
-    /// If there is only one file of marks, it does whatever the names; otherwise both must name the
-    /// same image.
+    /// If there is only one file of marks, the two always belong together. Otherwise both must name
+    /// the same image.
     fn belongs(&self, file: &Path, marks: &Path) -> bool {
         self.reference.is_file() || image_name(file) == image_name(marks)
     }
 
-    /// Returns the folders to search: the subfolder of `folder` that corresponds to the one in
-    /// which the marks lie below the reference, and `folder` itself.
+    /// Returns the two folders in which to search: first the subfolder of `folder` at the same
+    /// relative path as the marks have below the reference folder, then `folder` itself.
     fn places(&self, marks: &Path, folder: &Path) -> [PathBuf; 2] {
         let below = marks.parent().and_then(|p| p.strip_prefix(self.reference).ok()).unwrap_or(Path::new(""));
         [folder.join(below), folder.to_owned()]

@@ -5,12 +5,13 @@ use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
-/// The part of a window whose cones count: a centred rectangle or one given by its edges, in px, in
-/// µm or in the unit of the coordinates.
+/// The part of a window whose cones count: a rectangle that is centred in the window or given by
+/// its edges. Lengths are in px, in µm or in the unit of the coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crop {
     shape: Shape,
-    /// The unit that was given; `None`: the unit of the coordinates, or px for an image.
+    /// The unit that was given with the crop. `None`: the unit of the coordinates, which for an
+    /// image is px.
     unit: Option<LengthUnit>,
 }
 
@@ -60,19 +61,19 @@ impl fmt::Display for Crop {
 }
 
 impl Crop {
-    /// Returns whether the crop is in µm, so that an image needs a scale.
+    /// Returns whether the crop is given in µm, so that images need a scale.
     pub fn in_micrometres(&self) -> bool {
         self.unit == Some(LengthUnit::Micrometre)
     }
 
-    /// Returns the rectangle that the crop cuts out of `bounds`, both in `unit`; `None` if it has
-    /// no area within them.
+    /// Returns the rectangle that the crop leaves of `bounds`, both in `unit`; `None` if nothing is
+    /// left.
     ///
-    /// A crop given as a size is centred in `bounds`. `option` names the option that gave it, for
-    /// the error message.
+    /// A crop given as a size is centred in `bounds`. `option` is the name that the error message
+    /// gives to the crop.
     ///
     /// # Errors
-    /// If the crop is in another unit than `unit` and no scale is known to convert it.
+    /// Fails if the crop is in another unit than `unit` and no scale is known to convert it.
     pub(in crate::batch) fn frame(
         &self,
         option: &'static str,
@@ -100,10 +101,10 @@ impl Crop {
 
     /// Returns the window, in px, that the crop leaves of an image of `width` × `height` px.
     ///
-    /// `option` names the option that gave the crop, for the error message.
+    /// `option` is the name that the error message gives to the crop.
     ///
     /// # Errors
-    /// If the crop leaves nothing of the image, or is in µm and no scale is known.
+    /// Fails if the crop leaves nothing of the image, or is in µm and no scale is known.
     pub(super) fn window(
         &self,
         option: &'static str,

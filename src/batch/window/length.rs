@@ -5,8 +5,8 @@ use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
-/// A positive length, either in the unit of the coordinates or in µm (text that ends in `um` or
-/// `µm`).
+/// A positive length, either in the unit of the coordinates or in µm. As text, a length in µm ends
+/// in `um` or `µm`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Length {
     value: f64,
@@ -43,12 +43,12 @@ impl Serialize for Length {
 }
 
 impl Length {
-    /// Returns the length in the unit of `mosaic`.
+    /// Returns the length in the unit of the coordinates of `mosaic`.
     ///
-    /// `option` names the option that gave the length, for the error message.
+    /// `option` is the name that the error message gives to the length.
     ///
     /// # Errors
-    /// If the length is in µm and the scale of the mosaic is not known.
+    /// Fails if the length is in µm and the scale of the mosaic is not known.
     pub(in crate::batch) fn of(
         &self,
         option: &'static str,

@@ -11,19 +11,21 @@ use std::str::FromStr;
 /// The area in which the points of a coordinate file could have been seen.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Region {
-    /// The unit square, `[0, 1] × [0, 1]`.
+    /// The window is the unit square, `[0, 1] × [0, 1]`.
     Unit,
-    /// The area of an image of this width and height: `[−.5, W−.5] × [−.5, H−.5]` in px, in any
-    /// other unit `[0, W] × [0, H]`.
+    /// The window is the area of an image of width W and height H: `[−.5, W−.5] × [−.5, H−.5]` for
+    /// coordinates in px, `[0, W] × [0, H]` in any other unit.
     Size(f64, f64),
-    /// Left, upper, right and lower edge, in the unit of the coordinates.
+    /// The window is a rectangle, given by its left, upper, right and lower edge in the unit of the
+    /// coordinates.
     Edges([f64; 4]),
-    /// The imaged part of the image that belongs to the file; see [`imaged_area`].
+    /// The window is the imaged part (without black margins) of the image that belongs to the
+    /// coordinate file; see [`imaged_area`].
     Auto,
-    /// The whole of the image that belongs to the file.
+    /// The window is the entire image that belongs to the coordinate file.
     Image,
-    /// Polygons from this file, in the unit of the coordinates unless the file names another; see
-    /// [`read_outline`].
+    /// The window consists of the polygons in this file, in the unit of the coordinates unless the
+    /// file names another; see [`read_outline`].
     File(PathBuf),
 }
 
@@ -63,20 +65,22 @@ impl fmt::Display for Region {
     }
 }
 
-/// Windows of the coordinate files of a batch, with the outline read if one was given as a file.
+/// Source of the windows of all coordinate files of a batch. If the window is given as a file, that
+/// file is read only once.
 pub(in crate::batch) struct Regions<'a> {
     asked: &'a Region,
-    /// The folder of the images, or the only image; `None`: the images lie beside the coordinate
-    /// files.
+    /// The folder of the images, or the only image; `None`: each image lies beside its coordinate
+    /// file.
     images: Option<&'a Path>,
     outline: Option<OutlineFile>,
 }
 
 impl<'a> Regions<'a> {
-    /// Prepares the windows that `options` ask for.
+    /// Prepares the windows that `options` ask for, and reads the file of the window if there is
+    /// one.
     ///
     /// # Errors
-    /// If the window is given as a file and that file cannot be read.
+    /// Fails if the window is given as a file and that file cannot be read.
     pub(in crate::batch) fn new(options: &'a CoordinatesOptions) -> Result<Self, BatchError> {
         let outline = match &options.region {
             Region::File(path) => Some(read_outline(path, &options.read)?),
@@ -94,20 +98,20 @@ impl<'a> Regions<'a> {
         }
     }
 
-    /// Returns the window of a coordinate file, in `unit`, and the scale of its pixels if that is
-    /// known.
+    /// Returns the window of a coordinate file, in `unit`, and the scale of the pixels; the scale
+    /// is `None` if it is not known.
     ///
     /// # Errors
-    /// If an image is needed and none is found, or the window is in another unit than the
-    /// coordinates and no scale is known to convert it.
+    /// Fails if the window is to be taken from an image and none is found, or if the window is in
+    /// another unit than the coordinates and no scale is known to convert it.
     pub(in crate::batch) fn of(
         &self,
         file: &Path,
         unit: LengthUnit,
         scales: &ScaleSource,
     ) -> Result<(Window, Option<Scale>), BatchError> {
-        // the window, its unit, and the width of the image in `unit` (or in px where the window is
-        // an image), by which a scale may be computed
+        // the window, its unit, and the width of the image, from which the scale may be computed
+        // (in px if the window is taken from an image, else in `unit`)
         let (window, given, width) = match (self.asked, &self.outline) {
             (Region::Auto | Region::Image, _) => {
                 let beside =
@@ -141,7 +145,7 @@ impl<'a> Regions<'a> {
         };
         let missing = || BatchError::NoScale { what: "one of window and coordinates", file: file.to_owned() };
         let window = match (given, unit) {
-            // tissue that shrank: `load` expands the coordinates by the same factor
+            // the tissue shrank: `load` expands the coordinates by the same factor
             (LengthUnit::Micrometre, LengthUnit::Micrometre) if scales.expansion() != 1. => {
                 window.scaled(scales.expansion())?
             }

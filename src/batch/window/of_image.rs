@@ -11,14 +11,14 @@ use std::str::FromStr;
 /// The area of an image whose cones count.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum ImageWindow {
-    /// The part that was imaged: everything but black margins. See [`imaged_area`].
+    /// Only cones in the imaged part count: everything but black margins. See [`imaged_area`].
     #[default]
     Auto,
-    /// The whole image, with its margins.
+    /// All cones in the image count, also in black margins.
     Image,
-    /// A rectangle, centred or given by its edges.
+    /// Only cones in a rectangle count, which is centred in the image or given by its edges.
     Rectangle(Crop),
-    /// The polygons in this file; see [`read_outline`].
+    /// Only cones in the polygons in this file count; see [`read_outline`].
     File(PathBuf),
 }
 
@@ -52,7 +52,8 @@ impl fmt::Display for ImageWindow {
     }
 }
 
-/// Windows of the images of a run, with the outline read if one was given as a file.
+/// Source of the windows of all images of a run. If the window is given as a file, that file is
+/// read only once.
 pub(in crate::batch) struct ImageWindows<'a> {
     asked: &'a ImageWindow,
     crop: Option<&'a Crop>,
@@ -60,10 +61,11 @@ pub(in crate::batch) struct ImageWindows<'a> {
 }
 
 impl<'a> ImageWindows<'a> {
-    /// Prepares the windows that were asked for.
+    /// Prepares the windows that `asked` and `crop` describe, and reads the file of the window if
+    /// there is one.
     ///
     /// # Errors
-    /// If the window is given as a file and that file cannot be read.
+    /// Fails if the window is given as a file and that file cannot be read.
     pub(in crate::batch) fn new(asked: &'a ImageWindow, crop: Option<&'a Crop>) -> Result<Self, BatchError> {
         let outline = match asked {
             ImageWindow::File(path) => Some(read_outline(path, &ReadOptions::default())?),
@@ -72,10 +74,11 @@ impl<'a> ImageWindows<'a> {
         Ok(Self { asked, crop, outline })
     }
 
-    /// Returns the window of an image in px: the area asked for, cut to the image and to the crop.
+    /// Returns the window of an image, in px: the area asked for, as far as it lies in the image
+    /// and in the crop.
     ///
     /// # Errors
-    /// If nothing is left of the image, or a length is in µm and no scale is known.
+    /// Fails if nothing is left of the image, or a length is in µm and no scale is known.
     pub(in crate::batch) fn of(
         &self,
         file: &Path,
@@ -104,7 +107,7 @@ impl<'a> ImageWindows<'a> {
     }
 }
 
-/// Converts the window of a file to px.
+/// Converts the window that was read from a file to px.
 fn pixels_of(outline: &OutlineFile, file: &Path, scale: Option<Scale>) -> Result<Window, BatchError> {
     let missing = || BatchError::NoScale { what: "the file of the window", file: file.to_owned() };
     match outline.unit {

@@ -1,5 +1,5 @@
-//! Limits of agreement of two methods that measure the same quantity: the range in which 95 % of
-//! their differences lie, if those are normal.
+//! Limits of agreement of two methods that measure the same quantity. If their differences are
+//! normally distributed, 95 % of the differences lie between the limits.
 //!
 //! 1. The bias is the mean difference; the limits are bias ± 1.96 standard deviations (Bland &
 //!    Altman 1986, Lancet 327:307, <https://doi.org/10.1016/S0140-6736(86)90837-8>).
@@ -12,10 +12,12 @@ use crate::stats::{Deviation, moments};
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Two-sided 95 % point of the normal distribution, rounded as Bland & Altman print it.
+/// Half-width of a two-sided 95 % interval, in standard deviations of a normal distribution,
+/// rounded as Bland & Altman print it.
 const Z: f64 = 1.96;
 
-/// Agreement of two methods that measure the same quantity, from the differences first − second.
+/// Agreement of two methods that measure the same quantity, computed from the differences first −
+/// second.
 ///
 /// Source: Bland & Altman (1986), <https://doi.org/10.1016/S0140-6736(86)90837-8>.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -26,8 +28,8 @@ pub struct Agreement {
     pub bias: f64,
     /// Standard deviation (n − 1) of the differences; `None` for a single difference.
     pub sd: Option<f64>,
-    /// Limits of agreement, bias ± 1.96 standard deviations: 95 % of normal differences lie between
-    /// them. `None` for a single difference.
+    /// Limits of agreement, bias ± 1.96 standard deviations: 95 % of normally distributed
+    /// differences lie between these limits. `None` for a single difference.
     pub limits: Option<Interval>,
 }
 
@@ -55,7 +57,8 @@ pub fn agreement(differences: &[f64]) -> Option<Agreement> {
 }
 
 impl Agreement {
-    /// Returns the 95 % confidence interval of the bias, bias ± t(n − 1) s/√n.
+    /// Returns the 95 % confidence interval of the bias: bias ± t(n − 1) s/√n, where s is the
+    /// standard deviation of the n differences.
     ///
     /// The pairs are taken as independent. Returns `None` for a single difference.
     pub fn bias_interval(&self) -> Option<Interval> {
@@ -64,7 +67,8 @@ impl Agreement {
 
     /// Returns the 95 % confidence intervals of the lower and the upper limit of agreement.
     ///
-    /// Each is limit ± t(n − 1) s √(1/n + 1.96²/(2(n − 1))) (Bland & Altman 1999, section 2.2,
+    /// Each interval is limit ± t(n − 1) s √(1/n + 1.96²/(2(n − 1))), where s is the standard
+    /// deviation of the n differences (Bland & Altman 1999, section 2.2,
     /// <https://doi.org/10.1177/096228029900800204>). The pairs are taken as independent. Returns
     /// `None` for a single difference.
     pub fn limit_intervals(&self) -> Option<[Interval; 2]> {

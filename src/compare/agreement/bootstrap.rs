@@ -1,7 +1,8 @@
-//! Bootstrap intervals of statistics of clustered values: whole clusters are drawn anew, and the
-//! spread of the statistic over the resamples gives its interval.
+//! Bootstrap intervals of statistics of clustered values: entire clusters are drawn at random, and
+//! the spread of the statistic over the resamples gives its interval.
 //!
-//! 1. Draw as many clusters as there are, with replacement, and compute every statistic; repeat.
+//! 1. Draw clusters with replacement, as many as the data hold, and compute every statistic;
+//!    repeat.
 //! 2. Leave each cluster out in turn (jackknife), which shows how skewed a statistic is.
 //! 3. Read off the quantiles of the resamples at levels corrected for bias and skewness (BCa; Efron
 //!    1987, Journal of the American Statistical Association 82:171,
@@ -13,10 +14,10 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use statrs::distribution::{ContinuousCDF, Normal};
 
-/// Lower and upper end of an interval, in this order.
+/// Interval as an array of its lower and its upper end.
 pub type Interval = [f64; 2];
 
-/// Default number of resamples from which an interval is computed.
+/// Default number of resamples for [`bootstrap()`].
 pub const RESAMPLES: usize = 5000;
 
 /// Fraction of the resamples in each tail of a 95 % interval.
@@ -26,12 +27,12 @@ const TAIL: f64 = 0.025;
 /// accelerated (BCa; Efron 1987, <https://doi.org/10.1080/01621459.1987.10478410>).
 ///
 /// `clusters` holds the indices of the values that belong together, such as the images of one
-/// subject. Each resample draws whole clusters with replacement, as many as there are. `statistics`
-/// is given the indices drawn and returns every statistic, or `None` where one is undefined; such a
-/// resample is left out of that statistic's interval.
+/// subject. Each resample draws entire clusters with replacement, as many as the data hold.
+/// `statistics` is given the indices drawn and returns every statistic, or `None` for a statistic
+/// that is undefined; an undefined value is left out of the interval of that statistic.
 ///
-/// An interval is `None` for fewer than two clusters, or if its statistic is undefined for all
-/// values together.
+/// The interval of a statistic is `None` if there are fewer than two clusters, or if the statistic
+/// of all values together is undefined.
 pub fn bootstrap(
     clusters: &[Vec<usize>],
     resamples: usize,
@@ -65,15 +66,16 @@ pub fn bootstrap(
         .collect()
 }
 
-/// Adds every value that is defined and finite to the list of its statistic.
+/// Appends each value to the list of its statistic, unless the value is undefined or not finite.
 fn keep_finite(kept: &mut [Vec<f64>], values: Vec<Option<f64>>) {
     for (kept, value) in kept.iter_mut().zip(values) {
         kept.extend(value.filter(|v| v.is_finite()));
     }
 }
 
-/// Returns the BCa interval of a statistic from its value for all clusters (`estimate`), for the
-/// resamples (`drawn`), and for all clusters but one (`left_out`).
+/// Returns the BCa interval of a statistic. `estimate` is the statistic of all clusters, `drawn`
+/// holds the statistics of the resamples, and `left_out` holds the statistics of all clusters but
+/// one.
 fn bca(estimate: f64, drawn: &mut [f64], left_out: &[f64], normal: &Normal) -> Option<Interval> {
     drawn.sort_unstable_by(f64::total_cmp);
     let below = drawn.partition_point(|v| *v < estimate);

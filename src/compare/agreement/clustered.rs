@@ -1,35 +1,36 @@
-//! Limits of agreement where several pairs of measurements belong together, as the images of one
-//! eye do.
+//! Limits of agreement for differences that fall into clusters, such as the images of one eye.
 //!
-//! 1. Split the variance of the differences into a part between and a part within clusters, by
-//!    one-way analysis of variance.
+//! 1. Split the variance of the differences into a part between clusters and a part within
+//!    clusters, by one-way analysis of variance.
 //! 2. Take the limits of agreement from the sum of both parts (Bland & Altman 2007).
-//! 3. Take the interval of the bias from the number of clusters, those of the limits from the
-//!    intervals of both parts (Zou 2013).
+//! 3. Compute the confidence interval of the bias from the number of clusters, and those of the
+//!    limits of agreement from the intervals of both parts (Zou 2013).
 
 use super::{Agreement, Interval, agreement};
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 
-/// Two-sided 95 % point of the normal distribution, rounded as Bland & Altman print it.
+/// Half-width of a two-sided 95 % interval, in standard deviations of a normal distribution,
+/// rounded as Bland & Altman print it.
 const Z: f64 = 1.96;
 
-/// Agreement of two methods where several pairs of measurements belong together, as the images of
-/// one eye do.
+/// Agreement of two methods for measurements that fall into clusters, such as the images of one
+/// eye.
 ///
-/// Errors in images of one eye are alike, so these tell less than as many images of different eyes.
-/// Taken as independent, they make the intervals too narrow, and also the limits of agreement where
-/// eyes have unequal numbers of images.
+/// Errors in images of one eye are alike, so ten images of one eye tell less than ten images of
+/// different eyes. Treating all images as independent makes the confidence intervals too narrow,
+/// and the limits of agreement as well if eyes have unequal numbers of images.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClusteredAgreement {
     /// Number of clusters with at least one difference.
     pub clusters: usize,
-    /// Bias (mean of all differences) and limits of agreement. `sd` is the square root of the sum
-    /// of both variance components, between and within clusters.
+    /// Bias (mean of all differences) and limits of agreement. The standard deviation in the field
+    /// `sd` is the square root of the sum of both variance components, between and within clusters.
     pub agreement: Agreement,
-    /// Standard deviation of the clusters' own biases; `None` for fewer than two clusters.
+    /// Standard deviation of the biases of the clusters, by the component of variance between
+    /// clusters; `None` for fewer than two clusters.
     pub between_sd: Option<f64>,
-    /// Standard deviation of the differences within a cluster; `None` where every cluster has one
-    /// difference.
+    /// Standard deviation of the differences within a cluster; `None` if every cluster has a single
+    /// difference, or for fewer than two clusters.
     pub within_sd: Option<f64>,
     /// 95 % confidence interval of the bias; `None` for fewer than two clusters.
     pub bias_interval: Option<Interval>,
@@ -48,9 +49,10 @@ pub struct ClusteredAgreement {
 /// limits from their sum (Bland & Altman 2007, section 3, J Biopharm Stat 17:571,
 /// <https://doi.org/10.1080/10543400701329422>).
 ///
-/// The interval of the bias has one degree of freedom fewer than there are clusters. The intervals
-/// of the limits are put together from those of the two components (“variance estimates recovery”;
-/// Zou 2013, Stat Methods Med Res 22:630, <https://doi.org/10.1177/0962280211402548>).
+/// The interval of the bias uses Student's t with one degree of freedom fewer than there are
+/// clusters. The intervals of the limits combine the intervals of the two variance components
+/// (“variance estimates recovery”; Zou 2013, Stat Methods Med Res 22:630,
+/// <https://doi.org/10.1177/0962280211402548>).
 ///
 /// If each cluster has a single difference, the result equals that of [`agreement`].
 pub fn agreement_of_clusters(differences: &[f64], clusters: &[Vec<usize>]) -> Option<ClusteredAgreement> {
@@ -94,9 +96,9 @@ struct Components {
     squared_sizes: f64,
     /// Harmonic mean of the sizes of the clusters.
     harmonic_size: f64,
-    /// Variance of the clusters' own biases.
+    /// Variance of the biases of the clusters (component between clusters).
     between: f64,
-    /// Variance of the differences within a cluster.
+    /// Variance of the differences within a cluster (component within clusters).
     within: f64,
     /// Variance (n − 1) of the clusters' mean differences.
     of_means: f64,
@@ -118,7 +120,7 @@ impl Components {
         let within_squares: f64 =
             groups.iter().zip(&means).flat_map(|(g, mean)| g.iter().map(move |v| square(v - mean))).sum();
         let within = within_squares / (n - clusters);
-        // effective cluster size where sizes differ
+        // effective cluster size, for clusters of different sizes
         let size = (n * n - squared_sizes) / ((clusters - 1.) * n);
         let between = ((between_squares / (clusters - 1.) - within) / size).max(0.);
         let middle = means.iter().sum::<f64>() / clusters;
@@ -144,7 +146,7 @@ impl Components {
 
     /// Returns the 95 % intervals of both limits by the closed form of Zou (2013), equations 4–6.
     fn limit_intervals(&self, bias: f64) -> Option<[Interval; 2]> {
-        // distance from a variance component down and up to the ends of its own interval
+        // distances from a variance component to the lower and the upper end of its own interval
         let reach = |part: f64, freedom: f64| -> Option<[f64; 2]> {
             let chi = ChiSquared::new(freedom).ok()?;
             let ratio = |q: f64| freedom / chi.inverse_cdf(q);

@@ -4,15 +4,15 @@
 //! 1. Split the sum of squares into items, raters and a rest.
 //! 2. Form ICC(2,1), absolute agreement, and ICC(3,1), consistency, from the mean squares (Shrout &
 //!    Fleiss 1979, <https://doi.org/10.1037/0033-2909.86.2.420>).
-//! 3. Take their intervals from quantiles of the F distribution (McGraw & Wong 1996,
+//! 3. Compute the intervals of both from quantiles of the F distribution (McGraw & Wong 1996,
 //!    <https://doi.org/10.1037/1082-989X.1.1.30>).
 
 use super::Interval;
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
-/// Reliability of measurements of the same items by several raters, sessions or programs, each item
-/// measured once by each.
+/// Reliability of measurements that several raters, sessions or programs made of the same items.
+/// Every rater measures every item once.
 ///
 /// Computed by analysis of variance: Shrout & Fleiss (1979),
 /// <https://doi.org/10.1037/0033-2909.86.2.420>; McGraw & Wong (1996),
@@ -23,28 +23,32 @@ pub struct Intraclass {
     pub items: usize,
     /// Number of raters, sessions or programs.
     pub raters: usize,
-    /// Absolute agreement, ICC(2,1): reliability of single measurements by raters drawn at random.
-    /// Differences between the raters' means lower it. `None` where nothing varies.
+    /// Absolute agreement, ICC(2,1): reliability of a single measurement by a rater drawn at
+    /// random. It is lower if the raters' means differ. `None` if all measurements are equal.
     pub agreement: Option<f64>,
-    /// 95 % confidence interval of `agreement` (McGraw & Wong 1996, case 2A).
+    /// 95 % confidence interval of `agreement` (McGraw & Wong 1996, case 2A); `None` if it is
+    /// undefined.
     pub agreement_interval: Option<Interval>,
-    /// Consistency, ICC(3,1): reliability of single measurements by exactly these raters.
-    /// Differences between their means do not lower it. `None` where nothing varies.
+    /// Consistency, ICC(3,1): reliability of a single measurement by one of exactly these raters.
+    /// It does not depend on differences between the raters' means. `None` if all measurements are
+    /// equal.
     pub consistency: Option<f64>,
-    /// 95 % confidence interval of `consistency` (McGraw & Wong 1996, case 3C).
+    /// 95 % confidence interval of `consistency` (McGraw & Wong 1996, case 3C); `None` if it is
+    /// undefined.
     pub consistency_interval: Option<Interval>,
-    /// Within-item standard deviation: that of repeated measurements of one item, in their unit
-    /// (Bland & Altman 1996, BMJ 313:744, <https://doi.org/10.1136/bmj.313.7059.744>).
+    /// Within-item standard deviation: the standard deviation of repeated measurements of one item,
+    /// in the unit of the measurements (Bland & Altman 1996, BMJ 313:744,
+    /// <https://doi.org/10.1136/bmj.313.7059.744>).
     pub within_sd: f64,
-    /// Repeatability coefficient, 1.96 √2 `within_sd`: 95 % of pairs of measurements of one item
-    /// differ by less.
+    /// Repeatability coefficient, 1.96 √2 `within_sd`: for 95 % of pairs of measurements of one
+    /// item, the two differ by less than this.
     pub repeatability: f64,
     /// Within-item coefficient of variation: `within_sd` in per cent of the mean of all
-    /// measurements. `None` where that mean is 0.
+    /// measurements. `None` if the mean is 0.
     pub within_cv_percent: Option<f64>,
 }
 
-/// Returns the intraclass correlations of a table with one row per item and one column per rater.
+/// Computes intraclass correlations from a table with one row per item and one column per rater.
 ///
 /// Returns `None` for fewer than two items or raters, for rows of different lengths, or if a value
 /// is not finite.

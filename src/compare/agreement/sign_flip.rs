@@ -2,9 +2,9 @@
 //! as well have had the other sign.
 //!
 //! 1. Sum the differences of each cluster, whose signs flip together.
-//! 2. Try all choices of signs, or draw some where there are too many.
-//! 3. Count the choices whose sum lies at least as far from zero as the observed one (Fisher 1935,
-//!    The Design of Experiments, section 21).
+//! 2. Try all choices of signs, or a random sample of them if there are more than 16 clusters.
+//! 3. Count the choices of signs whose sum lies at least as far from zero as the observed sum
+//!    (Fisher 1935, The Design of Experiments, section 21).
 
 use crate::numeric::mean;
 use rand::RngExt;
@@ -12,19 +12,20 @@ use rand_chacha::ChaCha8Rng;
 
 /// Largest number of clusters for which every choice of signs is tried (2¹⁶ = 65,536 choices).
 const MOST_EXACT: usize = 16;
-/// Number of choices of signs drawn at random where there are more clusters than that.
+/// Number of choices of signs drawn at random if there are more than [`MOST_EXACT`] clusters.
 const DRAWN: usize = 49_999;
 
 /// Returns the two-sided p-value of a paired sign-flip permutation test that the mean difference is
 /// zero (Fisher 1935, The Design of Experiments, section 21).
 ///
-/// The p-value is the fraction of choices of signs whose mean difference lies at least as far from
-/// zero as the observed one. The differences of one cluster (the images of a subject) change sign
-/// together.
+/// The p-value is the fraction of choices of signs for which the mean difference lies at least as
+/// far from zero as the observed one. All differences of one cluster (such as the images of one
+/// subject) change sign together.
 ///
-/// For up to 16 clusters all choices are tried and p is exact; its least value is 2 / 2ⁿ: .06 for 5
-/// clusters, .008 for 8. For more, 49,999 choices are drawn and p is (1 + those at least as far) /
-/// 50,000. Returns `None` without differences.
+/// For n ≤ 16 clusters, all choices are tried and p is exact; the smallest p-value possible is 2 /
+/// 2ⁿ: .06 for 5 clusters, .008 for 8. For more clusters, 49,999 choices are drawn and p is (1 +
+/// the number of drawn choices at least as far from zero) / 50,000. Clusters whose differences sum
+/// to 0 are not counted. Returns `None` without differences.
 pub fn sign_flip_test(differences: &[f64], clusters: &[Vec<usize>], rng: &mut ChaCha8Rng) -> Option<f64> {
     mean(differences)?;
     let sums: Vec<f64> = clusters
@@ -32,7 +33,7 @@ pub fn sign_flip_test(differences: &[f64], clusters: &[Vec<usize>], rng: &mut Ch
         .map(|c| c.iter().filter_map(|&i| differences.get(i)).sum())
         .filter(|sum: &f64| *sum != 0.)
         .collect();
-    // Sums that are equal but for rounding count as equally far.
+    // Sums that differ only by rounding count as equally far from zero.
     let rounding = 1e-12 * sums.iter().map(|s| s.abs()).sum::<f64>();
     let observed = sums.iter().sum::<f64>().abs() - rounding;
     let is_as_far = |flipped: f64| flipped.abs() >= observed;
@@ -50,11 +51,12 @@ pub fn sign_flip_test(differences: &[f64], clusters: &[Vec<usize>], rng: &mut Ch
     Some((1 + far) as f64 / (1 + DRAWN) as f64)
 }
 
-/// Returns the least p-value that [`sign_flip_test`] can give for this number of clusters, if none
-/// of their summed differences is zero.
+/// Returns the smallest p-value that [`sign_flip_test`] can give for `clusters` clusters, if no
+/// cluster has differences that sum to zero.
 ///
-/// Two of the 2ⁿ choices of signs are always as far from zero as the one observed. Below 6 clusters
-/// the least p-value is above .05, whatever the data.
+/// Two of the 2ⁿ choices of signs are always as far from zero as the observed one: the observed
+/// signs and their opposites. Below 6 clusters, the smallest p-value is above .05, whatever the
+/// data.
 pub fn least_p(clusters: usize) -> f64 {
     match i32::try_from(clusters) {
         Ok(0) => 1.,

@@ -3,16 +3,16 @@ use super::{Interval, agreement, clusters};
 /// Mean of a quantity over subjects, some of whom have several images.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SubjectMean {
-    /// Number of subjects; `None` if no value has a name, so that every image counts as its own
-    /// subject.
+    /// Number of subjects; `None` if no value came with a name, so that every image counted as a
+    /// subject of its own.
     pub subjects: Option<usize>,
-    /// Mean of the subjects' means; `None` without values.
+    /// Mean over the subjects of each subject's mean; `None` without values.
     pub mean: Option<f64>,
-    /// Standard error of the mean: standard deviation (n − 1) of the subjects' means over √n.
-    /// `None` for fewer than two subjects.
+    /// Standard error of `mean`: the standard deviation (n − 1) of the subjects' means divided by
+    /// √n, for n subjects. `None` for fewer than two subjects.
     pub standard_error: Option<f64>,
-    /// 95 % confidence interval of the mean, mean ± t(n − 1) standard errors; `None` for fewer than
-    /// two subjects.
+    /// 95 % confidence interval of `mean`: mean ± t(n − 1) × standard error, for n subjects. `None`
+    /// for fewer than two subjects.
     pub interval: Option<Interval>,
 }
 
@@ -28,7 +28,7 @@ pub fn mean_over_subjects(values: &[(Option<&str>, f64)]) -> SubjectMean {
     };
     let means: Vec<f64> = clusters(&names).iter().map(of_subject).collect();
     let subjects = names.iter().any(Option::is_some).then_some(means.len());
-    // mean and interval of the subjects' means are those of the bias of as many differences
+    // the mean of n numbers and its interval are the bias of n differences and its interval
     let Some(found) = agreement(&means) else { return SubjectMean { subjects, ..SubjectMean::default() } };
     SubjectMean {
         subjects,

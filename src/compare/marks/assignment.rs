@@ -6,17 +6,17 @@
 //!    potentials (Jonker & Volgenant 1987, <https://doi.org/10.1007/BF02278710>, on sparse graphs):
 //!    Dijkstra's search over reduced costs finds the cheapest way to place the new row, moving
 //!    others if needed.
-//! 3. Every row also has a private column that stands for “unassigned” and costs more than any
-//!    rearrangement of its component can save.
+//! 3. Every row also has a private column that stands for “unassigned”. It costs more than any
+//!    rearrangement of the component can save, so a row stays unassigned only if it must.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// Computes the largest one-to-one assignment along candidate edges; among all largest ones, that
-/// of least total cost.
+/// Computes the one-to-one assignment with the most pairs along candidate edges; among several such
+/// assignments, one of least total cost.
 ///
-/// `candidates[row]` holds the columns that a row may take and the cost of each, between 0 and
-/// `limit`. Returns the column and cost of every row; `None` for a row that gets no column.
+/// `candidates[row]` holds the columns that `row` may take, each with its cost between 0 and
+/// `limit`. Returns the column and cost of every row, or `None` for a row that gets no column.
 pub(super) fn assign(
     candidates: &[Vec<(usize, f64)>],
     columns: usize,
@@ -50,8 +50,8 @@ pub(super) fn assign(
     result
 }
 
-/// Groups the rows that have candidates into connected components: rows that share columns,
-/// directly or through other rows.
+/// Groups the rows that have candidates into connected components: two rows belong together if they
+/// share a candidate column, directly or through other rows.
 fn components(candidates: &[Vec<(usize, f64)>], columns: usize) -> Vec<Vec<usize>> {
     let mut rows_of = vec![Vec::new(); columns];
     for (row, edges) in candidates.iter().enumerate() {
@@ -84,13 +84,13 @@ fn components(candidates: &[Vec<(usize, f64)>], columns: usize) -> Vec<Vec<usize
     components
 }
 
-/// Connected component of the graph; column `real + row` is the private column of a row.
+/// Connected component of the graph. Column `real + row` is the private column of `row`.
 struct Component<'a> {
     /// Candidates of each row: column and cost.
     edges: &'a [Vec<(usize, f64)>],
-    /// Number of columns that are not private.
+    /// Number of real columns, those that are not private to a row.
     real: usize,
-    /// Cost of a private column.
+    /// Cost of a private column, and thus of leaving a row unassigned.
     unassigned: f64,
     /// Dual variable of each row.
     row_potential: Vec<f64>,
@@ -108,7 +108,7 @@ impl<'a> Component<'a> {
         Self {
             edges,
             real,
-            // Placing one more row can raise the cost of each of the others by `limit` at most.
+            // Placing one more row can raise the cost of each other row by `limit` at most.
             unassigned: (limit + f64::MIN_POSITIVE) * (rows + 1) as f64,
             row_potential: vec![0.; rows],
             column_potential: vec![0.; real + rows],
@@ -117,7 +117,8 @@ impl<'a> Component<'a> {
         }
     }
 
-    /// Returns the column of every row, real or private.
+    /// Returns the column of every row; an index of `real` or more is a private column, so that the
+    /// row is unassigned.
     fn solve(mut self) -> Vec<usize> {
         let columns = self.real + self.edges.len();
         let mut search = Search {
@@ -175,21 +176,23 @@ impl<'a> Component<'a> {
     }
 }
 
-/// Dijkstra's search over columns; kept between searches to save allocations.
+/// State of Dijkstra's search over columns. One instance serves all searches, to save allocations.
 struct Search {
-    /// Least reduced cost at which each column is known to be reached.
+    /// Smallest cost found so far for a path to each column, in reduced costs; infinite if there is
+    /// no path yet.
     distance: Vec<f64>,
-    /// Row from which each column is reached at that cost.
+    /// Last row on the cheapest path to each column.
     via: Vec<usize>,
     /// Flag per column: `true` once its distance is final.
     done: Vec<bool>,
-    /// Columns that the next search must reset.
+    /// Columns whose state must be reset before the next search.
     touched: Vec<usize>,
     heap: BinaryHeap<Waiting>,
 }
 
 impl Search {
-    /// Puts a column into the queue if `distance` is shorter than the shortest known so far.
+    /// Puts a column into the queue if `distance` is shorter than the shortest path to it known so
+    /// far.
     fn offer(&mut self, column: usize, distance: f64, via: usize) {
         if !self.done[column] && distance < self.distance[column] {
             self.distance[column] = distance;
@@ -199,7 +202,7 @@ impl Search {
         }
     }
 
-    /// Takes the nearest column out of the queue that was not taken out before.
+    /// Takes the nearest column that is not yet done out of the queue, and marks it as done.
     fn next(&mut self) -> Option<usize> {
         while let Some(Waiting { column, .. }) = self.heap.pop() {
             if !std::mem::replace(&mut self.done[column], true) {
@@ -209,7 +212,7 @@ impl Search {
         None
     }
 
-    /// Resets the columns that this search touched.
+    /// Resets the state for the next search.
     fn clear(&mut self) {
         for column in self.touched.drain(..) {
             self.distance[column] = f64::INFINITY;
@@ -219,7 +222,8 @@ impl Search {
     }
 }
 
-/// Column in the queue, ordered so that the nearest is the greatest; ties go to the lower index.
+/// Column in the queue. The nearest column compares as the greatest, as `BinaryHeap` takes the
+/// greatest first; ties go to the lower index.
 struct Waiting {
     distance: f64,
     column: usize,
@@ -250,8 +254,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Returns the number of rows assigned and the total cost of the best assignment, by trying
-    /// all.
+    /// Returns the number of rows assigned and the total cost of the best assignment, found by
+    /// trying all assignments.
     fn best(candidates: &[Vec<(usize, f64)>], row: usize, taken: u32) -> (usize, f64) {
         let Some(edges) = candidates.get(row) else { return (0, 0.) };
         let mut best_so_far = best(candidates, row + 1, taken);

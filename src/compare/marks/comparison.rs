@@ -12,20 +12,25 @@ use serde::Serialize;
 pub struct Difference {
     /// Name of the measure that is compared.
     pub measure: &'static str,
-    /// Number of images for which both have a value.
+    /// Number of images for which both detectors have a value of the measure.
     pub images: usize,
-    /// Mean of the first one's values over these images.
+    /// Mean of the measure for the first detector, over the images for which both detectors have a
+    /// value.
     pub first: f64,
-    /// Mean of the second one's values over these images.
+    /// Mean of the measure for the second detector, over the images for which both detectors have a
+    /// value.
     pub second: f64,
-    /// Mean over these images of the differences first − second.
+    /// Mean of the differences first − second, over the images for which both detectors have a
+    /// value.
     pub difference: f64,
-    /// 95 % bootstrap interval (BCa) of the mean difference; `None` for fewer than two groups.
+    /// 95 % bootstrap interval (bias-corrected and accelerated, BCa) of the mean difference; `None`
+    /// for fewer than two groups of images.
     pub interval: Option<Interval>,
     /// p-value of the paired sign-flip permutation test that the mean difference is zero.
     pub p: Option<f64>,
-    /// Least p-value that the test can give for the number of groups that differ at all (of images,
-    /// where there are no groups).
+    /// Least p-value that the sign-flip test could give with these groups, whatever the size of the
+    /// differences. Only groups in which the two detectors differ count; an image without a group
+    /// is a group of its own.
     pub least_p: f64,
 }
 
@@ -39,23 +44,24 @@ const RATES: [Measure; 4] = [
     ("fdr", |s| Some(s.rates.fdr)),
     ("count", |s| Some(s.detections_inside as f64)),
 ];
-/// Density in cones per mm², for images whose scale is known.
+/// Measure used if the scale of every image is known: density in cones per mm².
 const PER_MM2: Measure = ("density_per_mm2", |s| density(s, s.area_mm2()));
-/// Density in cones per px², where the scale of some image is unknown.
+/// Measure used if the scale of some image is unknown: density in cones per px².
 const PER_PX2: Measure = ("density_per_px2", |s| density(s, Some(s.area_px)));
 
-/// Returns the number of detections outside the border per unit of `area`; `None` without area.
+/// Returns the number of detections outside the border per unit of `area`; `None` if the area is
+/// unknown or zero.
 fn density(score: &Score, area: Option<f64>) -> Option<f64> {
     area.filter(|a| *a > 0.).map(|a| score.detections_inside as f64 / a)
 }
 
-/// Returns the paired differences between two detectors or graders that were scored against the
-/// same marks.
+/// Compares two detectors or graders that were scored against the same marks, and returns one
+/// difference per measure.
 ///
-/// Compared are Dice, sensitivity, false discovery rate, count and density (per mm² if the scale of
-/// every image is known, else per px²). Each of `clusters` holds the indices of images that belong
-/// together, as those of one subject do. Every measure starts from a copy of the same `rng`, so all
-/// measures see the same resamples.
+/// The measures are Dice coefficient, sensitivity, false discovery rate, count and density (per mm²
+/// if the scale of every image is known, else per px²). Each entry of `clusters` holds the indices
+/// of images that belong together, such as those of one subject. Every measure starts from a copy
+/// of the same `rng`, so all measures see the same resamples.
 pub fn compare_scores(
     first: &[Score],
     second: &[Score],
@@ -75,8 +81,8 @@ pub fn compare_scores(
         .collect()
 }
 
-/// Compares both sides of `pairs`, one per image, by one measure; `None` if no image has both
-/// values.
+/// Compares two detectors by one measure. `pairs` holds their two values per image, or `None` if
+/// one of the values is missing. Returns `None` if no image has both values.
 fn difference(
     measure: &'static str,
     pairs: &[Option<(f64, f64)>],

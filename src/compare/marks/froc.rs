@@ -1,9 +1,10 @@
 //! Free-response ROC curves (FROC): sensitivity against false alarms as the threshold of the score
 //! falls (Bunch et al. 1978).
 //!
-//! 1. Each image is judged once, from the surest detection to the least sure ([`judge`]).
-//! 2. The judged detections of all images are merged by score and counted up, one point of the
-//!    curve per score that occurs ([`froc`]).
+//! 1. Within each image, detections are compared with the marks once, from the highest score to the
+//!    lowest ([`judge`]).
+//! 2. The detections of all images are merged in order of score. At each score that occurs, the
+//!    hits and false alarms so far give one point of the curve ([`froc`]).
 
 use super::Rates;
 use super::matching::{Field, Index, MOST_CANDIDATES, MatchError, MatchOptions, check, reach};
@@ -13,14 +14,15 @@ use serde::Serialize;
 /// Outcome of a detection that was compared with the marks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// Detection that has a mark of its own, both outside the border.
+    /// Detection that has a mark of its own; both lie outside the border of the image.
     Hit,
-    /// Detection outside the border that has no mark.
+    /// Detection outside the border of the image that has no mark.
     FalseAlarm,
-    /// Detection in the border whose mark lies outside: neither hit nor false alarm, and the mark
-    /// is no miss.
+    /// Detection in the border of the image whose mark lies outside the border. The detection is
+    /// neither hit nor false alarm, and the mark is no miss.
     Excuse,
-    /// Detection without consequence: it lies in the border without a mark, or its mark lies there.
+    /// Detection that changes no count: it lies in the border of the image and has no mark, or its
+    /// mark lies in the border.
     Nothing,
 }
 
@@ -33,28 +35,30 @@ pub struct Judged {
     pub verdict: Verdict,
 }
 
-/// Outcome of all detections in one image.
+/// Outcomes of all detections in one image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JudgedImage {
     /// Judged detections, from the highest score to the lowest.
     pub judged: Vec<Judged>,
-    /// Number of marks outside the border.
+    /// Number of marks outside the border of the image.
     pub marks: usize,
-    /// Area outside the border in mm²; `None` if the scale is unknown. [`judge`] leaves it `None`.
+    /// Area of the image without its border, in mm²; `None` if the scale is unknown. [`judge`]
+    /// leaves the field `None`; the caller may set it.
     pub area_mm2: Option<f64>,
 }
 
-/// Judges the detections of one image from the highest score to the lowest, equal ones in the order
-/// given.
+/// Decides for each detection of one image of `width` × `height` px whether it is a hit or a false
+/// alarm.
 ///
-/// Each takes the nearest mark within reach that is still free (as in Everingham et al. 2010,
+/// Detections are processed from the highest score to the lowest, equal scores in the order given.
+/// Each takes the nearest free mark within the cut-off distance (as in Everingham et al. 2010,
 /// International Journal of Computer Vision 88:303, section 4.2,
-/// <https://doi.org/10.1007/s11263-009-0275-4>). The outcome of a detection thus depends on surer
-/// ones only, and one run holds for every threshold.
+/// <https://doi.org/10.1007/s11263-009-0275-4>). The outcome of a detection thus depends only on
+/// detections with higher scores, so one run holds for every threshold.
 ///
-/// Reach and border are those of [`match_points`](crate::compare::match_points), which lets marks
-/// choose detections instead. The two differ where several marks and detections are within reach of
-/// each other.
+/// Cut-off distance and border are those of [`match_points`](crate::compare::match_points), but
+/// there the marks choose the detections. The two functions give different pairs where several
+/// marks and detections are near each other.
 ///
 /// # Errors
 /// Fails under the same conditions as [`match_points`](crate::compare::match_points).
@@ -93,20 +97,22 @@ pub fn judge(
     Ok(JudgedImage { judged, marks, area_mm2: None })
 }
 
-/// Accuracy of the detections that score at least `threshold`.
+/// Accuracy of the detections with a score of at least `threshold`, and so one point of a FROC
+/// curve.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FrocPoint {
-    /// Least score of the detections that count.
+    /// Lowest score of a detection that counts at this point.
     pub threshold: f64,
-    /// Hits / (hits + misses), all images pooled.
+    /// Sensitivity: hits / (hits + misses), all images pooled.
     pub sensitivity: f64,
-    /// Hits / (hits + false alarms), all images pooled; 0 without either.
+    /// Precision: hits / (hits + false alarms), all images pooled; 0 if there are no hits and no
+    /// false alarms.
     pub precision: f64,
     /// Dice coefficient (F1), 2 hits / (2 hits + misses + false alarms), all images pooled.
     pub dice: f64,
     /// Mean of the images' Dice coefficients.
     pub mean_dice: f64,
-    /// Number of false alarms per image.
+    /// Number of false alarms divided by the number of images.
     pub false_alarms_per_image: f64,
     /// False alarms per mm² of retina; `None` unless the scale of every image is known.
     pub false_alarms_per_mm2: Option<f64>,
@@ -114,18 +120,19 @@ pub struct FrocPoint {
     pub false_alarms_per_100_marks: Option<f64>,
 }
 
-/// Free-response receiver operating characteristic (Bunch et al. 1978): sensitivity and false
+/// Free-response receiver operating characteristic (FROC; Bunch et al. 1978): sensitivity and false
 /// alarms at every threshold of the score.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Froc {
-    /// One point per score that occurs, the highest first. Sensitivity and false alarms never fall
-    /// along the list.
+    /// One point per score that occurs, the highest score first. Sensitivity and false alarms never
+    /// fall along the list.
     pub points: Vec<FrocPoint>,
-    /// Index of the point with the highest mean Dice; of several, that with the highest threshold.
+    /// Index in `points` of the point with the highest mean Dice coefficient; if several are equal,
+    /// of the one with the highest threshold.
     pub best: usize,
 }
 
-/// Returns the curve of all images together; `None` without detections.
+/// Computes the FROC curve of all images together; `None` without detections.
 pub fn froc(images: &[JudgedImage]) -> Option<Froc> {
     let mut events: Vec<(Judged, usize)> =
         images.iter().enumerate().flat_map(|(i, image)| image.judged.iter().map(move |j| (*j, i))).collect();
@@ -138,7 +145,7 @@ pub fn froc(images: &[JudgedImage]) -> Option<Froc> {
     let mut single: Vec<Counts> =
         images.iter().map(|image| Counts { misses: image.marks, ..Counts::default() }).collect();
     let mut points = Vec::new();
-    // the Dice coefficient of every image is 0 before its first detection
+    // before its first detection, an image has a Dice coefficient of 0
     let mut sum_of_dice = 0.;
     for (k, (judged, image)) in events.iter().enumerate() {
         all.add(judged.verdict);
@@ -193,8 +200,8 @@ impl Counts {
 }
 
 impl Froc {
-    /// Returns about `count` points at most, evenly spaced along the curve; the first, last and
-    /// best are always kept.
+    /// Returns evenly spaced points of the curve, at most about `count`. The first, last and best
+    /// points are always kept.
     pub fn thinned(&self, count: usize) -> Vec<FrocPoint> {
         let step = self.points.len().div_ceil(count.max(1));
         let last = self.points.len().saturating_sub(1);

@@ -4,7 +4,7 @@ use crate::numeric::mean;
 use crate::stats::{Deviation, moments};
 use serde::Serialize;
 
-/// Scores of the images of one subject, or of any other group of images.
+/// Summary of the scores of one group of images, such as the images of one subject.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GroupSummary {
     /// Name of the group.
@@ -17,7 +17,7 @@ pub struct GroupSummary {
     pub dice_sd: Option<f64>,
 }
 
-/// Means over groups, in which every group counts once.
+/// Means over groups of images. Every group has the same weight, however many images it holds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MeanOverGroups {
     /// Number of groups averaged.
@@ -34,9 +34,10 @@ pub struct MeanOverGroups {
     pub dice_sd: Option<f64>,
 }
 
-/// Returns the summary of every group, sorted by name.
+/// Returns one summary per group, sorted by name of the group.
 ///
-/// `names` and `scores` have one entry per image. Images without a group are left out.
+/// `names` (of the groups) and `scores` have one entry per image. Images without a name are left
+/// out.
 pub fn by_group(names: &[Option<&str>], scores: &[Score]) -> Vec<GroupSummary> {
     let summary_of = |members: Vec<usize>| {
         let group = names[*members.first()?]?.to_owned();

@@ -1,9 +1,10 @@
 //! Pairing of hand marks with detections, by the rule of Cunefare et al. (2017),
 //! <https://doi.org/10.1038/s41598-017-07103-0>.
 //!
-//! 1. The reach is a fraction of the median nearest-neighbour distance of the marks.
-//! 2. Marks are paired with detections within reach ([`Assignment`]).
-//! 3. Pairs and single points are counted, except in a border along the edges of the image.
+//! 1. The cut-off distance of a pair is a fraction of the median nearest-neighbour distance of the
+//!    marks.
+//! 2. Marks are paired with detections within the cut-off distance ([`Assignment`]).
+//! 3. Pairs and unpaired points are counted, except in a border along the edges of the image.
 
 use super::assignment::assign;
 use crate::choice::UnknownChoice;
@@ -14,7 +15,7 @@ use std::num::NonZero;
 use strum::{Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
 use thiserror::Error;
 
-/// Rule by which marks and detections are paired where several are within reach of each other.
+/// Rule that decides between several possible partners of a mark or a detection.
 #[derive(
     Clone,
     Copy,
@@ -38,13 +39,14 @@ use thiserror::Error;
     parse_err_fn = UnknownChoice::among::<Assignment>
 )]
 pub enum Assignment {
-    /// Every mark claims its nearest detection; of several claims on one detection, the nearest is
-    /// granted. The other marks are misses even if a second detection is near (Cunefare et al.
-    /// 2017).
+    /// Each mark may pair only with its nearest detection. If several marks share a nearest
+    /// detection, the closest of them gets it; the other marks are misses even if a second
+    /// detection is near (Cunefare et al. 2017).
     #[default]
     Nearest,
-    /// Largest possible number of pairs; among all such sets of pairs, that of least total distance
-    /// (“Hungarian” assignment). Each mark is offered its 64 nearest detections.
+    /// Largest possible number of pairs and, among all such sets of pairs, the smallest total
+    /// distance (“Hungarian” assignment). Only the 64 nearest detections of each mark are
+    /// considered.
     Optimal,
 }
 
@@ -58,12 +60,14 @@ impl Assignment {
 /// Options of the pairing; the defaults are the rule of Cunefare et al. (2017).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MatchOptions {
-    /// Width, in px, of the border in which nothing is counted; 0 or more. Default: 7.
+    /// Width, in px, of the border along the edges of the image in which points are not counted; 0
+    /// or more. Default: 7.
     pub border: f64,
-    /// Reach of a mark as a positive fraction of the median nearest-neighbour distance of the
-    /// marks. Default: 0.75.
+    /// Largest distance allowed in a pair, as a positive fraction of the median nearest-neighbour
+    /// distance of the marks. Default: 0.75.
     pub fraction: f64,
-    /// Rule by which marks and detections are paired. Default: nearest.
+    /// Rule that decides between several possible partners of a mark or a detection. Default:
+    /// [`Assignment::Nearest`].
     pub assignment: Assignment,
 }
 
@@ -77,7 +81,7 @@ impl MatchOptions {
     /// Checks that every option is in its range.
     ///
     /// # Errors
-    /// Returns the first option that is out of its range.
+    /// Returns the error for the first option that is out of its range.
     pub fn validate(&self) -> Result<(), MatchError> {
         if !(self.border.is_finite() && self.border >= 0.) {
             return Err(MatchError::Border(self.border));
@@ -89,7 +93,8 @@ impl MatchOptions {
     }
 }
 
-/// Largest coordinate, in px, at which distances are still exact enough to compare.
+/// Largest absolute coordinate that is accepted, in px. Up to this value, distances are exact
+/// enough to compare.
 const LARGEST: f64 = 1e9;
 
 /// Options, marks or detections that cannot be paired.
@@ -98,10 +103,10 @@ pub enum MatchError {
     /// Border width that is negative or not finite.
     #[error("the border is {0} px: it must be 0 or more")]
     Border(f64),
-    /// Reach that is not a positive number.
+    /// Option `fraction` that is not a positive number.
     #[error("the reach is {0} × the nearest-neighbour distance: it must be more than 0")]
     Fraction(f64),
-    /// Coordinate that is no place in an image.
+    /// Point with a coordinate that is not finite or larger than 10⁹ px.
     #[error("{what} {index} is ({x}, {y}): expected pixels between −1e9 and 1e9")]
     Coordinate {
         /// Kind of point, “mark” or “detection”.
@@ -118,50 +123,54 @@ pub enum MatchError {
     TooMany(usize),
 }
 
-/// Mark and the detection that belongs to it.
+/// Mark paired with a detection.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Pair {
     /// 0-based index of the mark.
     pub mark: usize,
     /// 0-based index of the detection.
     pub detection: usize,
-    /// Distance between the two in px.
+    /// Distance between mark and detection in px.
     pub distance: f64,
-    /// `true` if neither of them lies in the border, so that the pair is a hit.
+    /// `true` if the pair counts as a hit: neither mark nor detection lies in the border of the
+    /// image.
     pub counted: bool,
 }
 
-/// Pairs of marks and detections, and the points left single.
+/// Pairs of marks and detections, and the points without a partner.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Matching {
     /// All pairs, sorted by index of the mark.
     pub pairs: Vec<Pair>,
-    /// Marks outside the border without a detection: indices in ascending order.
+    /// Indices of the marks outside the border of the image that have no detection, in ascending
+    /// order.
     pub misses: Vec<usize>,
-    /// Detections outside the border without a mark: indices in ascending order.
+    /// Indices of the detections outside the border of the image that have no mark, in ascending
+    /// order.
     pub false_alarms: Vec<usize>,
-    /// One flag per mark: `true` if it lies in the border.
+    /// One flag per mark: `true` if the mark lies in the border of the image.
     pub marks_in_border: Vec<bool>,
-    /// One flag per detection: `true` if it lies in the border.
+    /// One flag per detection: `true` if the detection lies in the border of the image.
     pub detections_in_border: Vec<bool>,
     /// Largest distance allowed in a pair, in px.
     pub limit: f64,
-    /// Rule by which the points were paired.
+    /// Rule that decided between several possible partners of a mark or a detection.
     pub assignment: Assignment,
 }
 
 impl Matching {
-    /// Returns the number of hits: pairs outside the border.
+    /// Returns the number of hits: pairs with mark and detection outside the border of the image.
     pub fn true_positives(&self) -> usize {
         self.pairs.iter().filter(|p| p.counted).count()
     }
 
-    /// Returns the number of misses: marks outside the border without a detection.
+    /// Returns the number of misses: marks outside the border of the image that have no detection.
     pub fn false_negatives(&self) -> usize {
         self.misses.len()
     }
 
-    /// Returns the number of false alarms: detections outside the border without a mark.
+    /// Returns the number of false alarms: detections outside the border of the image that have no
+    /// mark.
     pub fn false_positives(&self) -> usize {
         self.false_alarms.len()
     }
@@ -170,17 +179,17 @@ impl Matching {
 /// Pairs hand marks with detections in an image of `width` × `height` px (Cunefare et al. 2017,
 /// Scientific Reports 7:6620, <https://doi.org/10.1038/s41598-017-07103-0>).
 ///
-/// The members of a pair are at most `fraction` × the median nearest-neighbour distance of the
-/// marks apart. Fewer than two marks have no nearest neighbours: then the distance of the
-/// detections is used, and if there are fewer than two of those as well, the width of the border.
+/// Mark and detection of a pair are at most `fraction` × the median nearest-neighbour distance of
+/// the marks apart. With fewer than two marks, the nearest-neighbour distance of the detections is
+/// used instead; with fewer than two detections as well, the limit is `border` px.
 ///
-/// Pairs with a member in the border are neither hits nor errors, and single points there are no
-/// errors. A point is in the border if it is at most `border` − ½ px from the centre of an
-/// outermost row or column, so the border covers `border` whole pixels.
+/// A pair of which mark or detection lies in the border is neither a hit nor an error, and an
+/// unpaired point in the border is no error. A point is in the border if it is at most `border` − ½
+/// px from the centre of an outermost row or column, so the border is `border` pixels wide.
 ///
 /// # Errors
-/// Fails if an option is out of its range, a coordinate is no place in an image, or there are too
-/// many points for the spatial index.
+/// Fails if an option is out of its range, a coordinate is not finite or beyond ±10⁹ px, or there
+/// are too many points for the spatial index.
 pub fn match_points(
     marks: &[Point],
     detections: &[Point],
@@ -226,6 +235,9 @@ pub fn match_points(
 }
 
 /// Returns the largest distance allowed in a pair, in px.
+///
+/// `fraction` × the median nearest-neighbour distance of the marks; with fewer than two marks, of
+/// the detections; with fewer than two detections as well, the width of the border.
 pub(super) fn reach(
     marks: &[Point],
     detections: &[Point],
@@ -238,7 +250,7 @@ pub(super) fn reach(
     })
 }
 
-/// Image with a border that does not count; all in px.
+/// Size of an image and the width of its border, in which points do not count; all in px.
 #[derive(Clone, Copy)]
 pub(super) struct Field {
     width: f64,
@@ -251,13 +263,13 @@ impl Field {
         Self { width: width as f64, height: height as f64, border }
     }
 
-    /// Returns whether a point lies in the border.
+    /// Returns whether a point lies in the border of the image.
     pub(super) fn is_border(&self, p: &Point) -> bool {
         let Self { width: w, height: h, border: b } = *self;
         p.x <= b - 0.5 || p.x >= w - b - 0.5 || p.y <= b - 0.5 || p.y >= h - b - 0.5
     }
 
-    /// Returns the area inside the border, in px².
+    /// Returns the area of the image without its border, in px².
     pub(super) fn area(&self) -> f64 {
         let side = |pixels: f64| (pixels - 2. * self.border).max(0.);
         side(self.width) * side(self.height)
@@ -273,7 +285,8 @@ pub(super) fn check(what: &'static str, points: &[Point]) -> Result<(), MatchErr
     }
 }
 
-/// Returns, for every mark, the index and distance of its detection, if it gets one.
+/// Pairs marks with detections by [`Assignment::Nearest`]: returns, for every mark, the index and
+/// distance of its detection, or `None` if the mark gets no detection.
 fn nearest(marks: &[Point], detections: &Index, limit: f64) -> Vec<Option<(usize, f64)>> {
     let mut claims: Vec<Option<(usize, f64)>> =
         marks.iter().map(|&m| detections.nearest(m, 2).first().copied().filter(|c| c.1 <= limit)).collect();
@@ -291,18 +304,18 @@ fn nearest(marks: &[Point], detections: &Index, limit: f64) -> Vec<Option<(usize
     claims
 }
 
-/// Points that can be searched by distance.
+/// Points with a spatial index for searches by distance.
 pub(super) struct Index<'a> {
     points: &'a [Point],
     tree: NeighbourTree,
 }
 
-/// Largest number of detections that a mark is offered. If more are within reach, the detections
-/// are no cones.
+/// Largest number of nearest candidates per point that the pairing considers. If more lie within
+/// the cut-off distance, the detections are no cones.
 pub(super) const MOST_CANDIDATES: usize = 64;
 
 impl<'a> Index<'a> {
-    /// Builds the index; `None` without points.
+    /// Builds the index; returns `None` if there are no points.
     pub(super) fn new(points: &'a [Point]) -> Result<Option<Self>, MatchError> {
         if points.is_empty() {
             return Ok(None);
@@ -317,7 +330,8 @@ impl<'a> Index<'a> {
         self.within(p, f64::INFINITY, count)
     }
 
-    /// Returns the same for points at most `limit` away.
+    /// Returns the indices and distances of the `count` points nearest to `p` among those at most
+    /// `limit` away, the nearest first, ties by index.
     pub(super) fn within(&self, p: Point, limit: f64, count: usize) -> Vec<(usize, f64)> {
         let count = NonZero::new(count).unwrap_or(NonZero::<usize>::MIN);
         // Search slightly farther, so that rounding of the squares does not cut off points at the
@@ -336,7 +350,7 @@ impl<'a> Index<'a> {
         found
     }
 
-    /// Returns the median over the points of the distance to the nearest other point. There must be
+    /// Returns the median distance from a point to its nearest neighbour. There must be at least
     /// two points.
     fn median_neighbour_distance(&self) -> f64 {
         let nearest_other = |(i, &p): (usize, &Point)| {
@@ -349,8 +363,8 @@ impl<'a> Index<'a> {
     }
 }
 
-/// Returns the distance computed as SciPy does, so that comparisons with the limit fall on the same
-/// side.
+/// Returns the distance between two points, computed in the same order of operations as in SciPy. A
+/// point exactly at the limit thus falls on the same side of it as in programs that use SciPy.
 fn distance(a: Point, b: Point) -> f64 {
     let (dx, dy) = (a.x - b.x, a.y - b.y);
     (dx * dx + dy * dy).sqrt()

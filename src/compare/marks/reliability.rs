@@ -8,47 +8,49 @@
 use crate::compare::Interval;
 use serde::Serialize;
 
-/// Number of bins of equal width between 0 and 1.
+/// Number of bins of equal width into which the scores between 0 and 1 are divided.
 const BINS: usize = 10;
-/// Two-sided 95 % point of the normal distribution.
+/// Half-width of a two-sided 95 % interval, in standard deviations of a normal distribution.
 const Z: f64 = 1.96;
 
-/// Bin of detections of about the same score.
+/// Detections with scores in one interval (bin), compared with the marks.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ReliabilityBin {
-    /// Lowest score of the bin.
+    /// Lower end of the bin; a score of exactly `from` belongs to the bin.
     pub from: f64,
-    /// Upper end of the bin; a score of exactly that belongs to the next bin, but a score of 1 to
-    /// the last.
+    /// Upper end of the bin; a score of exactly `to` belongs to the next bin, except that the last
+    /// bin includes 1.
     pub to: f64,
     /// Number of detections in the bin.
     pub n: usize,
-    /// Mean score of these detections; `None` if there are none.
+    /// Mean score of the detections in the bin; `None` for an empty bin.
     pub mean_score: Option<f64>,
-    /// Fraction of these detections that are hits; `None` if there are none.
+    /// Fraction of the detections in the bin that are hits; `None` for an empty bin.
     pub hits: Option<f64>,
     /// 95 % interval of `hits` (Wilson 1927, <https://doi.org/10.1080/01621459.1927.10502953>),
-    /// with detections taken as independent.
+    /// with detections taken as independent; `None` for an empty bin.
     pub hits_interval: Option<Interval>,
 }
 
-/// Agreement of scores between 0 and 1 with the probability of a hit.
+/// Comparison of the scores of detections, read as probabilities of a hit, with the hits observed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reliability {
     /// Number of detections judged.
     pub n: usize,
     /// Ten bins of equal width, the lowest scores first.
     pub bins: Vec<ReliabilityBin>,
-    /// Expected calibration error: mean over the detections of |hits − mean score| of their bin
-    /// (Guo et al. 2017, eq. 3, <https://doi.org/10.48550/arXiv.1706.04599>).
+    /// Expected calibration error: mean over the bins of |fraction of hits − mean score|, weighted
+    /// by the number of detections in the bin (Guo et al. 2017, eq. 3,
+    /// <https://doi.org/10.48550/arXiv.1706.04599>).
     pub expected_calibration_error: f64,
     /// Brier score (1950): mean over the detections of (score − hit)², where hit is 1 or 0.
     pub brier: f64,
 }
 
-/// Computes the reliability of scores, each given with whether its detection is a hit.
+/// Computes the reliability of scores. Each score comes with a flag that is `true` if the detection
+/// is a hit.
 ///
-/// Returns `None` without detections or if a score is not between 0 and 1.
+/// Returns `None` without detections, or if a score is not between 0 and 1.
 pub fn reliability(scored: &[(f64, bool)]) -> Option<Reliability> {
     if scored.is_empty() || !scored.iter().all(|(score, _)| (0. ..=1.).contains(score)) {
         return None;
@@ -69,7 +71,7 @@ pub fn reliability(scored: &[(f64, bool)]) -> Option<Reliability> {
     })
 }
 
-/// Summarises the detections of bin number `k`.
+/// Summarises the detections `members` of bin number `k`.
 fn bin(k: usize, members: &[(f64, bool)]) -> ReliabilityBin {
     let edge = |k: usize| k as f64 / BINS as f64;
     let n = members.len() as f64;
@@ -85,7 +87,7 @@ fn bin(k: usize, members: &[(f64, bool)]) -> ReliabilityBin {
     }
 }
 
-/// Returns the Wilson score interval of a fraction `p` of `n` trials.
+/// Returns the 95 % Wilson score interval of a fraction `p` of `n` trials.
 fn wilson(p: f64, n: f64) -> Interval {
     let squared = Z * Z / n;
     let centre = (p + squared / 2.) / (1. + squared);

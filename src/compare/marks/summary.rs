@@ -20,24 +20,31 @@ pub struct Summary {
     pub precision: f64,
     /// Mean of the images' Dice coefficients (F1).
     pub dice: f64,
-    /// Mean of the images' localisation errors in px, over images with a hit.
+    /// Mean of the images' localisation errors in px, over images with at least one hit; `None` if
+    /// there are no such images.
     pub localisation_px: Option<f64>,
-    /// Mean of the images' localisation errors in µm, over images with a hit whose scale is known.
+    /// Mean of the images' localisation errors in µm, over images with at least one hit and a known
+    /// scale; `None` if there are no such images.
     pub localisation_um: Option<f64>,
-    /// Mean of the images' localisation errors in hexagonal spacings of the marks.
+    /// Mean of the images' localisation errors in [hexagonal
+    /// spacings](crate::mosaic::hexagonal_spacing) of the marks, over images with at least one hit;
+    /// `None` if there are no such images.
     pub localisation_s: Option<f64>,
-    /// Mean of the images' mean displacements from mark to detection, in px to the right and down.
+    /// Mean of the images' mean displacements from mark to detection, in px to the right and down,
+    /// over images with at least one hit; `None` if there are no such images.
     pub offset_px: Option<[f64; 2]>,
-    /// Rates of all images' points counted together.
+    /// Rates computed from the hits, misses and false alarms of all images added up.
     pub pooled: Rates,
-    /// Agreement of the counts, in cones per image: detections − marks, both outside the border.
+    /// Bias and limits of agreement of the counts, in cones per image: detections − marks, both
+    /// outside the border of the image.
     pub count: Option<Agreement>,
-    /// Agreement of the densities: their difference in per cent of their mean, 100 (detections −
-    /// marks) / ½ (detections + marks).
+    /// Bias and limits of agreement of the densities. The difference of an image is given in per
+    /// cent of the mean of both densities: 100 (detections − marks) / ½ (detections + marks).
     pub density_percent: Option<Agreement>,
 }
 
-/// Computes means over images, pooled rates and agreement; `None` without images.
+/// Computes the means over images, the pooled rates and the limits of agreement; `None` without
+/// images.
 pub fn summarise(scores: &[Score]) -> Option<Summary> {
     let values = |value: &dyn Fn(&Score) -> Option<f64>| scores.iter().filter_map(value).collect::<Vec<_>>();
     let mean = |value: &dyn Fn(&Score) -> Option<f64>| crate::numeric::mean(&values(value));
@@ -66,10 +73,11 @@ pub(super) fn percent_of_mean(first: f64, second: f64) -> Option<f64> {
     (first + second > 0.).then(|| 200. * (first - second) / (first + second))
 }
 
-/// Access to one value of a summary.
+/// Function that reads one value of a summary; `None` if the summary lacks the value.
 type Value = fn(&Summary) -> Option<f64>;
 
-/// Values that get an interval, by their names in `validation.json`.
+/// Values of a summary for which [`intervals`] computes an interval, with their names in
+/// `validation.json`.
 const VALUES: &[(&str, Value)] = &[
     ("sensitivity", |s| Some(s.sensitivity)),
     ("fdr", |s| Some(s.fdr)),
@@ -90,11 +98,13 @@ const VALUES: &[(&str, Value)] = &[
     ("density_percent.upper_limit", |s| Some(s.density_percent?.limits?[1])),
 ];
 
-/// Returns the 95 % intervals of the values of [`summarise`], by their names in `validation.json`.
+/// Returns the 95 % confidence intervals of the values of a [`Summary`], by their names in
+/// `validation.json`.
 ///
-/// They are [`bootstrap()`] intervals over `clusters`. Where every image is a cluster of its own,
-/// bias and limits of agreement have the intervals that follow from Student's t instead (see
-/// [`Agreement`]). Values without an interval are missing.
+/// `clusters` holds the indices of the images that belong together, such as those of one subject.
+/// The intervals come from [`bootstrap()`] over the clusters. If every cluster is a single image,
+/// the intervals of bias and limits of agreement follow from Student's t instead (see
+/// [`Agreement`]). A value whose interval cannot be computed is missing from the map.
 pub fn intervals(
     scores: &[Score],
     clusters: &[Vec<usize>],

@@ -3,16 +3,16 @@ use crate::geometry::Point;
 use crate::mosaic::hexagonal_spacing;
 use serde::Serialize;
 
-/// Counts of hits and errors with the rates that follow from them. 0 / 0 counts as 0, as in the
-/// published evaluations.
+/// Numbers of hits and errors in one image or several, and the rates computed from them. Ratios of
+/// 0 / 0 are set to 0, as in the published evaluations.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Rates {
-    /// Number of hits: pairs outside the border.
+    /// Number of hits: pairs of a mark and a detection, both outside the border of the image.
     pub tp: usize,
-    /// Number of misses: marks outside the border without a detection.
+    /// Number of misses: marks outside the border of the image that have no detection.
     #[serde(rename = "fn")]
     pub fn_: usize,
-    /// Number of false alarms: detections outside the border without a mark.
+    /// Number of false alarms: detections outside the border of the image that have no mark.
     pub fp: usize,
     /// Recall, tp / (tp + fn); 0 without marks.
     pub sensitivity: f64,
@@ -47,31 +47,36 @@ pub struct Score {
     /// Hits, misses, false alarms and their rates.
     #[serde(flatten)]
     pub rates: Rates,
-    /// Localisation error: median distance, in px, of the pairs outside the border; `None` without
-    /// pairs.
+    /// Localisation error: median distance, in px, between mark and detection over all pairs
+    /// outside the border of the image; `None` without such pairs.
     pub localisation_px: Option<f64>,
-    /// Localisation error in hexagonal spacings of the marks outside the border.
+    /// Localisation error as a fraction of the [hexagonal
+    /// spacing](crate::mosaic::hexagonal_spacing) of the marks outside the border of the image;
+    /// `None` without pairs there.
     pub localisation_s: Option<f64>,
-    /// Mean displacement from mark to detection, in px to the right and down, of the pairs outside
-    /// the border. It is near zero unless marks and detections count pixels from different origins.
+    /// Mean displacement from mark to detection, in px to the right and down, over all pairs
+    /// outside the border of the image; `None` without such pairs. A value far from zero suggests
+    /// that marks and detections count pixels from different origins.
     pub offset_px: Option<[f64; 2]>,
-    /// Number of marks outside the border.
+    /// Number of marks outside the border of the image.
     pub marks_inside: usize,
-    /// Number of detections outside the border.
+    /// Number of detections outside the border of the image.
     pub detections_inside: usize,
-    /// Detections over marks, both outside the border: 1 means equal density. `None` without marks.
+    /// Number of detections divided by number of marks, both outside the border of the image: 1
+    /// means equal density. `None` if no mark lies outside the border.
     pub density_ratio: Option<f64>,
     /// Area of the image without its border, in px².
     pub area_px: f64,
-    /// Scale in µm on the retina per pixel; `None` if unknown. [`validate`] leaves it `None`.
+    /// Scale in µm on the retina per pixel; `None` if unknown. [`validate`] leaves the field
+    /// `None`; the caller may set it.
     pub um_per_px: Option<f64>,
-    /// Number of marks, border included.
+    /// Number of all marks, also those in the border of the image.
     pub n_marks: usize,
-    /// Number of detections, border included.
+    /// Number of all detections, also those in the border of the image.
     pub n_detections: usize,
     /// Largest distance allowed in a pair, in px.
     pub limit_px: f64,
-    /// Rule by which marks and detections were paired.
+    /// Rule that decided between several possible partners of a mark or a detection.
     pub assignment: Assignment,
 }
 
@@ -87,8 +92,8 @@ impl Score {
     }
 }
 
-/// Scores the detections in one image of `width` × `height` px against hand marks, and returns the
-/// pairs.
+/// Pairs the detections in one image of `width` × `height` px with hand marks, and returns the
+/// score and the pairs.
 ///
 /// # Errors
 /// Fails under the same conditions as [`match_points`].

@@ -1,5 +1,5 @@
-//! The tables of Lanaro et al. (2020), <https://doi.org/10.1088/2399-6528/ab8064>, about samplers:
-//! the printed values, and the same values made anew.
+//! Tables of Lanaro et al. (2020), <https://doi.org/10.1088/2399-6528/ab8064>: the values as
+//! printed, and the rows about samplers computed again with the samplers of this library.
 //!
 //! # Examples
 //! ```
@@ -22,8 +22,8 @@ pub use remake::{
 };
 pub use triangle::{PAIRS, Tightest, allowed, tightest};
 
-/// Rows of Table 1 that are samplers: printed name, name of our sampler, number of points asked
-/// for.
+/// Rows of Table 1 that describe samplers: name in the printed table, name of the sampler in this
+/// library, and number of points to draw.
 pub const TABLE_1_SAMPLERS: [(&str, &str, usize); 7] = [
     ("GN_512", "green", 512),
     ("GN_1024", "green", 1024),
@@ -34,8 +34,9 @@ pub const TABLE_1_SAMPLERS: [(&str, &str, usize); 7] = [
     ("BNOT_4050", "bnot", 4050),
 ];
 
-/// Samplers in the columns of Table 2, in its order; each has 1024 points.
+/// Samplers of the columns of Table 2, from left to right; the printed patterns have 1024 points
+/// each.
 pub const TABLE_2_SAMPLERS: [&str; 3] = ["bnot", "dart-throwing", "jittered"];
 
-/// Samplers of Figure 1, in its order.
+/// Samplers shown in Figure 1, in the order of the panels.
 pub const FIGURE_1_SAMPLERS: [&str; 6] = ["uniform", "green", "pink", "jittered", "dart-throwing", "bnot"];

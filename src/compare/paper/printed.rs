@@ -6,44 +6,44 @@ const TABLE_1: &str = include_str!("../../../fixtures/paper/table1.csv");
 /// Table 2 of the paper as text.
 const TABLE_2: &str = include_str!("../../../fixtures/paper/table2.csv");
 
-/// Row of Table 1 of Lanaro et al.: nearest-neighbour distances of a mosaic (µm) or of a sampler
-/// (unit square), with population standard deviation.
+/// Row of Table 1 of Lanaro et al.: nearest-neighbour distances of a mosaic (in µm) or of a
+/// sampler's points in the unit square.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct PrintedRegularity {
-    /// Name of the mosaic or of the point set.
+    /// Name of the mosaic or of the sampler's point set, as printed.
     #[serde(rename = "mosaic")]
     pub name: String,
-    /// Mean of the nearest-neighbour distances.
+    /// Mean of the nearest-neighbour distances, in µm for a mosaic.
     pub mean: f64,
-    /// Population standard deviation of the nearest-neighbour distances.
+    /// Population standard deviation of the nearest-neighbour distances, in µm for a mosaic.
     pub sd: f64,
-    /// Regularity index, mean over standard deviation.
+    /// Regularity index: `mean` divided by `sd`, as printed.
     pub ri: f64,
 }
 
-/// Row of Table 2 of Lanaro et al.: l-infinity between the pair correlation functions of a mosaic
-/// and of three samplers of 1024 points.
+/// Row of Table 2 of Lanaro et al.: l-infinity distance between the pair correlation function of a
+/// mosaic and those of three samplers with 1024 points each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrintedDistances {
     /// Name of the mosaic.
     pub name: String,
-    /// l-infinity distance to each of [`super::TABLE_2_SAMPLERS`].
+    /// l-infinity distance from the mosaic to each of [`super::TABLE_2_SAMPLERS`].
     pub l_infinity: [f64; 3],
 }
 
-/// Returns Table 1: 19 mosaics and 7 point sets of samplers.
+/// Returns Table 1 as printed: 19 mosaics and 7 point sets of samplers.
 pub fn printed_regularity() -> Vec<PrintedRegularity> {
     rows(TABLE_1)
 }
 
-/// Returns Table 2: 20 mosaics.
+/// Returns Table 2 as printed: 20 mosaics.
 pub fn printed_distances() -> Vec<PrintedDistances> {
     let rows: Vec<(String, f64, f64, f64)> = rows(TABLE_2);
     rows.into_iter().map(|(name, b, d, j)| PrintedDistances { name, l_infinity: [b, d, j] }).collect()
 }
 
-/// Reads the rows of a table. The tables are compiled into the program; a test checks that no row
-/// is lost.
+/// Parses the rows of a table that is compiled into the program. Rows that cannot be parsed are
+/// dropped; a test checks that all rows are there.
 fn rows<T: DeserializeOwned>(text: &str) -> Vec<T> {
     csv::Reader::from_reader(text.as_bytes()).deserialize().flatten().collect()
 }

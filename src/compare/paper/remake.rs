@@ -1,12 +1,12 @@
-//! Repetition of the tables of Lanaro et al. with the samplers of this library, and comparison with
-//! the printed values.
+//! Computation of the tables of Lanaro et al. with the samplers of this library, and comparison
+//! with the printed values.
 //!
-//! 1. Draw patterns of a sampler in the unit square and measure each as the paper does
+//! 1. Draw patterns of a sampler in the unit square and measure each pattern as the paper does
 //!    ([`pattern`]).
-//! 2. Average the regularity of the patterns and ask whether the printed value could be that of one
-//!    of them ([`made_row`]).
-//! 3. Average the pair correlation functions, and measure the l-infinity between samplers with its
-//!    standard error ([`distance_between`]).
+//! 2. Average the regularity of the patterns, and test whether a single pattern could have the
+//!    printed value ([`made_row`]).
+//! 3. Average the pair correlation functions, and compute the l-infinity distance between two
+//!    samplers with its standard error ([`distance_between`]).
 
 use super::printed::PrintedRegularity;
 use crate::compare::{CompareError, curve, draw, l_infinity, mean_curve};
@@ -24,15 +24,16 @@ use sha2::{Digest, Sha256};
 pub struct Pattern {
     /// Points of the pattern.
     pub points: Vec<Point>,
-    /// Nearest-neighbour distances of all points: plain distances without edge correction,
-    /// population standard deviation.
+    /// Mean and standard deviation of the nearest-neighbour distances of all points: plain
+    /// distances without edge correction, population standard deviation.
     pub nearest: Moments,
     /// Pair correlation function, estimated with default options.
     pub pcf: Pcf,
 }
 
-/// Computes the pair correlation function of a pattern with another bandwidth, in spacings.
-/// Distances begin at 1.5 bandwidths or at the default, whichever is larger.
+/// Computes the pair correlation function of a pattern with another bandwidth, in hexagonal
+/// spacings. The curve begins at a distance of 1.5 bandwidths or at the default, whichever is
+/// larger.
 ///
 /// # Errors
 /// Fails if the bandwidth is out of range.
@@ -47,7 +48,7 @@ pub fn with_bandwidth(pattern: &Pattern, bandwidth: f64) -> Result<Pcf, StatsErr
 /// The random generator is seeded by a hash of `seed`, the sampler's name, `n` and `k`.
 ///
 /// # Errors
-/// Fails if the sampler cannot make a pattern of that many points.
+/// Fails if the sampler cannot make a pattern of about `n` points.
 pub fn pattern(sampler: &dyn Sampler, n: usize, k: usize, seed: u64) -> Result<Pattern, CompareError> {
     let window = Window::unit_square();
     let mut hash = Sha256::new_with_prefix(b"paper");
@@ -62,56 +63,63 @@ pub fn pattern(sampler: &dyn Sampler, n: usize, k: usize, seed: u64) -> Result<P
     Ok(Pattern { points, nearest, pcf })
 }
 
-/// Row of Table 1, printed and made anew. Each moment is taken over the patterns, of the value that
-/// a single pattern would have in the table.
+/// Row of Table 1, as printed and as computed from patterns of this library's sampler.
+///
+/// Every pattern gives one value of each column of the table. The moments are the mean and standard
+/// deviation of these values over the patterns.
 #[derive(Clone, Debug)]
 pub struct MadeRow {
     /// Row as printed in the paper.
     pub printed: PrintedRegularity,
-    /// Name of our sampler.
+    /// Name of the sampler in this library.
     pub sampler: String,
-    /// Number of points asked for.
+    /// Number of points asked of the sampler.
     pub n: usize,
-    /// Number of patterns made.
+    /// Number of patterns that were drawn.
     pub patterns: usize,
-    /// Moments of the patterns' mean nearest-neighbour distances.
+    /// Mean and standard deviation, over the patterns, of a pattern's mean nearest-neighbour
+    /// distance.
     pub mean: Moments,
-    /// Moments of the patterns' standard deviations of these distances.
+    /// Mean and standard deviation, over the patterns, of the standard deviation of a pattern's
+    /// nearest-neighbour distances.
     pub sd: Moments,
-    /// Moments of the patterns' regularity indices.
+    /// Mean and standard deviation, over the patterns, of a pattern's regularity index.
     pub ri: Moments,
 }
 
-/// Largest distance, in standard deviations, that a single printed pattern may have from the mean
-/// of ours.
+/// Largest distance between a printed value and the mean of the computed values, in standard
+/// deviations of the computed values, at which the two are said to agree.
 const USUAL: f64 = 2.;
 
 impl MadeRow {
-    /// Returns by how many standard deviations of single patterns the printed regularity index
-    /// exceeds our mean; `None` if our indices do not vary.
+    /// Returns the distance of the printed regularity index from the mean of the computed ones, in
+    /// standard deviations of single patterns; positive if the printed index is larger. Returns
+    /// `None` if the computed indices do not vary.
     pub fn deviations(&self) -> Option<f64> {
         let (mean, sd) = self.ri.mean.zip(self.ri.sd.filter(|sd| *sd > 0.))?;
         Some((self.printed.ri - mean) / sd)
     }
 
-    /// Returns whether the printed regularity index could be that of one of our patterns: it lies
-    /// within two standard deviations.
+    /// Returns whether a single pattern could have the printed regularity index: it lies within two
+    /// standard deviations of the mean over the patterns.
     pub fn agrees(&self) -> bool {
         self.deviations().is_some_and(|z| z.abs() <= USUAL)
     }
 
-    /// Returns the number of points at which our patterns would have the printed mean distance, and
-    /// the standard deviation of that number for single patterns.
+    /// Returns the number of points for which patterns would have the printed mean
+    /// nearest-neighbour distance, and the standard deviation of that number for single patterns.
     ///
-    /// The mean distance is proportional to 1/√n. Returns `None` for fewer than two patterns.
+    /// The number follows from the computed patterns, as the mean distance is proportional to 1/√n.
+    /// Returns `None` for fewer than two patterns.
     pub fn points_by_mean_distance(&self) -> Option<(f64, f64)> {
         let (mean, sd) = self.mean.mean.zip(self.mean.sd)?;
         let points = self.n as f64 * (mean / self.printed.mean).powi(2);
         Some((points, 2. * points * sd / mean))
     }
 
-    /// Returns whether one of our patterns of `n` points could have the printed mean distance: it
-    /// lies within two standard deviations.
+    /// Returns whether a single pattern of `n` points could have the printed mean nearest-neighbour
+    /// distance: the number of points that the distance implies lies within two standard deviations
+    /// of `n`.
     pub fn mean_agrees(&self) -> bool {
         let off = |(points, sd): (f64, f64)| (points - self.n as f64).abs() <= USUAL * sd;
         self.points_by_mean_distance().is_some_and(off)
@@ -135,26 +143,28 @@ pub fn made_row(printed: PrintedRegularity, sampler: &str, n: usize, patterns: &
     }
 }
 
-/// Returns the highest value of a curve and the distance, in spacings, at which it occurs; `None`
-/// for an empty curve.
+/// Returns the highest value of a pair correlation function and the distance, in hexagonal
+/// spacings, at which it occurs; `None` for an empty curve.
 pub fn peak(curve: &Pcf) -> Option<(f64, f64)> {
     curve.g.iter().copied().zip(curve.r.iter().copied()).max_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// l-infinity between the mean curves of two samplers, with its error.
+/// l-infinity distance between the mean pair correlation functions of two samplers, with its
+/// standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DistanceBetween {
-    /// Distance between the mean curves, max |ḡ₁ − ḡ₂|.
+    /// Distance between the mean curves ḡ₁ and ḡ₂: max |ḡ₁ − ḡ₂|.
     pub l_infinity: f64,
-    /// Standard error of the distance, by jackknife over the patterns of each sampler.
+    /// Standard error of `l_infinity`, by jackknife over the patterns of each sampler.
     pub error: f64,
 }
 
-/// Computes the l-infinity between the mean curves of two lists of patterns, with its standard
-/// error.
+/// Computes the l-infinity distance between the mean curves of two lists of patterns, with its
+/// standard error.
 ///
 /// # Errors
-/// Fails if a list is empty or the curves were estimated differently.
+/// Fails if a list is empty, or if the curves differ in distances, kernel, bandwidth or edge
+/// correction.
 pub fn distance_between(a: &[&Pcf], b: &[&Pcf]) -> Result<DistanceBetween, CompareError> {
     let between = |a: &[&Pcf], b: &[&Pcf]| match (mean_curve(a), mean_curve(b)) {
         (Some(a), Some(b)) => l_infinity(&a, &b),

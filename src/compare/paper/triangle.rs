@@ -1,25 +1,27 @@
 //! Check of Table 2 by the triangle inequality.
 //!
-//! l-infinity is a metric, so the printed distances d₁ and d₂ of a mosaic to two samplers limit the
-//! distance D between these samplers: |d₁ − d₂| ≤ D ≤ d₁ + d₂.
+//! l-infinity is a metric. The printed distances d₁ and d₂ from one mosaic to two samplers
+//! therefore limit the distance D between the two samplers: |d₁ − d₂| ≤ D ≤ d₁ + d₂.
 
 use super::printed::PrintedDistances;
 
-/// Triangle inequality that a row of Table 2 comes nearest to breaking.
+/// Pair of samplers for which the triangle inequality of a row of Table 2 is closest to being
+/// violated, or violated most.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tightest {
     /// Name of the mosaic.
     pub mosaic: String,
-    /// Pair of samplers, as columns of Table 2.
+    /// Pair of samplers, as indices of columns of Table 2.
     pub between: [usize; 2],
-    /// Room that is left; negative, by the excess, where the inequality is broken.
+    /// Distance that is left before the triangle inequality is violated; negative if it is
+    /// violated.
     pub room: f64,
 }
 
-/// Returns the pair of samplers whose distance leaves least room in the triangle inequality of a
-/// row.
+/// Returns the pair of samplers whose distance is closest to violating the triangle inequality of
+/// `row`, or violates it most.
 ///
-/// `between` holds the distances between the columns [`PAIRS`], that is (0, 1), (0, 2) and (1, 2).
+/// `between` holds the measured distances between the samplers, in the order of [`PAIRS`].
 pub fn tightest(row: &PrintedDistances, between: &[f64; 3]) -> Tightest {
     let rooms = PAIRS.into_iter().zip(between).map(|([a, b], &distance)| {
         let [low, high] = limits(row, [a, b]);
@@ -29,18 +31,21 @@ pub fn tightest(row: &PrintedDistances, between: &[f64; 3]) -> Tightest {
     rooms.fold(none, |least, next| if next.room < least.room { next } else { least })
 }
 
-/// Returns the range of distances between two samplers that all rows allow: lower and upper end.
+/// Returns the range of distances between two samplers that the triangle inequalities of all rows
+/// allow: lower and upper end. The lower end exceeds the upper one if the rows contradict each
+/// other.
 pub fn allowed(rows: &[PrintedDistances], pair: [usize; 2]) -> [f64; 2] {
     rows.iter()
         .map(|row| limits(row, pair))
         .fold([0., f64::INFINITY], |[low, high], next| [low.max(next[0]), high.min(next[1])])
 }
 
-/// Pairs of columns of Table 2, in the order in which the distances between its samplers are
-/// listed.
+/// Pairs of columns of Table 2, in the order in which this module lists the distances between the
+/// samplers.
 pub const PAIRS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 
-/// Returns the range of distances between two samplers that one row allows.
+/// Returns the range of distances between two samplers that the triangle inequality of one row
+/// allows: lower and upper end.
 fn limits(row: &PrintedDistances, [a, b]: [usize; 2]) -> [f64; 2] {
     let (a, b) = (row.l_infinity[a], row.l_infinity[b]);
     [(a - b).abs(), a + b]

@@ -1,32 +1,35 @@
-//! Classes of mosaics that share the reference curves of samplers. A mean curve depends on the
-//! mosaic only through its number of points and the shape of its window, and slowly on both, so
-//! each is rounded to a power of 1.2.
+//! Classes of mosaics that share one reference curve per sampler.
+//!
+//! A mean curve depends on the mosaic only through the number of points and the shape of the
+//! window, and changes slowly with both. Number of points and aspect ratio are therefore rounded to
+//! powers of 1.2.
 
 use crate::geometry::{Polygon, Rectangle, Window};
 
-/// Ratio between neighbouring classes of n and of aspect.
+/// Ratio between neighbouring classes of the number of points, and of the aspect ratio.
 ///
-/// Mean curves at 250, 275, 300 and 330 points differ by .002–.011 (seven samplers), which is no
-/// more than the noise of a mean over 58 realisations (.006–.02).
+/// The mean curves for 250, 275, 300 and 330 points differ by .002–.011 (seven samplers), which is
+/// no more than the noise of a mean over 58 patterns (.006–.02).
 const RATIO: f64 = 1.2;
-/// Number of points drawn for one curve, over all realisations.
+/// Total number of points of all patterns that are drawn for one curve.
 const POINTS_PER_CURVE: f64 = 16_000.;
-/// Least and greatest number of realisations below [`LARGE`] points.
+/// Least and greatest number of patterns per curve, for classes below [`LARGE`] points.
 const REALISATIONS: (usize, usize) = (4, 60);
-/// Number of points from which on a curve has 2 realisations, and from five times as many on 1:
-/// large patterns scatter little and cost much.
+/// Least number of points for which a curve is the mean of only 2 patterns; from five times as many
+/// points on, it is a single pattern. Large patterns vary little and take long.
 const LARGE: usize = 20_000;
 
-/// Class of mosaics that share a curve: number of points and shape of the window, where numbers are
-/// exponents of powers of 1.2.
+/// Class of mosaics that share a reference curve. Numbers are stored as exponents of 1.2.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Class {
+    /// Number of points, as an exponent of 1.2.
     pub(super) n: i32,
+    /// Shape of the window.
     pub(super) shape: Shape,
 }
 
-/// Shape of a window: rectangles are classed by their aspect (width over height), every polygon is
-/// a shape of its own.
+/// Shape of a window. Rectangles are classed by their aspect ratio (width over height), as an
+/// exponent of 1.2; every polygon is a class of its own.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Shape {
     Rectangle { aspect: i32, torus: bool },
@@ -45,15 +48,17 @@ impl Class {
         Self { n: nearest(n as f64), shape }
     }
 
-    /// Returns the class whose curve serves for this one with samplers that do not stand in rows.
+    /// Returns the class whose curve is used for this class with samplers that do not place points
+    /// in rows along the sides of the window.
     ///
-    /// For a polygon without holes that is not longer than a 2.16 : 1 rectangle, this is the class
-    /// of the rectangle with the same perimeter² / area; every other class serves itself.
+    /// For a polygon without holes that is at most as elongated as a 2.16 : 1 rectangle, this is
+    /// the class of the rectangle with the same perimeter² / area. Every other class is returned
+    /// unchanged.
     ///
     /// Measured on seven polygons (squares turned by 3 and 30°, a turned 2 : 1 rectangle, a slanted
-    /// side, a parallelogram, a cut corner, a circle) at 60, 300 and 1500 points: mean l-infinity
-    /// between a polygon's own curve and that of its rectangle, beside that between the curves of
-    /// two seeds.
+    /// side, a parallelogram, a cut corner, a circle) at 60, 300 and 1500 points. The table gives
+    /// the mean l-infinity distance between a polygon's own curve and the curve of its rectangle,
+    /// and for comparison the distance between two curves that differ only in the seed.
     ///
     /// | sampler | polygon to rectangle | seed to seed |
     /// |---|---|---|
@@ -63,8 +68,9 @@ impl Class {
     /// | dart throwing | .035, .014, .012 | .036, .014, .011 |
     /// | BNOT | .046, .014, .015 | .038, .014, .012 |
     ///
-    /// Lattices do differ: .29, .15, .05 beside less than .006. In longer shapes BNOT of few points
-    /// differs too: by .2 in a triangle and by .09 in an L, at 60 points.
+    /// For lattices, the curves of polygon and rectangle differ clearly: by .29, .15 and .05,
+    /// against less than .006 between seeds. In more elongated shapes BNOT of few points differs
+    /// too: by .2 in a triangle and by .09 in an L, at 60 points.
     pub(super) fn stand_in(&self) -> Self {
         let shape = match &self.shape {
             Shape::Polygon(polygon) => Shape::like(polygon).unwrap_or_else(|| self.shape.clone()),
@@ -73,13 +79,13 @@ impl Class {
         Self { n: self.n, shape }
     }
 
-    /// Returns the number of points asked of a sampler: the middle of the class.
+    /// Returns the number of points to draw for the class: the middle of its range, at least 2.
     pub(super) fn points(&self) -> usize {
         (RATIO.powi(self.n).round() as usize).max(2)
     }
 
-    /// Returns a rectangle of area 1, or the polygon; `None` if the aspect is too extreme for a
-    /// number.
+    /// Returns the window in which patterns are drawn: a rectangle of area 1, or the polygon of the
+    /// class. `None` if the aspect ratio is too extreme for a rectangle with floating-point sides.
     pub(super) fn window(&self) -> Option<Window> {
         match &self.shape {
             Shape::Rectangle { aspect, torus } => {
@@ -91,8 +97,7 @@ impl Class {
         }
     }
 
-    /// Returns bytes that distinguish the random generators of this shape from those of other
-    /// shapes.
+    /// Returns bytes that identify the shape, as part of the seed of the random generators.
     pub(super) fn seed(&self) -> Vec<u8> {
         match &self.shape {
             Shape::Rectangle { aspect, torus } => {
@@ -104,7 +109,7 @@ impl Class {
         }
     }
 
-    /// Returns the number of patterns over which a curve is averaged.
+    /// Returns the number of patterns over which the curve of this class is averaged.
     pub(super) fn realisations(&self) -> usize {
         let n = self.points();
         match n {
@@ -115,15 +120,15 @@ impl Class {
     }
 }
 
-/// Largest ratio of squared perimeter to area for which a rectangle stands in for a polygon: that
-/// of a 2.16 : 1 rectangle.
+/// Largest ratio of squared perimeter to area at which a polygon uses the curve of a rectangle:
+/// that of a 2.16 : 1 rectangle.
 const LONGEST: f64 = 18.5;
 
 impl Shape {
-    /// Returns the rectangle that has the same perimeter² / area as a polygon; `None` for polygons
-    /// with holes and for longer ones.
+    /// Returns the class of the rectangle with the same perimeter² / area as a polygon; `None` for
+    /// polygons with holes, and for polygons more elongated than [`LONGEST`] allows.
     ///
-    /// For a rectangle whose longer side is a times the shorter one, P²/A = 4 (a + 1/a) + 8.
+    /// For a rectangle with perimeter P, area A and aspect ratio a, P²/A = 4 (a + 1/a) + 8.
     fn like(polygon: &Polygon) -> Option<Self> {
         let [_] = polygon.rings() else { return None };
         let perimeter = Window::Polygon(polygon.clone()).perimeter();
@@ -136,13 +141,13 @@ impl Shape {
         (roundness <= LONGEST).then(|| Self::rectangle(aspect, false))
     }
 
-    /// Returns the shape of a rectangle of this aspect, rounded to a class.
+    /// Returns the shape class of a rectangle with the aspect ratio `aspect`.
     fn rectangle(aspect: f64, torus: bool) -> Self {
         Self::Rectangle { aspect: nearest(aspect), torus }
     }
 }
 
-/// Returns the exponent of the power of 1.2 that is nearest to `value`.
+/// Returns the exponent of the power of 1.2 that is nearest to `value`, on a logarithmic scale.
 fn nearest(value: f64) -> i32 {
     (value.ln() / RATIO.ln()).round() as i32
 }

@@ -4,7 +4,7 @@ use crate::sample::Sampler;
 use crate::stats::{Pcf, PcfOptions, StatsError, pcf_on_one_thread};
 use rand::Rng;
 
-/// Draws about `n` points of a sampler. An error names the sampler.
+/// Draws about `n` points of a sampler in `window`. The error names the sampler.
 pub(crate) fn draw(
     sampler: &dyn Sampler,
     n: usize,
@@ -15,8 +15,8 @@ pub(crate) fn draw(
     sampler.sample(n, window, rng).map_err(named)
 }
 
-/// Computes the pair correlation function of a sampler's points on this thread. An error names the
-/// sampler.
+/// Computes the pair correlation function of a sampler's points on the calling thread only. The
+/// error names the sampler.
 pub(crate) fn curve(
     sampler: &dyn Sampler,
     points: &[Point],
@@ -26,12 +26,12 @@ pub(crate) fn curve(
     pcf_on_one_thread(points, window, options).map_err(of_sampler(sampler.name()))
 }
 
-/// Returns a conversion that adds the sampler's name to the error of a statistic.
+/// Returns a function that adds the sampler's name to the error of a statistic.
 pub(crate) fn of_sampler(name: &str) -> impl Fn(StatsError) -> CompareError {
     move |source| CompareError::Stats { sampler: name.to_owned(), source }
 }
 
-/// Averages curves on the same grid of distances; `None` without curves.
+/// Averages curves that are given at the same distances; `None` without curves.
 pub fn mean_curve(curves: &[&Pcf]) -> Option<Pcf> {
     let first = *curves.first()?;
     let mean = |bin: usize| curves.iter().filter_map(|c| c.g.get(bin)).sum::<f64>() / curves.len() as f64;

@@ -2,19 +2,19 @@ use crate::sample::SampleError;
 use crate::stats::{EdgeCorrection, Pcf, StatsError};
 use thiserror::Error;
 
-/// Comparison that would mean nothing, or one side of which cannot be made.
+/// Reason why a comparison with samplers is impossible or would be meaningless.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum CompareError {
-    /// Curves that were estimated differently.
+    /// Two curves that were estimated with different options.
     #[error(
         "the pair correlation functions differ in {what} ({first} and {second}): estimate both with the same options"
     )]
     NotComparable {
-        /// Name of the property that differs.
+        /// Name of the property in which the curves differ.
         what: &'static str,
-        /// Value in the first curve.
+        /// Value of the property in the first curve.
         first: String,
-        /// Value in the second curve.
+        /// Value of the property in the second curve.
         second: String,
     },
     /// Too few points to compare.
@@ -23,7 +23,7 @@ pub enum CompareError {
         /// Number of points found.
         found: usize,
     },
-    /// Sampler that made no pattern for the comparison.
+    /// Sampler that failed to make a pattern.
     #[error("sampler {sampler}: {source}")]
     Sample {
         /// Name of the sampler.
@@ -31,7 +31,8 @@ pub enum CompareError {
         /// Reason of the failure.
         source: SampleError,
     },
-    /// Statistic of a sampler's pattern that cannot be computed.
+    /// Sampler for whose pattern a statistic, such as the pair correlation function, could not be
+    /// computed.
     #[error("sampler {sampler}: {source}")]
     Stats {
         /// Name of the sampler.
@@ -39,7 +40,7 @@ pub enum CompareError {
         /// Reason of the failure.
         source: StatsError,
     },
-    /// Sampler that has no pattern for a window of this shape.
+    /// Sampler that made fewer than 2 points in every pattern, as the window is too narrow for it.
     #[error("sampler {sampler} made fewer than 2 of {n} points: the window is too narrow for it")]
     NoPattern {
         /// Name of the sampler.
@@ -53,7 +54,7 @@ pub enum CompareError {
         /// Number of simulations asked for.
         found: usize,
     },
-    /// Sampler that stopped without a result, by a fault of its own.
+    /// Sampler that stopped without a result, because its code panicked.
     #[error("sampler {sampler} stopped without a result: please report it with the command you ran")]
     Interrupted {
         /// Name of the sampler.
@@ -66,12 +67,12 @@ pub enum CompareError {
 ///
 /// Distances r are in hexagonal spacings, so patterns of different densities and units can be
 /// compared. Set covariance, translation, isotropic and torus corrections estimate the same
-/// function (on average they agree within .01 at 300 points) and may be mixed; an uncorrected curve
-/// can only be compared with another one.
+/// function (on average they agree within .01 at 300 points) and may be mixed. An uncorrected curve
+/// can only be compared with another uncorrected one.
 ///
 /// # Errors
-/// Fails if the curves are not given at the same distances, differ in kernel or bandwidth, or only
-/// one is corrected for edges.
+/// Fails if the curves have no or different distances, differ in kernel or bandwidth, or if only
+/// one of the two is corrected for edges.
 pub fn l_infinity(a: &Pcf, b: &Pcf) -> Result<f64, CompareError> {
     let differ =
         |what, first: String, second: String| Err(CompareError::NotComparable { what, first, second });

@@ -1,5 +1,5 @@
-//! Comparison of a mosaic with samplers: reference curves of the samplers, the l-infinity to them,
-//! and the verdict of a Monte Carlo test.
+//! Comparison of a mosaic with samplers: reference curves of the samplers, l-infinity distances to
+//! these curves, and the verdict of a Monte Carlo test.
 
 mod curve_class;
 mod curves;

@@ -1,4 +1,5 @@
-//! Single realisations of a sampler for a class of mosaics, and the mean curve over them.
+//! Single simulated patterns (realisations) of a sampler for a class of mosaics, and the mean curve
+//! over them.
 
 use super::curve_class::Class;
 use super::{CompareError, ReferenceCurve, curve, draw, mean_curve};
@@ -9,16 +10,15 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use sha2::{Digest, Sha256};
 
-/// Curve and regularity of one pattern of a sampler; without a curve if the sampler made fewer than
-/// two points.
+/// Curve and regularity index of one pattern of a sampler.
 pub(super) struct Realisation {
     /// Pair correlation function; `None` for fewer than two points.
     pcf: Option<Pcf>,
-    /// Regularity index, where it is defined.
+    /// Regularity index; `None` if it is undefined or the pattern has fewer than two points.
     ri: Option<f64>,
 }
 
-/// Draws and measures pattern `k` of a sampler for a class.
+/// Draws and measures pattern number `k` of a sampler for a class of mosaics.
 ///
 /// The random generator is seeded by a hash of `seed`, the sampler's name, the class and `k`, so
 /// the result does not depend on threads.
@@ -51,8 +51,9 @@ pub(super) fn realise(
     Ok(Realisation { pcf: Some(pcf), ri: moments(&nearest.distances, Deviation::Sample).ri })
 }
 
-/// Averages the realisations of a sampler. In `patterns`, `None` stands for a realisation that
-/// panicked; one such, or one error, makes the whole curve fail.
+/// Averages the patterns of a sampler into its reference curve. In `patterns`, `None` stands for a
+/// pattern whose computation panicked. A single panic or error makes the entire curve fail;
+/// patterns of fewer than two points are left out.
 pub(super) fn average(
     sampler: &dyn Sampler,
     class: &Class,

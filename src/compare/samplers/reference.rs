@@ -1,10 +1,10 @@
-//! Reference curves: mean pair correlation functions of samplers, with which a mosaic is compared.
+//! Reference curves: mean pair correlation functions of samplers, to compare mosaics with.
 //!
-//! 1. Assign the mosaic to a class of number of points and window shape ([`Class`]).
+//! 1. Find the mosaic's class: its number of points and window shape, both rounded ([`Class`]).
 //! 2. Look the samplers' curves for this class up in the table that comes with the program
 //!    ([`shipped`]).
-//! 3. Make missing curves from realisations, once per class for all threads ([`Workers`]), and keep
-//!    them.
+//! 3. Compute missing curves from simulated patterns, once per class for all threads ([`Workers`]),
+//!    and keep them in memory.
 
 use super::curve_class::Class;
 use super::realisation::{average, realise};
@@ -16,36 +16,40 @@ use crate::stats::{Pcf, PcfOptions};
 use std::fmt;
 use std::sync::Arc;
 
-/// Mean over realisations of a sampler for one number of points and one shape of window.
+/// Mean pair correlation function of a sampler over many simulated patterns, for one number of
+/// points and one shape of window.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReferenceCurve {
     /// Name of the sampler.
     pub sampler: String,
-    /// Mean pair correlation function; its spacing is that of `n` points in a window of area 1.
+    /// Mean pair correlation function. The field `spacing` of [`Pcf`] is the hexagonal spacing of
+    /// `n` points in a window of area 1.
     pub pcf: Pcf,
-    /// Number of points asked of the sampler: the middle of the mosaic's class.
+    /// Number of points asked of the sampler. It is the middle of the mosaic's class, so it may
+    /// differ from the mosaic's own number by about 10 %.
     pub n: usize,
-    /// Number of patterns averaged.
+    /// Number of simulated patterns over which the curve is averaged.
     pub realisations: usize,
-    /// Mean regularity index (all points, sample standard deviation); `None` where it is undefined,
-    /// as for a lattice.
+    /// Mean regularity index of the patterns (all points, sample standard deviation); `None` if it
+    /// is undefined, as for a perfect lattice.
     pub ri: Option<f64>,
-    /// `true` if the curve was taken from the table that comes with the program instead of made
-    /// now: the same curve with g rounded to 10⁻⁴.
+    /// `true` if the curve was taken from the table that comes with the program, `false` if it was
+    /// computed in this run. Both give the same curve, but the table rounds g to 10⁻⁴.
     pub shipped: bool,
 }
 
-/// Sampler with which a mosaic is not compared.
+/// Sampler that could not be compared with a mosaic, and the reason.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NotCompared {
     /// Name of the sampler.
     pub sampler: String,
-    /// Reason why there is no curve.
+    /// Reason why the sampler has no curve for the mosaic.
     pub reason: CompareError,
 }
 
 impl fmt::Display for NotCompared {
-    /// Writes “not compared with bnot: ” and the reason, which does not name the sampler again.
+    /// Writes “not compared with”, the name of the sampler and the reason, without naming the
+    /// sampler a second time.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "not compared with {}: ", self.sampler)?;
         match &self.reason {
@@ -59,41 +63,44 @@ impl fmt::Display for NotCompared {
     }
 }
 
-/// Curves of samplers for one mosaic, with the samplers that have none.
+/// Reference curves of samplers for one mosaic, and the samplers that have no curve.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SamplerCurves {
-    /// Curves in the order of the samplers.
+    /// Reference curves, in the order of the samplers.
     pub curves: Vec<ReferenceCurve>,
-    /// Samplers without a curve, with the reason.
+    /// Samplers without a curve, each with the reason.
     pub missing: Vec<NotCompared>,
 }
 
-/// Reference curves of samplers, made when first asked for and then kept.
+/// Reference curves of samplers. Each is computed when first asked for, and then kept in memory.
 ///
-/// Curves depend on the mosaic only through its class: the number of points and the proportions of
-/// the window, both in steps of 20 %, and whether the window is a torus. Scale does not matter, as
-/// distances are in spacings. A polygon without holes uses the curves of the rectangle with the
-/// same perimeter² / area; longer polygons, and any polygon for lattices, have curves of their own.
+/// Curves depend on the mosaic only through its class: the number of points and the aspect ratio of
+/// the window, both rounded to steps of 20 %, and whether the window is a torus. Scale does not
+/// matter, as distances are in hexagonal spacings. For a polygon without holes, the curve of the
+/// rectangle with the same perimeter² / area is used. Elongated polygons, and any polygon with a
+/// sampler that makes lattices, have curves of their own.
 ///
-/// A curve is the mean of 16 000/n realisations, but at least 4 and at most 60 (2 from 20 000
-/// points on, 1 from 100 000). The remaining noise of a mean curve, as l-infinity measured for 100,
-/// 300, 1024 and 4096 points: uniform .02–.03, jittered .01–.03, Poisson disks .01–.017; lattices
-/// below .001.
+/// A curve is the mean of 16 000/n patterns, but at least 4 and at most 60 (2 from 20 000 points
+/// on, 1 from 100 000). The noise that remains in a mean curve was measured as the l-infinity
+/// distance, for 100, 300, 1024 and 4096 points: uniform .02–.03, jittered .01–.03, Poisson disks
+/// .01–.017; lattices below .001.
 ///
-/// Every realisation has its own random generator, seeded by a hash of the seed, the sampler's
-/// name, the class and its number, so results do not depend on order or threads. Curves of the
-/// default samplers, options and seed come with the program for the classes that images have.
+/// Every pattern has its own random generator, seeded by a hash of the seed, the sampler's name,
+/// the class and the pattern's index, so results do not depend on order or threads. Curves of the
+/// default samplers, options and seed come with the program for the classes that are usual for
+/// images.
 pub struct References {
     setup: Arc<Setup>,
-    /// Curves made so far, by class and by whether the samplers stand in rows.
+    /// Curves made so far. The key is a class and a flag: `true` for the samplers that place points
+    /// in rows along the sides of the window, `false` for the others.
     made: Once<(Class, bool), Arc<Vec<Made>>>,
     workers: Workers,
 }
 
-/// Index of a sampler in the list, with its curve or the reason why it has none.
+/// Index of a sampler in the list of samplers, with its curve or the reason why it has none.
 type Made = (usize, Result<ReferenceCurve, CompareError>);
 
-/// Everything that the curves depend on besides the class.
+/// Settings that are the same for all classes: samplers, options and seed.
 struct Setup {
     samplers: Vec<&'static dyn Sampler>,
     options: PcfOptions,
@@ -101,8 +108,8 @@ struct Setup {
 }
 
 impl References {
-    /// Prepares curves of `samplers`, estimated with `options`. The same `seed` gives the same
-    /// curves.
+    /// Prepares reference curves of `samplers`, estimated with `options`; none is computed yet. The
+    /// same `seed` gives the same curves.
     pub fn new(samplers: Vec<&'static dyn Sampler>, options: PcfOptions, seed: u64) -> Self {
         let setup = Arc::new(Setup { samplers, options, seed });
         Self { setup, made: Once::new(), workers: Workers::like_the_caller() }
@@ -110,7 +117,7 @@ impl References {
 
     /// Returns the samplers' curves for a mosaic of `n` points in `window`.
     ///
-    /// For fewer than two points there is no curve, and every sampler is among the missing.
+    /// For fewer than two points there are no curves, and every sampler is listed as missing.
     pub fn curves(&self, n: usize, window: &Window) -> SamplerCurves {
         let class = Class::of(n, window);
         let groups = [(class.clone(), true), (class.stand_in(), false)].map(|group| {
@@ -130,8 +137,8 @@ impl References {
         found
     }
 
-    /// Looks the curves up in the table that comes with the program and makes the missing ones,
-    /// either of the samplers that stand in rows or of the others.
+    /// Returns the curves of one class, from the table that comes with the program or computed now.
+    /// `in_rows` selects either the samplers that place points in rows or all others.
     fn curves_of(&self, n: usize, class: &Class, in_rows: bool) -> Vec<Made> {
         let setup = &self.setup;
         let samplers = setup.samplers.iter().copied().enumerate().filter(|(_, s)| s.in_rows() == in_rows);
@@ -152,8 +159,8 @@ impl References {
         made
     }
 
-    /// Makes the curve of each sampler, or gives the reason why there is none. All realisations of
-    /// all samplers form one list of tasks, which spreads them over all cores.
+    /// Computes the curve of each sampler, or gives the reason why there is none. The patterns of
+    /// all samplers form one list of tasks, so that all cores have work.
     pub(super) fn make(
         &self,
         samplers: Vec<&'static dyn Sampler>,
@@ -260,7 +267,7 @@ mod tests {
         {
             let of = |seed| references(&[name], seed).curves(300, &window).curves[0].pcf.clone();
             let distance = l_infinity(&of(1), &of(2)).unwrap();
-            // both curves are noisy, and half as much again is left for chance
+            // both curves are noisy (√2), and the bound is 1.5 times as wide to allow for chance
             assert!(distance < 1.5 * 2f64.sqrt() * noise, "{name}: {distance}");
         }
     }
@@ -280,8 +287,8 @@ mod tests {
         }
     }
 
-    /// Sampler that spreads its work over threads, so that its own thread may meanwhile be given
-    /// another question.
+    /// Sampler that distributes its work over threads, so that its own thread may meanwhile take up
+    /// another request for curves.
     #[derive(Debug)]
     struct Parallel;
 
@@ -307,7 +314,7 @@ mod tests {
             let answers: Vec<_> = pool.install(|| {
                 (0..200).into_par_iter().map(|i| shared.curves(40 + i % 3, &Window::unit_torus())).collect()
             });
-            // private and shared work must give the same curves
+            // requests from inside and outside the thread pool must give the same curves
             for (i, answer) in answers.iter().enumerate() {
                 assert_eq!(answer, &shared.curves(40 + i % 3, &Window::unit_torus()), "question {i}");
             }

@@ -1,4 +1,4 @@
-//! Work whose result many threads want and that is done once, on all cores.
+//! Work that is done once, on all cores, and whose result many threads use.
 
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -7,8 +7,8 @@ use std::hash::Hash;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError, mpsc};
 
-/// Values made when first asked for and then kept. A thread that asks for a value under way waits
-/// for it.
+/// Values by key, each computed when first asked for and then kept. If another thread is already
+/// computing a value, the caller waits for it.
 pub(super) struct Once<K, V> {
     cells: Mutex<HashMap<K, Arc<OnceLock<V>>>>,
 }
@@ -18,7 +18,7 @@ impl<K: Eq + Hash, V: Clone> Once<K, V> {
         Self { cells: Mutex::new(HashMap::new()) }
     }
 
-    /// Returns the value of `key`, calling `make` if there is none yet.
+    /// Returns the value of `key`. The first call for a key computes the value with `make`.
     pub(super) fn get(&self, key: K, make: impl FnOnce() -> V) -> V {
         // A panic elsewhere cannot leave the map half changed, as every change is a single step.
         let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
@@ -28,20 +28,20 @@ impl<K: Eq + Hash, V: Clone> Once<K, V> {
     }
 }
 
-/// Thread pool of its own that works for callers, who sleep meanwhile. The threads start with the
-/// first work.
+/// Separate thread pool that works while its callers sleep. The threads start with the first work.
 ///
-/// The caller's own pool would not do, for two reasons. Its threads look for other work while they
-/// wait and might be given an image that waits for the very curve below it on the same stack: a
-/// deadlock. And a sleeping thread of that pool takes no part in work that a sampler spreads: BNOT,
-/// whose cells are made in parallel, ran on one of two cores.
+/// The caller's own pool cannot be used, for two reasons. First, its threads take up other tasks
+/// while they wait. Such a task could need the very curve that is being computed further down on
+/// the same stack: a deadlock. Second, a sleeping thread of the caller's pool cannot help with work
+/// that a sampler distributes over threads: BNOT, whose cells are computed in parallel, ran on one
+/// of two cores.
 pub(super) struct Workers {
     threads: usize,
     pool: OnceLock<Option<ThreadPool>>,
 }
 
 impl Workers {
-    /// Prepares as many threads as the caller's pool has.
+    /// Prepares a pool with as many threads as the caller's pool has.
     pub(super) fn like_the_caller() -> Self {
         Self { threads: rayon::current_num_threads(), pool: OnceLock::new() }
     }
@@ -49,7 +49,7 @@ impl Workers {
     /// Returns the results of `task(0)` to `task(count − 1)`, in that order; `None` for a task that
     /// panicked.
     ///
-    /// A task must not wait for the results of other tasks.
+    /// A task must not wait for the result of another task.
     pub(super) fn all<T, F>(&self, count: usize, task: F) -> Vec<Option<T>>
     where
         T: Send + 'static,
@@ -58,13 +58,13 @@ impl Workers {
         let guarded = move |k| catch_unwind(AssertUnwindSafe(|| task(k))).ok();
         let pool = self.pool.get_or_init(|| ThreadPoolBuilder::new().num_threads(self.threads).build().ok());
         let Some(pool) = pool.as_ref().filter(|_| count > 0) else {
-            // the system grants no more threads: work on this one
+            // the system grants no more threads: do the work on the calling thread
             return (0..count).map(guarded).collect();
         };
         let (answer, answered) = mpsc::sync_channel(1);
         pool.spawn(move || {
             let done: Vec<Option<T>> = (0..count).into_par_iter().with_max_len(1).map(guarded).collect();
-            // fails only if nobody waits any longer
+            // fails only if the caller no longer waits
             let _ = answer.send(done);
         });
         answered.recv().unwrap_or_else(|_| (0..count).map(|_| None).collect())

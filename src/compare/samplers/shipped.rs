@@ -1,5 +1,7 @@
-//! Reference curves that come with the program: those of the default samplers, options and seed for
-//! the classes of mosaics that images have. `scripts/make-curves` makes `curves.bin` anew.
+//! Reference curves that come with the program.
+//!
+//! The table has curves of the default samplers, with the default options and seed, for the classes
+//! of mosaics that are usual for images. `scripts/make-curves` computes `curves.bin` again.
 
 use super::curve_class::{Class, Shape};
 use super::shipped_codec::{self as codec, Entry, Key};
@@ -12,22 +14,23 @@ use std::collections::HashMap;
 use std::ops::RangeInclusive;
 use std::sync::LazyLock;
 
-/// Seed of the shipped curves, which is also the default seed.
+/// Seed with which the shipped curves were made, which is also the default seed of the program.
 const SEED: u64 = 1;
-/// Classes of n that are shipped, as exponents of 1.2: 18 to 22 645 points.
+/// Classes of the number of points that the table covers, as exponents of 1.2: 18 to 22 645 points.
 const SIZES: RangeInclusive<i8> = 16..=55;
-/// Classes of aspect (width over height), as exponents of 1.2: 1 : 2.07 to 2.07 : 1.
+/// Classes of the aspect ratio (width over height) that the table covers, as exponents of 1.2: 1 :
+/// 2.07 to 2.07 : 1.
 const ASPECTS: RangeInclusive<i8> = -4..=4;
 
 static BYTES: &[u8] = include_bytes!("curves.bin");
 
-/// Table of shipped curves; empty if it was made with other options or samplers than the program
-/// now has.
+/// Table of shipped curves. It is empty if the file was made with other samplers, options or
+/// classes than the program has now.
 static TABLE: LazyLock<HashMap<Key, Entry>> =
     LazyLock::new(|| codec::read(BYTES, &fingerprint(), PcfOptions::default().bins).unwrap_or_default());
 
-/// Returns the shipped curve of a sampler; `None` if there is none for this class, these options
-/// and this seed.
+/// Returns the shipped curve of a sampler for `class`; `None` if the table has none, or if
+/// `options`, `seed` or the sampler's parameters are not the defaults.
 pub(super) fn find(
     sampler: &dyn Sampler,
     class: &Class,
@@ -53,22 +56,26 @@ pub(super) fn find(
     })
 }
 
-/// Returns whether a sampler has the parameters with which mosaics are compared by default, and not
-/// only the same name.
+/// Returns whether a sampler has the same parameters as the sampler of that name in this library,
+/// and not only the name.
 fn is_usual(of: &dyn Sampler) -> bool {
     sampler(of.name()).is_ok_and(|usual| format!("{:?}", as_reference(usual)) == format!("{of:?}"))
 }
 
-/// Returns a hash of everything named that the shipped curves depend on: classes, options, seed,
-/// samplers and their parameters.
+/// Returns a hash of the settings with which the shipped curves are made: classes, seed, options,
+/// and the default samplers with their parameters.
+///
+/// A change in the code of a sampler does not change the hash.
 fn fingerprint() -> [u8; 32] {
     let (options, samplers) = (PcfOptions::default(), samplers_by_default());
     Sha256::digest(format!("{SIZES:?} {ASPECTS:?} {SEED} {options:?} {samplers:?}")).into()
 }
 
-/// Makes the table of shipped curves, for `scripts/make-curves`.
+/// Computes the table of shipped curves and returns it in the format of `curves.bin`, for
+/// `scripts/make-curves`.
 ///
-/// `progress` is called with the number of classes done and the number of all classes.
+/// `progress` is called before each class with the number of classes done and the total number of
+/// classes.
 ///
 /// # Errors
 /// Fails if a sampler has no curve for a class.

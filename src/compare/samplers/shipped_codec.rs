@@ -1,31 +1,35 @@
-//! File format of `curves.bin`: [`MAGIC`], a hash of what the curves depend on, and one entry after
-//! another, compressed by zlib.
+//! File format of `curves.bin`: [`MAGIC`], a hash of the settings with which the curves were made,
+//! and one entry after another, compressed by zlib.
 //!
-//! 1. An entry begins with its key and the number of realisations, one byte each.
-//! 2. The regularity index follows, as an `f64` that is NaN if there is none.
-//! 3. Then g, in units of [`STEP`], as second differences; each is zigzag-coded in groups of seven
-//!    bits, the lowest first.
+//! 1. An entry begins with the three fields of its [`Key`] and the number of patterns averaged, one
+//!    byte each.
+//! 2. The regularity index follows as an `f64`, which is NaN if the index is undefined.
+//! 3. The values of g follow, in units of [`STEP`] and as second differences. Each difference is
+//!    zigzag-coded and split into groups of seven bits, the lowest first.
 //!
-//! A smooth curve thus takes about a byte per bin.
+//! A smooth curve thus takes about one byte per value of g.
 
 use flate2::{Compression, read::ZlibDecoder, write::ZlibEncoder};
 use std::collections::HashMap;
 use std::io::{Read, Write};
 
-/// Step to which g is rounded: 1/100 of the noise of the best curves.
+/// Rounding step of g: 1/100 of the noise of the best curves.
 pub(super) const STEP: f64 = 1e-4;
 /// First bytes of the file: name and version of the format.
 const MAGIC: &[u8] = b"curves 1";
 
-/// Key of an entry: class of n, class of aspect, and index among the default samplers.
+/// Key of an entry in the table of shipped curves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Key {
+    /// Class of the number of points, as an exponent of 1.2.
     pub(super) n: i8,
+    /// Class of the aspect ratio, as an exponent of 1.2.
     pub(super) aspect: i8,
+    /// Index of the sampler among the default samplers.
     pub(super) sampler: u8,
 }
 
-/// Shipped curve with its number of realisations and regularity index.
+/// Shipped curve: values of g, number of patterns averaged, and regularity index.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry {
     pub(super) realisations: u8,
@@ -33,7 +37,7 @@ pub(super) struct Entry {
     pub(super) g: Vec<f64>,
 }
 
-/// Returns the bytes of a table with these entries.
+/// Returns the bytes of `curves.bin` for a table of `entries`.
 pub(super) fn write(entries: &[(Key, Entry)], fingerprint: &[u8; 32]) -> Vec<u8> {
     let mut body = Vec::new();
     for (key, entry) in entries {
@@ -53,8 +57,8 @@ pub(super) fn write(entries: &[(Key, Entry)], fingerprint: &[u8; 32]) -> Vec<u8>
     packed.unwrap_or(head)
 }
 
-/// Returns the entries, with `bins` values per curve; `None` if the bytes are damaged or carry
-/// another fingerprint.
+/// Reads a table in which every curve has `bins` values. Returns `None` if the bytes are damaged or
+/// carry another fingerprint.
 pub(super) fn read(bytes: &[u8], fingerprint: &[u8; 32], bins: usize) -> Option<HashMap<Key, Entry>> {
     let packed = bytes.strip_prefix(MAGIC)?.strip_prefix(fingerprint)?;
     let mut body = Vec::new();
@@ -77,14 +81,14 @@ pub(super) fn read(bytes: &[u8], fingerprint: &[u8; 32], bins: usize) -> Option<
     Some(entries)
 }
 
-/// Takes the first `N` bytes off `rest`; `None` if fewer are left.
+/// Takes the first `N` bytes off `rest`; `None` if `rest` is shorter.
 fn take<const N: usize>(rest: &mut &[u8]) -> Option<[u8; N]> {
     let (first, after) = rest.split_first_chunk()?;
     *rest = after;
     Some(*first)
 }
 
-/// Appends a number in zigzag coding, by which small numbers of either sign take one byte.
+/// Appends a number in zigzag coding, in which numbers from −64 to 63 take one byte.
 fn put(body: &mut Vec<u8>, number: i64) {
     let mut zigzag = ((number << 1) ^ (number >> 63)) as u64;
     while zigzag >= 0x80 {
@@ -94,7 +98,7 @@ fn put(body: &mut Vec<u8>, number: i64) {
     body.push(zigzag as u8);
 }
 
-/// Takes a number in zigzag coding off `rest`; `None` if it is cut short or too long.
+/// Takes a number in zigzag coding off `rest`; `None` if the number is cut short or too long.
 fn number(rest: &mut &[u8]) -> Option<i64> {
     let mut zigzag = 0u64;
     for shift in (0..64).step_by(7) {

@@ -1,53 +1,61 @@
-//! Fit of a point pattern to the pair correlation function that it was made for.
+//! Comparison of the pair correlation function of a point pattern with the target function for
+//! which the pattern was made.
 
 use crate::geometry::{Point, Window};
 use crate::stats::{PcfOptions, StatsError, pcf};
 
-/// Difference between the pair correlation function of points and the one that they were to have.
+/// Difference between the pair correlation function of points and their target function.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TargetFit {
-    /// Distances at which both functions are known, in hexagonal spacings.
+    /// Distances at which the two functions are compared, in hexagonal spacings.
     pub r: Vec<f64>,
-    /// Target function, interpolated linearly between its rows.
+    /// Target function at the distances `r`, interpolated linearly between its rows.
     pub wanted: Vec<f64>,
-    /// Function of the points, estimated in their window by default options.
+    /// Pair correlation function of the points at the distances `r`, estimated in their window with
+    /// default options.
     pub reached: Vec<f64>,
-    /// Greatest difference between the two functions.
+    /// Greatest absolute difference between the two functions.
     pub l_infinity: f64,
-    /// Distance at which it occurs, in hexagonal spacings.
+    /// Distance at which the greatest difference occurs, in hexagonal spacings.
     pub worst_r: f64,
 }
 
 impl TargetFit {
-    /// Returns whether the greatest difference lies where the target ends. Pairs farther apart are
-    /// left to chance and disturb the last distances.
+    /// Returns whether the greatest difference lies within 0.4 hexagonal spacings of the last
+    /// distance compared, and this last distance is below 5.6.
+    ///
+    /// Such a difference says little about the fit: pairs farther apart than the end of the target
+    /// are left to chance, and disturb the last distances before it.
     pub fn at_the_end(&self) -> bool {
         self.r.last().is_some_and(|last| *last < MOST - END && self.worst_r > last - END)
     }
 }
 
-/// Stretch before the end of a target, in hexagonal spacings, that is disturbed by pairs beyond the
-/// end.
+/// Part of the target, measured back from its end in hexagonal spacings, in which a difference is
+/// put down to pairs beyond the end.
 const END: f64 = 0.4;
 
-/// Least l-infinity of a poor fit: below it Lanaro et al. (2020),
-/// <https://doi.org/10.1088/2399-6528/ab8064>, take two distributions for the same.
+/// Limit of a good fit: a larger l-infinity distance is reported as poor. Lanaro et al. (2020),
+/// <https://doi.org/10.1088/2399-6528/ab8064>, take two distributions with a smaller distance for
+/// the same.
 pub const POOR_FIT: f64 = 0.1;
 
-/// Compares the pair correlation function of `points` with the one that they were to reach.
+/// Compares the pair correlation function of `points` with the target function `rows`.
 ///
-/// `rows` holds r (in hexagonal spacings, rising) and g of the target. Compared are the distances
-/// that both functions have, up to 6 spacings and half the shorter side of the window, beyond which
-/// [`crate::sample::Shaped`] controls nothing. Rows that end before estimates begin, at .15
-/// spacings, are compared at that one distance; without rows the differences are NaN.
+/// `rows` holds r (in hexagonal spacings, rising) and g of the target. The functions are compared
+/// at the distances that both have, up to 6 spacings and up to half the shorter side of the window;
+/// beyond these limits, [`crate::sample::Shaped`] does not control the pattern. If the target ends
+/// before .15 spacings, where estimates begin, the functions are compared at that single distance.
+/// Without rows the differences are NaN.
 ///
-/// Measured: the mean g of 20 patterns of dart throwing, given up to 6 spacings, is missed by
-/// .065–.073 at 300 to 3000 points, at the edge of the hard core. Given up to 2.49 spacings only,
-/// it is missed by about .1, at 2.22: the last quarter of a spacing is not controlled
-/// ([`TargetFit::at_the_end`]).
+/// Measured with the mean g of 20 patterns of dart throwing as target. Given up to 6 spacings,
+/// patterns of 300 to 3000 points miss it by .065–.073, at the edge of the hard core. Given only up
+/// to 2.49 spacings, they miss it by about .1, at 2.22: the last quarter of a spacing is not
+/// controlled ([`TargetFit::at_the_end`]).
 ///
 /// # Errors
-/// Fails if the function of the points cannot be estimated, as for fewer than two points.
+/// Fails if the pair correlation function of the points cannot be estimated, as for fewer than two
+/// points.
 pub fn target_fit(points: &[Point], window: &Window, rows: &[[f64; 2]]) -> Result<TargetFit, StatsError> {
     let usual = PcfOptions::default();
     let ends = rows.first().zip(rows.last()).map_or([0., 0.], |(first, last)| [first[0], last[0]]);
@@ -56,7 +64,7 @@ pub fn target_fit(points: &[Point], window: &Window, rows: &[[f64; 2]]) -> Resul
     let farthest = 0.5 * bounds.width().min(bounds.height()) / spacing;
     let step = (usual.r_max - usual.r_min) / usual.bins as f64;
     let r_min = ends[0].max(usual.r_min);
-    // r holds the left edges of the bins, so one more bin makes the last row count
+    // `r` holds the left edges of the bins, so one more bin is needed to include the last row
     let bins = ((ends[1].min(MOST).min(farthest) - r_min) / step + 1e-6).floor() + 1.;
     let bins = bins.max(1.);
     let options = PcfOptions { r_min, r_max: r_min + bins * step, bins: bins as usize, ..usual };
@@ -68,11 +76,12 @@ pub fn target_fit(points: &[Point], window: &Window, rows: &[[f64; 2]]) -> Resul
     Ok(TargetFit { r: reached.r, wanted, reached: reached.g, l_infinity, worst_r })
 }
 
-/// Greatest distance of pairs for which [`crate::sample::Shaped`] moves points, in hexagonal
-/// spacings.
+/// Largest distance up to which targets are compared, in hexagonal spacings: beyond it,
+/// [`crate::sample::Shaped`] does not control pairs of points.
 const MOST: f64 = 6.;
 
-/// Interpolates linearly between rows; constant beyond them, NaN without rows.
+/// Interpolates `rows` linearly at `r`. Beyond the first and last row the value is constant;
+/// without rows it is NaN.
 fn at(rows: &[[f64; 2]], r: f64) -> f64 {
     let after = rows.partition_point(|row| row[0] <= r);
     match (after.checked_sub(1).and_then(|i| rows.get(i)), rows.get(after)) {

@@ -1,10 +1,10 @@
-//! Monte Carlo test whether a mosaic could be a realisation of a sampler, as far as its pair
-//! correlation function tells.
+//! Monte Carlo test of whether a mosaic could be a realisation of a sampler, judged by its pair
+//! correlation function.
 //!
-//! 1. Simulate the sampler at the mosaic's own number of points and window.
-//! 2. Measure the l-infinity of every curve, the mosaic's included, to the mean of all others, and
-//!    rank the mosaic's.
-//! 3. Test the mosaic's curve against the global envelope of the simulations, by extreme rank
+//! 1. Simulate the sampler with the mosaic's own number of points and window.
+//! 2. Compute the l-infinity distance of every curve, the mosaic's included, to the mean of all
+//!    other curves, and find the rank of the mosaic's distance.
+//! 3. Test the mosaic's curve against the global envelope of the simulated curves, by extreme rank
 //!    length (Myllymäki et al. 2017, <https://doi.org/10.1111/rssb.12172>).
 //!
 //! Both p-values are exact, as all curves are treated alike (Barnard 1963, in the discussion of
@@ -21,20 +21,20 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-/// Step to which g is rounded before the envelope test.
+/// Resolution of g in the envelope test: g is rounded to multiples of this step first.
 ///
-/// Where no pairs are possible, the simulations agree to the last digit, and without rounding a
-/// difference that nobody could see would count as extreme.
+/// Where a sampler makes no pairs, all simulated curves are exactly equal. Without rounding, a
+/// negligible difference there would count as extreme.
 const RESOLUTION: f64 = 1e-3;
 
 /// Options of a verdict: number of simulations and significance level.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VerdictOptions {
-    /// Number of simulations per sampler: 39 to 9999, default 199. The smallest p-value
-    /// is one over this number plus 1.
+    /// Number of simulations per sampler: 39 to 9999, default 199. The smallest p-value possible is
+    /// 1 / (`simulations` + 1).
     pub simulations: usize,
-    /// Significance level, also that of the envelope: a mosaic differs from a sampler if its
-    /// p-value is not above this. Between 0 and .5, default .05.
+    /// Significance level of the test and of the envelope: a mosaic differs from a sampler if its
+    /// p-value is at most `level`. Greater than 0 and less than .5, default .05.
     pub level: f64,
 }
 
@@ -57,58 +57,63 @@ impl VerdictOptions {
     }
 }
 
-/// Standing of a mosaic's pair correlation function among those of simulations of a sampler.
+/// Result of comparing a mosaic's pair correlation function with those of simulations of a sampler.
 ///
-/// Two realisations of one process differ, the more the fewer points they have: at 300 points by
-/// .08–.09 in l-infinity. So no fixed distance means “the same”; the simulations, at the mosaic's
-/// own n and window, show which distance is usual.
+/// Two patterns of the same sampler differ too, and more so the fewer points they have: at 300
+/// points by .08–.09 in l-infinity. So no fixed distance means “the same”. The simulations, with
+/// the mosaic's own number of points and window, show which distance is usual.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SamplerVerdict {
     /// Name of the sampler.
     pub sampler: String,
-    /// Number of simulations used.
+    /// Number of simulations with which the mosaic was compared.
     pub simulations: usize,
-    /// Fewest and most points of a simulation; some samplers make the nearest number that they can.
+    /// Smallest and largest number of points in a simulation. It may differ from that of the
+    /// mosaic, since some samplers can only make certain numbers of points.
     pub points: (usize, usize),
-    /// l-infinity between the mosaic and the mean of all simulations.
+    /// l-infinity distance between the mosaic's curve and the mean of all simulated curves.
     pub l_infinity: f64,
-    /// Median over the simulations of the l-infinity between one and the mean of all other curves.
+    /// Usual l-infinity distance: the median over the simulations of the distance between a
+    /// simulated curve and the mean of all other curves, the mosaic's included.
     pub l_infinity_usual: f64,
-    /// 95 % quantile over the simulations of the same distance.
+    /// Large but still plausible l-infinity distance: the 95 % quantile over the simulations of the
+    /// distance between a simulated curve and the mean of all other curves, the mosaic's included.
     pub l_infinity_most: f64,
-    /// Fraction of curves, the mosaic's among them, that are at least as far from the mean of the
-    /// others as the mosaic's is.
+    /// p-value by l-infinity: fraction of all curves, the mosaic's included, that lie at least as
+    /// far from the mean of the other curves as the mosaic's curve does.
     pub p_l_infinity: f64,
-    /// p-value of the global envelope test (extreme rank length), which weighs every distance by
-    /// the scatter that is usual there; g is rounded to three decimals.
+    /// p-value of the global envelope test (extreme rank length). It judges each distance r by the
+    /// scatter of the simulations at r; g is rounded to three decimals first.
     pub p_envelope: f64,
-    /// Significance level of the test.
+    /// Significance level of the test and of the envelope, copied from [`VerdictOptions`].
     pub level: f64,
-    /// Ranges of distance, in hexagonal spacings, in which the mosaic's g lies outside the
+    /// Ranges of distance r, in hexagonal spacings, in which the mosaic's g(r) lies outside the
     /// envelope.
     pub outside: Vec<(f64, f64)>,
-    /// Regularity index of the simulations (all points, sample standard deviation): mean and
-    /// standard deviation over them.
+    /// Mean and standard deviation of the regularity indices of the simulations (all points, sample
+    /// standard deviation).
     pub ri: Moments,
-    /// Band within which the simulations stay.
+    /// Band within which the simulated curves stay.
     pub envelope: Envelope,
 }
 
-/// Global envelope of pair correlation functions, on the same grid as the mosaic's.
+/// Global envelope of simulated pair correlation functions, at the same distances as the mosaic's
+/// curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Envelope {
-    /// Distances in hexagonal spacings.
+    /// Distances r in hexagonal spacings.
     pub r: Vec<f64>,
-    /// Mean of the simulations.
+    /// Mean of the simulated curves, one value per distance.
     pub mean: Vec<f64>,
-    /// Lower edge of the band.
+    /// Lower edge of the band, one value per distance.
     pub low: Vec<f64>,
-    /// Upper edge of the band.
+    /// Upper edge of the band, one value per distance.
     pub high: Vec<f64>,
 }
 
 impl SamplerVerdict {
-    /// Returns whether the mosaic could be a realisation of the sampler, as far as g tells.
+    /// Returns whether the mosaic could be a realisation of the sampler, judged by the envelope
+    /// test of g(r).
     pub fn alike(&self) -> bool {
         self.p_envelope > self.level
     }
@@ -121,13 +126,14 @@ struct Simulation {
     ri: Option<f64>,
 }
 
-/// Tests the pair correlation function of a mosaic of `n` points in `window` against simulations of
-/// `sampler` there.
+/// Tests whether a mosaic of `n` points in `window`, with the pair correlation function `mosaic`,
+/// could be a realisation of `sampler`.
 ///
-/// All curves, the mosaic's among them, are treated alike, so both p-values are exact Monte Carlo
-/// p-values (Barnard 1963; Myllymäki et al. 2017, <https://doi.org/10.1111/rssb.12172>). Each
-/// simulation has a random generator of its own, seeded by a hash of `seed`, the sampler's name, n,
-/// the window and the number of the simulation; the result is the same for any number of threads.
+/// The sampler is simulated with the same `n` and window. All curves, the mosaic's included, are
+/// treated alike, so both p-values are exact Monte Carlo p-values (Barnard 1963; Myllymäki et al.
+/// 2017, <https://doi.org/10.1111/rssb.12172>). Each simulation has a random generator of its own,
+/// seeded by a hash of `seed`, the sampler's name, `n`, the window and the number of the
+/// simulation; the result is the same for any number of threads.
 ///
 /// # Errors
 /// Fails if an option is out of range, the sampler cannot fill the window, or the mosaic's curve
@@ -170,7 +176,7 @@ pub fn verdict(
         Some(first) => Pcf { g: mean.clone(), ..first.pcf.clone() },
         None => return Err(CompareError::Simulations { found: 0 }),
     };
-    // also refuses curves that cannot be compared
+    // also returns an error for curves that cannot be compared
     let distance = l_infinity(mosaic, &mean_pcf)?;
     let mut usual: Vec<f64> = curves.iter().map(|g| from_others(g)).collect();
     usual.sort_unstable_by(f64::total_cmp);
@@ -200,7 +206,8 @@ pub fn verdict(
     })
 }
 
-/// Returns a hash of everything that the simulations depend on, but their number.
+/// Starts the hash that seeds the random generators of the simulations: from `seed`, the sampler's
+/// name, `n` and the window. The caller adds the number of the simulation.
 fn seed_of(sampler: &str, n: usize, window: &Window, seed: u64) -> Sha256 {
     let bounds = window.bounds();
     let mut hash = Sha256::new_with_prefix(b"verdict");
