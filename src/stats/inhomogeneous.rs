@@ -58,7 +58,7 @@ impl Inhomogeneous {
 ///
 /// with translation weights w_ij, and K(r) likewise with the pairs up to r (Baddeley, Møller &
 /// Waagepetersen 2000, <https://doi.org/10.1111/1467-9574.00144>). For equal λ this g is
-/// [`super::pcf`] with the translation correction.
+/// [`super::pcf()`] with the translation correction.
 ///
 /// Both functions assume that a trend thins the pattern without changing its distances. In cone
 /// mosaics around the fovea, spacing follows density instead. There, distances should be measured

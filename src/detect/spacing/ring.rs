@@ -168,7 +168,7 @@ fn bin_weights() -> &'static [[f64; BINS + 3]; 3] {
 }
 
 impl RingProfile {
-    /// Returns the profile of a flattened image (see [`crate::detect::flatten`]) of at most
+    /// Returns the profile of a flattened image (see [`crate::detect::flatten()`]) of at most
     /// 512 × 512 px, or of the upper left of a larger one.
     pub fn of(flat: &Plane) -> Self {
         Self::from_powers([&power_of(flat)], flat.dim())

@@ -2,7 +2,7 @@
 //!
 //! 1. [`stretched`] maps the grey values between two percentiles linearly to 0..255.
 //! 2. [`enlarged`] interpolates linearly between pixel centres.
-//! 3. [`png`] encodes the pixels.
+//! 3. [`png()`] encodes the pixels.
 
 use crate::report::ReportError;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
