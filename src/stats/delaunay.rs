@@ -4,8 +4,7 @@
 use crate::geometry::{Point, Rectangle};
 use spade::{DelaunayTriangulation, Point2};
 
-/// Delaunay triangulation in coordinates that are scaled so that the longer side of the window is
-/// 1.
+/// Delaunay triangulation in scaled coordinates: the longer side of the window has length 1.
 pub(super) struct Delaunay {
     /// Index of the point at each vertex, and its position in the scaled coordinates.
     pub(super) sites: Vec<(usize, [f64; 2])>,

@@ -20,7 +20,7 @@ use std::f64::consts::TAU;
 /// Smallest number of points that is accepted; fewer points do not determine an intensity.
 const FEWEST: usize = 20;
 
-/// Second-order functions of a pattern whose density varies.
+/// Pair correlation and K functions of a pattern whose density varies across the window.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Inhomogeneous {
     /// Distances at which the functions are evaluated, in hexagonal spacings at the mean density.

@@ -41,8 +41,8 @@ pub fn default_intensity_bandwidth(n: usize, window: &Window) -> f64 {
 ///
 /// The kernel is a Gaussian of standard deviation `bandwidth`. It is divided by the share of it
 /// that lies in the window (Diggle 1985). Leaving out the point itself follows Baddeley, Møller &
-/// Waagepetersen (2000), <https://doi.org/10.1111/1467-9574.00144>. Values are raised to at least 1
-/// % of the mean density and then scaled so that Σ 1/λ is the area of the window.
+/// Waagepetersen (2000), <https://doi.org/10.1111/1467-9574.00144>. Values below 1 % of the mean
+/// density are raised to 1 %. All values are then scaled so that Σ 1/λ is the area of the window.
 ///
 /// The sums are taken on a grid of six nodes per bandwidth, in time linear in the number of points;
 /// the error is below 1 %.

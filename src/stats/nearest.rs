@@ -6,8 +6,8 @@ use strum::{Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
 /// Returns, for each point, whether it is at least as far from the border as from its nearest
 /// neighbour.
 ///
-/// Such points are called interior: no point beyond the border can be nearer than the neighbour
-/// that was found. On a torus all points are interior.
+/// A point for which this holds is called interior: no point beyond the border can be nearer than
+/// the neighbour that was found. On a torus all points are interior.
 pub fn interior(points: &[Point], window: &Window, nearest: &NearestNeighbours) -> Vec<bool> {
     interior_by(&window.border_distances(points), nearest).collect()
 }
@@ -62,8 +62,7 @@ pub struct Moments {
     pub n: usize,
     /// Mean μ; `None` if there are no values or one of them is not finite.
     pub mean: Option<f64>,
-    /// Standard deviation σ; `None` if there is no mean, or for a single value with the divisor n −
-    /// 1.
+    /// Standard deviation σ; `None` if there is no mean, or if the divisor n − 1 is 0.
     pub sd: Option<f64>,
     /// Ratio μ/σ: for nearest-neighbour distances, the regularity (conformity) index.
     ///

@@ -77,8 +77,8 @@ pub struct NearestAxes {
     /// Mean axis from interior points to their nearest neighbours, 0–180°; `None` if `resultant` is
     /// 0 or `None`.
     pub direction: Option<f64>,
-    /// Probability, if no direction is preferred, of a `resultant` at least as long as the observed
-    /// one.
+    /// Probability, if no direction is preferred, of a mean of exp(2iθ) at least as long as
+    /// `resultant`.
     ///
     /// The p-value is that of Rayleigh's test, with the variance taken from groups of points.
     /// Points that are linked through nearest neighbours share axes (mutual nearest neighbours even
@@ -275,7 +275,7 @@ mod tests {
     ///
     /// The rows are at `rows` degrees and the stretch is `stretch` along the axis at `axis`
     /// degrees, both counter-clockwise in the picture. The lattice continues beyond the window, so
-    /// that cells at its border are those of the lattice.
+    /// that cells at the border are cells of the complete lattice.
     fn lattice(rows: f64, stretch: f64, axis: f64) -> (Vec<Point>, Window) {
         let turned = |[x, y]: [f64; 2], by: f64| {
             let (sin, cos) = by.to_radians().sin_cos();

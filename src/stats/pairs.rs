@@ -4,7 +4,7 @@
 //!    wide.
 //! 2. For each point, scan the rest of its cell, the cells to its right and the rows below, up to
 //!    the cut-off distance. Only one half of the plane is searched, so every pair is visited once.
-//! 3. On a torus, cells beyond the edge are those of the opposite side, shifted by the window's
+//! 3. On a torus, cells beyond an edge are the cells at the opposite edge, shifted by the window's
 //!    width or height.
 
 use crate::geometry::{Point, Window};

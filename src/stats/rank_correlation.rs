@@ -20,7 +20,7 @@ pub struct RankCorrelation {
     /// Spearman's rank correlation ρ, from −1 to 1; equal values share their mean rank.
     pub rho: f64,
     /// Two-sided p-value by permutation: the probability of a |ρ| at least as large as the observed
-    /// one if the two quantities are independent.
+    /// |ρ| if the two quantities are independent.
     pub p_value: f64,
 }
 
@@ -72,7 +72,7 @@ pub fn rank_correlation(pairs: &[(f64, f64)], rng: &mut dyn Rng) -> Option<RankC
 fn centred_ranks(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let values: Vec<f64> = values.collect();
     let count = |of: &dyn Fn(f64) -> bool| values.iter().filter(|&&v| of(v)).count() as f64;
-    // The number of smaller values minus that of larger values is twice the centred rank.
+    // The number of smaller values minus the number of larger values is twice the centred rank.
     values.iter().map(|&v| (count(&|o| o < v) - count(&|o| o > v)) / 2.).collect()
 }
 

@@ -1,8 +1,8 @@
-//! Global envelope test by extreme rank length: one p-value for a whole observed curve among
-//! simulated ones (Myllymäki et al. 2017, J. R. Stat. Soc. B 79, 381–404,
+//! Global envelope test by extreme rank length: one p-value for an entire observed curve among
+//! simulated curves (Myllymäki et al. 2017, J. R. Stat. Soc. B 79, 381–404,
 //! <https://doi.org/10.1111/rssb.12172>).
 
-/// Result of comparing an observed curve with simulated ones: the global p-value and envelope.
+/// Result of comparing an observed curve with simulated curves: the global p-value and envelope.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RankEnvelope {
     /// Probability that a curve of the simulated process is at least as extreme as the observed
@@ -32,7 +32,7 @@ impl RankEnvelope {
     }
 }
 
-/// Tests an observed curve against simulated ones by extreme rank length.
+/// Tests an observed curve against simulated curves by extreme rank length.
 ///
 /// In every bin, all curves, observed and simulated, are ranked both from the smallest value and
 /// from the largest; a curve takes the smaller of its two ranks, and tied curves share their mean

@@ -115,9 +115,9 @@ fn bound_cells(points: &[Point], window: &Window, frame: &Rectangle) -> usize {
 /// Returns square boxes of side `side` that slide over `bounds` in steps of `step`, from the upper
 /// left corner.
 ///
-/// As many boxes as fit are returned, row by row, each with its row and column number, counted from
-/// 1. Lengths are in units of the coordinates. The list is empty if `bounds` is smaller than one
-/// box.
+/// As many boxes as fit are returned, row by row, each with the numbers of its row and its column,
+/// of which the first is 1. Lengths are in units of the coordinates. The list is empty if `bounds`
+/// is smaller than one box.
 ///
 /// # Errors
 /// Returns [`StatsError::Option`] if a length is not positive or there would be more than 100 000

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 /// Statistics of a mosaic that are single numbers, not series.
 ///
-/// They fill one row of `summary.csv` and one record of `metrics.json`. Lengths are in the unit of
-/// the mosaic.
+/// The numbers fill one row of `summary.csv` and one record of `metrics.json`. Lengths are in the
+/// unit of the mosaic.
 ///
 /// A new statistic needs one field here and one line in `Summary::of`; records and files then
 /// contain it without further changes.

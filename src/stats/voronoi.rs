@@ -296,7 +296,7 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
         cell.clipped_area = Some(if whole { area } else { clipped_cell_area(window, at, &adjacent) });
         (cell, reach * side)
     };
-    // The sites keep the order of the points, so those of the first n points come first.
+    // The sites keep the order of the points, so the sites of the first n points come first.
     let wanted = sites.partition_point(|(i, _)| *i < n);
     let (sites, vertices) = (&sites[..wanted], &triangulation.vertices().take(wanted).collect::<Vec<_>>());
     let found: Vec<(Cell, f64)> = if wanted < SPREAD_FROM {

@@ -30,7 +30,7 @@ pub(super) struct Binned {
     nodes: Vec<[f64; 4]>,
 }
 
-/// Values of g at the distances of a table; NaN where it is not defined.
+/// Values of g at the distances of a table; NaN where g is not defined.
 #[derive(Clone, Debug)]
 pub(super) struct PcfCurves {
     /// Estimate in which the sum at r is divided by 2πr.

@@ -83,7 +83,7 @@ pub struct ProfileRow {
 
 /// Returns the rows of rings of width `step` about `centre`, then the rows of the four meridians.
 ///
-/// The last ring is the one of the farthest bound cell. Along meridians, `maps` (density,
+/// The outermost ring contains the farthest bound cell. Along meridians, `maps` (density,
 /// inter-cell distance and nearest-neighbour distance) are read in steps of `step`, wherever the
 /// density is defined.
 pub(super) fn profile(

@@ -79,12 +79,12 @@ pub enum EdgeCorrection {
 pub struct PcfOptions {
     /// Shape of the smoothing kernel.
     pub kernel: Kernel,
-    /// Standard deviation σ of the kernel, in spacings: .005–1, default .1.
+    /// Standard deviation σ of the kernel, in hexagonal spacings: .005–1, default .1.
     pub bandwidth: f64,
-    /// Left edge of the first bin, in spacings: default .15, at least 1.5 `bandwidth`, because
-    /// nearer to 0 the kernel extends to negative distances.
+    /// Left edge of the first bin, in hexagonal spacings: default .15, at least 1.5 `bandwidth`,
+    /// because nearer to 0 the kernel extends to negative distances.
     pub r_min: f64,
-    /// Right edge of the last bin, in spacings: above `r_min`, at most 50, default 2.5.
+    /// Right edge of the last bin, in hexagonal spacings: above `r_min`, at most 50, default 2.5.
     pub r_max: f64,
     /// Number of bins: 1–2000, default 200. g is evaluated at the left edges of the bins.
     pub bins: usize,
@@ -131,12 +131,12 @@ impl PcfOptions {
         check((1..=2000).contains(&self.bins), "number of PCF bins", self.bins as f64, "1 to 2000")
     }
 
-    /// Returns the left edges of the bins, in spacings.
+    /// Returns the left edges of the bins, in hexagonal spacings.
     pub fn radii(&self) -> Vec<f64> {
         (0..self.bins).map(|b| self.r_min + b as f64 * self.bin_width()).collect()
     }
 
-    /// Returns the width of a bin, in spacings.
+    /// Returns the width of a bin, in hexagonal spacings.
     fn bin_width(&self) -> f64 {
         (self.r_max - self.r_min) / self.bins as f64
     }

@@ -13,7 +13,8 @@ use crate::geometry::{Point, Window};
 pub use modal::{ModalSpacing, modal_spacing};
 use serde::{Deserialize, Serialize};
 
-/// Largest number of waves; more are refused, because they would fill gigabytes.
+/// Largest number of waves in a spectrum; requests for more are refused, because they would fill
+/// gigabytes.
 const MOST_WAVES: f64 = 5e7;
 
 /// Options of a power spectrum.
@@ -88,8 +89,8 @@ pub struct PowerSpectrum {
 ///
 /// # Errors
 /// Returns [`StatsError`] if there is no point, a point is outside, an option is out of its range,
-/// there are more than 5·10⁷ waves, or the window is a polygon (whose own spectrum would hide that
-/// of the points).
+/// there are more than 5·10⁷ waves, or the window is a polygon (whose own spectrum would hide the
+/// spectrum of the points).
 ///
 /// # Examples
 /// ```

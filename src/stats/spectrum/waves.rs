@@ -17,8 +17,8 @@ use std::f64::consts::{PI, TAU};
 const FEW: usize = 500_000;
 /// Number w of grid cells over which a point is spread, along either axis.
 ///
-/// With the oversampling σ below, aliasing is exp(−πw√(1 − 1/σ)) = 3·10⁻⁹ (Barnett, Magland & af
-/// Klinteberg 2019, eq. 4.1, <https://doi.org/10.1137/18M120885X>).
+/// With the oversampling σ of [`OVERSAMPLING`], aliasing is exp(−πw√(1 − 1/σ)) = 3·10⁻⁹ (Barnett,
+/// Magland & af Klinteberg 2019, eq. 4.1, <https://doi.org/10.1137/18M120885X>).
 const WIDTH: usize = 14;
 /// Number σ of grid points per wavelength of the highest wave, divided by two.
 const OVERSAMPLING: f64 = 1.25;

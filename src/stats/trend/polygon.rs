@@ -12,8 +12,8 @@ use std::f64::consts::{PI, SQRT_2};
 /// Integrals along the outline are taken over pieces no longer than the shorter side of the bounds
 /// divided by this number; on such a piece the integrands are smooth.
 const PIECES: f64 = 16.;
-/// A wave counts as dependent on earlier waves if at most this share of its mean square is left
-/// after their parts are subtracted.
+/// A wave or polynomial counts as dependent on earlier ones if at most this share of its mean
+/// square is left after their parts are subtracted.
 const LEAST_OWN: f64 = 1e-3;
 
 /// Returns one value per group of waves: the mean square of the sums of its waves over the points.
@@ -172,8 +172,8 @@ mod tests {
     fn a_plane_is_fitted_exactly() {
         let polygon = l_shape();
         let terms = [|_: (f64, f64)| 1., |(u, _): (f64, f64)| u, |(_, v): (f64, f64)| v];
-        // Mean products of 1 + 2u − v with the terms follow from those of the terms with each
-        // other.
+        // Mean products of 1 + 2u − v with the terms follow from the mean products of the terms
+        // with each other.
         let gram = |a: usize, b: usize| {
             let sums = rule(&polygon).map(|(u, v, w)| {
                 let u_power = i32::from(a == 1) + i32::from(b == 1);
