@@ -1,4 +1,5 @@
-/// Returns the median: the middle value, or the mean of the two middle ones; `None` without values.
+/// Returns the median: the middle value, or the mean of the two middle values; `None` if there are
+/// no values.
 ///
 /// The values are sorted in place.
 pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
@@ -9,7 +10,7 @@ pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
     Some((lower + upper) / 2.)
 }
 
-/// Returns the arithmetic mean; `None` without values.
+/// Returns the arithmetic mean; `None` if `values` is empty.
 pub(crate) fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }

@@ -1,28 +1,29 @@
-//! Cholesky decomposition of a symmetric matrix into L Lᵀ, for matrices whose rows may be
-//! dependent.
+//! Cholesky decomposition of a symmetric matrix into L Lᵀ. Rows may depend linearly on each other.
 
-/// Lower triangle L of a symmetric matrix L Lᵀ.
+/// Lower triangular factor L of a symmetric matrix L Lᵀ.
 ///
-/// A row that depends on earlier ones is left out.
+/// A row that is a linear combination of earlier rows does not contribute to later rows;
+/// [`Self::is_own`] returns `false` for it.
 pub(crate) struct Cholesky {
     /// Number of rows and columns.
     n: usize,
     /// Entries of L, row by row, with zeros above the diagonal.
     lower: Vec<f64>,
-    /// `true` for every row that does not depend on earlier ones.
+    /// `true` for every row that is linearly independent of the rows before it.
     own: Vec<bool>,
 }
 
 impl Cholesky {
-    /// Decomposes an n × n matrix, given by row and column.
+    /// Decomposes the n × n matrix whose entry in row i and column k is `matrix(i, k)`.
     ///
-    /// A row counts as dependent on earlier ones if at most the fraction `least`, 0–1, of its
-    /// diagonal entry is left after their parts are subtracted.
+    /// A row counts as dependent on earlier rows if, after their parts are subtracted, at most the
+    /// fraction `least` (0–1) of its diagonal entry is left.
     pub(crate) fn new(n: usize, least: f64, matrix: impl Fn(usize, usize) -> f64) -> Self {
         let mut lower = vec![0.; n * n];
         let mut own = vec![true; n];
         for i in 0..n {
-            // slices instead of indices, because long decompositions spend their time in this loop
+            // Slices are faster than indices here, and large decompositions spend their time in
+            // this loop.
             let (above, row) = lower.split_at_mut(i * n);
             for j in 0..i {
                 let earlier = &above[j * n..=j * n + j];
@@ -37,12 +38,12 @@ impl Cholesky {
         Self { n, lower, own }
     }
 
-    /// Returns whether row `k` does not depend on earlier ones.
+    /// Returns whether row `k` is linearly independent of the rows before it.
     pub(crate) fn is_own(&self, k: usize) -> bool {
         self.own[k]
     }
 
-    /// Returns whether the diagonal of every row is finite and no row depends on others.
+    /// Returns whether all diagonal entries of L are finite and no row depends on earlier rows.
     pub(crate) fn is_whole(&self) -> bool {
         (0..self.n).all(|k| self.own[k] && self.lower[k * self.n + k].is_finite())
     }

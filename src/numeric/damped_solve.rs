@@ -1,9 +1,9 @@
 use super::cholesky::Cholesky;
 
-/// Solves (A + μ 1) y = b for a symmetric matrix A that is not negative, by Cholesky decomposition.
+/// Solves (A + μI) y = b for y by Cholesky decomposition; A is symmetric and positive semidefinite.
 ///
-/// μ is `damping` times the mean of the diagonal of A. `a` holds A row by row. `None` if the
-/// decomposition breaks down.
+/// `a` holds A row by row. The damping μ is `damping` times the mean of the diagonal of A. Returns
+/// `None` if a pivot of the decomposition is not positive and finite.
 pub(crate) fn solve(a: &[f64], damping: f64, b: &[f64]) -> Option<Vec<f64>> {
     let n = b.len();
     let trace: f64 = (0..n).map(|i| a[i * n + i]).sum();

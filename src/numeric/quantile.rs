@@ -1,31 +1,32 @@
-//! Quantiles by the definitions in use, under separate names so that each caller says which one it
-//! means.
+//! Quantiles by three different definitions, each a separate function, so that every caller names
+//! the definition that it uses.
 //!
-//! Hyndman and Fan (1996), <https://doi.org/10.2307/2684934>, number the definitions.
+//! The types named below are those of Hyndman and Fan (1996), <https://doi.org/10.2307/2684934>.
 
-/// Returns the quantile of values in rising order, interpolated linearly between two of them: type
-/// 7 of Hyndman and Fan (1996).
+/// Returns the quantile `share`, interpolated linearly between two neighbouring values: type 7 of
+/// Hyndman and Fan (1996).
 ///
-/// `share` is held to 0–1. `None` without values.
+/// `rising` must be in rising order, and `share` is clamped to 0–1. Returns `None` if there are no
+/// values.
 pub(crate) fn linear_quantile(rising: &[f64], share: f64) -> Option<f64> {
     let place = share.clamp(0., 1.) * rising.len().checked_sub(1)? as f64;
     let (low, high) = (rising.get(place.floor() as usize)?, rising.get(place.ceil() as usize)?);
     Some(low + (high - low) * place.fract())
 }
 
-/// Returns the smallest value that at least the share `share`, 0–1, of the values does not exceed:
-/// type 1 of Hyndman and Fan (1996).
+/// Returns the smallest value v such that at least the fraction `share` (0–1) of all values is at
+/// most v: type 1 of Hyndman and Fan (1996).
 ///
-/// This is the inverse of the distribution function. `rising` must be in rising order; NaN without
-/// values.
+/// This is the inverse of the empirical distribution function. `rising` must be in rising order;
+/// the result is NaN if it is empty.
 pub(crate) fn stepped_quantile(rising: &[f64], share: f64) -> f64 {
     let index = (share * rising.len() as f64).ceil() as usize;
     rising.get(index.saturating_sub(1)).copied().unwrap_or(f64::NAN)
 }
 
-/// Returns the value whose rank is nearest to the share, 0–1, of the highest rank.
+/// Returns the value whose index is nearest to `share` (0–1) times the highest index.
 ///
-/// `rising` must be in rising order; `None` without values.
+/// `rising` must be in rising order; the result is `None` if it is empty.
 pub(crate) fn nearest_rank(rising: &[f64], share: f64) -> Option<f64> {
     let highest = rising.len().checked_sub(1)?;
     rising.get((highest as f64 * share).round() as usize).copied()

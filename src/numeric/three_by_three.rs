@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 /// Returns the inverse of a 3 × 3 matrix by its cofactors.
 ///
-/// `None` if the absolute value of the determinant is below 1e−14, which suits entries near 1.
+/// Returns `None` if the absolute value of the determinant is not above 10⁻¹⁴, a limit that suits
+/// matrices whose entries are near 1, or if it is not finite.
 pub(crate) fn inverted(m: [[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
     let cofactor = |i: usize, j: usize| {
         let (r, s, u, v) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
@@ -15,9 +16,10 @@ pub(crate) fn inverted(m: [[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
     ok.then(|| std::array::from_fn(|i| std::array::from_fn(|j| cofactor(j, i) / determinant)))
 }
 
-/// Returns the eigenvalues of a 3 × 3 matrix whose eigenvalues are real.
+/// Returns the eigenvalues of a 3 × 3 matrix, all of which must be real.
 ///
-/// They are the roots of its characteristic polynomial, by Viète's trigonometric solution.
+/// The eigenvalues are the roots of the characteristic polynomial, a cubic, which is solved by
+/// Viète's trigonometric formula.
 pub(crate) fn eigenvalues(m: [[f64; 3]; 3]) -> [f64; 3] {
     let trace = m[0][0] + m[1][1] + m[2][2];
     let minors = m[0][0] * m[1][1] - m[0][1] * m[1][0] + m[0][0] * m[2][2] - m[0][2] * m[2][0]
@@ -36,10 +38,10 @@ pub(crate) fn eigenvalues(m: [[f64; 3]; 3]) -> [f64; 3] {
     [0., 1., 2.].map(|k| shift + 2. * root * (angle + k * TAU / 3.).cos())
 }
 
-/// Returns the unit vector that `m − value` maps to zero: the direction at right angles to its
-/// rows.
+/// Returns the unit eigenvector of `m` for the eigenvalue `value`.
 ///
-/// `None` if that direction is not unique.
+/// The eigenvector is perpendicular to all rows of `m` − `value`·I, so it is the cross product of
+/// two of them. Returns `None` if all rows are parallel, so that the direction is not unique.
 pub(crate) fn eigenvector(mut m: [[f64; 3]; 3], value: f64) -> Option<[f64; 3]> {
     (0..3).for_each(|k| m[k][k] -= value);
     let product = |a: [f64; 3], b: [f64; 3]| {

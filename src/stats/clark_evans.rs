@@ -5,33 +5,37 @@ use crate::geometry::{NearestNeighbours, Window};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Number of distances at which G is taken for the cdf rule, as in spatstat.
+/// Number of distances at which the distribution G of nearest-neighbour distances is evaluated for
+/// [`ClarkEvans::cdf`], as in spatstat.
 const ROWS: usize = 513;
 
 /// Aggregation index of Clark & Evans (1954), <https://doi.org/10.2307/1931034>.
 ///
-/// It is the mean nearest-neighbour distance divided by that of independent points of the same
-/// density, 1/(2√λ): 1 for independent points, 2.149 for the triangular lattice. All values are
-/// `None` for fewer than two points.
+/// The index is the mean nearest-neighbour distance divided by the mean expected for independent
+/// points of the same density λ, which is 1/(2√λ). The index is 1 for independent points and 2.149
+/// for the triangular lattice. All values are `None` for fewer than two points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ClarkEvans {
-    /// Index of all points without correction: too large, because neighbours beyond the border are
-    /// not seen.
+    /// Index of all points without correction for the border. It is too large, because neighbours
+    /// beyond the border are not seen.
     pub naive: Option<f64>,
-    /// Index by Donnelly (1978): the expectation is corrected for the border,
-    /// 1/(2√λ) + (.0514 + .0412/√n) · perimeter/n.
+    /// Index of Donnelly (1978), who corrects the expected mean for the border: 1/(2√λ) + (.0514 +
+    /// .0412/√n) · perimeter/n for n points.
     ///
-    /// Donnelly found the correction by simulation in rectangles. In polygons, where spatstat gives
-    /// none, it is an approximation. `None` on a torus.
+    /// Donnelly found the correction by simulation in rectangles. In polygons, for which spatstat
+    /// gives no value, the correction is an approximation. `None` on a torus.
     pub donnelly: Option<f64>,
-    /// Index from the mean of the Kaplan–Meier estimate of G.
+    /// Index from the mean of the Kaplan–Meier estimate of G, the distribution of nearest-neighbour
+    /// distances.
     ///
-    /// G is taken at 513 distances from 0 to √(ln 10⁵/(πλ)), and each step of it counts at its left
-    /// end. Also `None` if no point is nearer to its neighbour than to the border.
+    /// G is evaluated at 513 distances from 0 to √(ln 10⁵/(πλ)). Its rise between two distances
+    /// counts at the smaller of the two. Also `None` if no point is nearer to its nearest neighbour
+    /// than to the border.
     pub cdf: Option<f64>,
 }
 
-/// Computes the index; `borders` are the distances of all points to the border.
+/// Computes the index with each correction; `borders` are the distances of all points to the
+/// border.
 pub(super) fn clark_evans(window: &Window, nearest: &NearestNeighbours, borders: &[f64]) -> ClarkEvans {
     let n = nearest.distances.len() as f64;
     if nearest.distances.is_empty() {

@@ -1,11 +1,12 @@
-//! Delaunay triangulation of any points, including coinciding, extreme and non-finite ones.
+//! Delaunay triangulation that accepts any points, including points that coincide, have extreme
+//! coordinates or are not finite.
 
 use crate::geometry::{Point, Rectangle};
 use spade::{DelaunayTriangulation, Point2};
 
-/// Delaunay triangulation, in coordinates in which the longer side of the window is 1.
+/// Delaunay triangulation in scaled coordinates: the longer side of the window has length 1.
 pub(super) struct Delaunay {
-    /// Index and position of the point at each vertex.
+    /// Index of the point at each vertex, and its position in the scaled coordinates.
     pub(super) sites: Vec<(usize, [f64; 2])>,
     /// Triangulation whose vertices are `sites`, in the same order.
     pub(super) triangulation: DelaunayTriangulation<Point2<f64>>,
@@ -13,11 +14,11 @@ pub(super) struct Delaunay {
 
 /// Triangulates the points, except those that are not finite or coincide with an earlier point.
 ///
-/// Returns `None` if the points exceed what the triangulation accepts.
+/// Returns `None` if the library that triangulates refuses the points.
 pub(super) fn delaunay(points: &[Point], bounds: &Rectangle) -> Option<Delaunay> {
     let side = bounds.width().max(bounds.height());
-    // The triangulation accepts a limited range of numbers only. So the window is scaled to the
-    // unit square, and subnormal numbers become 0.
+    // The triangulation accepts a limited range of numbers only. So the window is scaled into the
+    // unit square, and numbers nearer to 0 than 10⁻³⁰ become 0.
     let unit = |v: f64, low: f64| {
         let t = (v - low) / side;
         if t.abs() < 1e-30 { 0. } else { t }

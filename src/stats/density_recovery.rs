@@ -3,8 +3,8 @@
 //!
 //! 1. Count the pairs of points by distance, in annuli of equal width.
 //! 2. Divide each count by the area of its annuli that lies in the window.
-//! 3. Sum the points that are missing up to the first annulus above the mean density. The effective
-//!    radius is that of an empty disk in which as many points are missing.
+//! 3. Sum the points that are missing, compared with the mean density, up to the first annulus that
+//!    exceeds it. The effective radius is the radius of an empty disk that lacks as many points.
 
 use super::StatsError;
 use super::edge_weight::{EdgeWeights, MAX_WEIGHT};
@@ -16,21 +16,22 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Largest number of annuli; with more, each would hold next to no points.
+/// Requests for more annuli than this are refused, because each would hold almost no points.
 const MOST_BINS: f64 = 100_000.;
-/// Number of points from which the rows of the search run in parallel.
+/// Least number of points for which the rows of the search grid are processed in parallel.
 const PARALLEL_FROM: usize = 8192;
 
 /// Rule for the width of the annuli of a density recovery profile.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BinWidth {
-    /// Width at which Rodieck's reliability factor k = D·w·√(πA) has this value, .1–1000.
+    /// Width w with which Rodieck's reliability factor k = D·w·√(πA) has the given value, .1–1000.
+    /// D is the mean density and A the area of the window.
     ///
-    /// Independent points put k² others into the first annulus, summed over all reference points.
-    /// The program Metricks uses 4.
+    /// For independent points, the first annuli around all points together hold k² other points on
+    /// average. The program Metricks uses k = 4.
     Reliability(f64),
-    /// Width in the unit of the coordinates; positive.
+    /// Width as given, in the unit of the coordinates; it must be positive.
     Length(f64),
 }
 
@@ -38,7 +39,7 @@ pub enum BinWidth {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DensityRecoveryOptions {
-    /// Width of the annuli; the default, reliability 4, is 2.1/√n hexagonal spacings.
+    /// Width of the annuli. The default, reliability 4, is 2.1/√n hexagonal spacings for n points.
     pub bin_width: BinWidth,
     /// Largest distance of the profile, in hexagonal spacings of the pattern: .5–50, default 4.
     pub r_max: f64,
@@ -76,46 +77,52 @@ impl DensityRecoveryOptions {
     }
 }
 
-/// Density around the average point as a function of distance, and the measures of its dip near 0.
+/// Density recovery profile: the density around the average point as a function of distance, and
+/// measures of its dip near distance 0.
 ///
 /// Lengths are in the unit of the coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DensityRecovery {
     /// Width w of the annuli: annulus i holds distances from iw up to but excluding (i + 1)w.
     pub bin_width: f64,
-    /// Middle radii of the annuli.
+    /// Radius in the middle of each annulus.
     pub r: Vec<f64>,
-    /// Points per squared unit in each annulus, corrected for the share of the annuli that lies in
-    /// the window.
+    /// Density in each annulus, in points per squared unit, corrected for the part of the annuli
+    /// that lies outside the window.
     pub density: Vec<f64>,
-    /// Mean density D = n/A, to which the profile recovers.
+    /// Mean density D = n/A of the n points in a window of area A; the profile returns to it at
+    /// large distances.
     pub mean_density: f64,
-    /// Radius √(V/(πD)) of an empty disk in which as many points V are missing as in the profile.
+    /// Effective radius √(V/(πD)): the radius of an empty disk that lacks as many points V as the
+    /// dip of the profile.
     ///
-    /// V is summed up to the first annulus above D. `None` if no annulus is above D.
+    /// V is the number of points that are missing, compared with the mean density D, in all annuli
+    /// before the first one that exceeds D. `None` if no annulus exceeds D.
     pub effective_radius: Option<f64>,
-    /// Largest effective radius at this density: √(√(4/3)/D), the spacing of the triangular
-    /// lattice.
+    /// Largest possible effective radius at the mean density D: √(√(4/3)/D), the spacing of the
+    /// triangular lattice.
     pub maximum_radius: f64,
     /// Packing factor (effective radius / maximum radius)²: 0 for independent points, 1 for the
-    /// triangular lattice.
+    /// triangular lattice. `None` without an effective radius.
     pub packing: Option<f64>,
-    /// Reliability factor k = D·w·√(πA).
+    /// Reliability factor k = D·w·√(πA), with D the mean density, w the width of the annuli and A
+    /// the area of the window.
     pub reliability: f64,
 }
 
 /// Computes the density recovery profile of Rodieck (1991).
 ///
-/// It is the number of other points in the annuli around each point, divided by the area of those
-/// annuli that lies in the window. That area is the whole area times the isotropised set covariance
-/// at the middle radius. In a w × h rectangle this is Rodieck's equation,
-/// 1 − 2r(w+h)/(πwh) + r²/(πwh). In a polygon it is the same function of the outline; on a torus
-/// it is 1.
+/// For each distance, the number of other points in the annuli around all points is divided by the
+/// area of these annuli that lies in the window. This area is the full area of the annuli times the
+/// isotropised set covariance of the window at the middle radius r. In a w × h rectangle, the
+/// covariance is Rodieck's equation, 1 − 2r(w+h)/(πwh) + r²/(πwh); in a polygon, it is computed
+/// from the outline; on a torus, it is 1.
 ///
 /// The profile ends at `r_max` or earlier: at the shorter side of a rectangle or torus, beyond
-/// which the equation does not hold, and in a polygon where hardly any pair fits (covariance .01).
-/// With few points, no annulus or a single one may remain, and then there is no effective radius.
-/// Points that coincide are at distance 0, in the first annulus.
+/// which the equation does not hold, and in a polygon, where the covariance falls to .01, so that
+/// hardly any pair fits. With few points, so few annuli may remain that none exceeds the mean
+/// density; then there is no effective radius. Points that coincide are at distance 0, in the first
+/// annulus.
 ///
 /// The time is linear in n, since pairs are counted up to the end of the profile only.
 ///
@@ -203,7 +210,7 @@ fn counts(points: &[Point], window: &Window, width: f64, bins: usize) -> Vec<u64
     if points.len() < PARALLEL_FROM {
         return of_rows(0..grid.rows());
     }
-    // Counts are whole numbers, so their sum is the same in any order.
+    // Counts are integers, so their sum is the same in any order.
     (0..grid.rows()).into_par_iter().map(|row| of_rows(row..row + 1)).reduce(none, |mut sum, part| {
         sum.iter_mut().zip(part).for_each(|(s, p)| *s += p);
         sum
@@ -259,7 +266,7 @@ mod tests {
             let bounds = window.bounds();
             let mut points = pattern("uniform", 12_000, &Window::Rectangle(bounds), k as u64);
             points.retain(|&p| window.contains(p));
-            // The profile reaches .6 of the shorter side or more, where half of each annulus is
+            // The profile extends to .6 of the shorter side or more, where half of each annulus is
             // hidden.
             let options = DensityRecoveryOptions { bin_width: BinWidth::Reliability(200.), r_max: 45. };
             let found = density_recovery(&points, window, &options).unwrap();
@@ -319,12 +326,13 @@ mod tests {
         for bad in [of_width(0., 4.), of_width(f64::NAN, 4.), of_width(0.1, f64::NAN), of_width(1e-9, 4.)] {
             assert!(matches!(density_recovery(&[p, p], &window, &bad), Err(StatsError::Option { .. })));
         }
-        // Two points at opposite corners are so far apart that no annulus is left.
+        // Two points at opposite corners are so far apart that all annuli are empty, and none
+        // exceeds the mean density.
         let apart = [Point::new(0., 0.), Point::new(1., 1.)];
         let found = density_recovery(&apart, &window, &of_width(0.1, 1.)).unwrap();
         assert_eq!((found.effective_radius, found.packing), (None, None));
-        // For coinciding points the first annulus is above the mean, and nothing is missing before
-        // it.
+        // For coinciding points the first annulus exceeds the mean density, and nothing is missing
+        // before it.
         let found = density_recovery(&[p; 3], &window, &of_width(0.1, 1.)).unwrap();
         assert_eq!((found.effective_radius, found.packing), (Some(0.), Some(0.)));
     }
@@ -343,7 +351,7 @@ mod tests {
     proptest! {
         #[test]
         fn counts_are_those_of_all_pairs(
-            // On a coarse lattice of coordinates points coincide, lie on a line and lie on the
+            // Coordinates on a coarse lattice make points coincide, lie on a line and lie on the
             // border.
             raw in prop::collection::vec((0..12u8, 0..12u8), 2..40), torus: bool, scale in -12..12i32,
         ) {

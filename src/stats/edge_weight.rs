@@ -26,7 +26,7 @@ impl<'a> EdgeWeights<'a> {
         Self { window, bounds: window.bounds() }
     }
 
-    /// Returns the largest distance at which [`Self::covariance`] holds: the shorter side of a
+    /// Returns the largest distance for which [`Self::covariance`] is valid: the shorter side of a
     /// rectangle or torus, infinity for a polygon.
     pub(super) fn covariance_reach(&self) -> f64 {
         match self.window {
@@ -35,8 +35,8 @@ impl<'a> EdgeWeights<'a> {
         }
     }
 
-    /// Returns the set covariance at distance `r`, averaged over directions, as a share of the
-    /// area.
+    /// Returns the set covariance at distance `r`, averaged over directions, as a share of the area
+    /// of the window.
     ///
     /// For a rectangle this is 1 − 2r(w+h)/(πwh) + r²/(πwh).
     pub(super) fn covariance(&self, r: f64) -> f64 {
@@ -49,8 +49,8 @@ impl<'a> EdgeWeights<'a> {
         }
     }
 
-    /// Returns the area of the window divided by that of its intersection with itself shifted by
-    /// (dx, dy).
+    /// Returns the area of the window divided by the area of its overlap with a copy of itself that
+    /// is shifted by (dx, dy).
     #[inline]
     pub(super) fn translation(&self, dx: f64, dy: f64) -> f64 {
         let seen = match self.window {
@@ -63,15 +63,15 @@ impl<'a> EdgeWeights<'a> {
         1. / seen.max(1. / MAX_WEIGHT)
     }
 
-    /// Returns the inverse share of the circle of radius `d` that lies in the window, averaged over
-    /// the circles around both points.
+    /// Returns the inverse of the share of a circle of radius `d` that lies in the window, averaged
+    /// over the circles around both points.
     pub(super) fn isotropic(&self, a: Point, b: Point, d: f64) -> f64 {
         let weight = |p: Point| 1. / self.share_of_circle(p, d).max(1. / MAX_WEIGHT);
         0.5 * (weight(a) + weight(b))
     }
 
-    /// Returns the share of the circle of radius `d` around `p`, a point inside, that lies in the
-    /// window.
+    /// Returns the share of the circle of radius `d` around `p` that lies in the window; `p` must
+    /// be inside.
     pub(super) fn share_of_circle(&self, p: Point, d: f64) -> f64 {
         match self.window {
             Window::Polygon(polygon) if polygon.border_distance(p) >= d => 1.,

@@ -9,7 +9,7 @@ pub enum StatsError {
     Option {
         /// Name of the option.
         option: &'static str,
-        /// Value that was given.
+        /// Value that was given for the option.
         value: f64,
         /// Description of the permitted values.
         range: &'static str,

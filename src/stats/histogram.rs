@@ -1,15 +1,15 @@
 use crate::numeric::nearest_rank;
 use serde::{Deserialize, Serialize};
 
-/// Bounds on the number of bins: fewer hide the shape, more show only noise.
+/// Smallest and largest number of bins: fewer bins hide the shape, more show only noise.
 const BINS: (usize, usize) = (5, 60);
 
-/// Numbers of values between successive edges.
+/// Histogram: the number of values in each of several bins.
 ///
 /// A bin includes its lower edge; the last bin includes both edges.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Histogram {
-    /// Edges of the bins in rising order, one more than there are bins; empty without values.
+    /// Edges of the bins in rising order, one edge more than there are bins; empty without values.
     pub edges: Vec<f64>,
     /// Number of values in each bin.
     pub counts: Vec<usize>,
@@ -20,7 +20,7 @@ impl Histogram {
     ///
     /// Values that are not finite are left out. The width is 2 × interquartile range / ∛n, with the
     /// number of bins bounded to 5–60 (Freedman & Diaconis 1981,
-    /// <https://doi.org/10.1007/BF01025868>). Equal values make one bin.
+    /// <https://doi.org/10.1007/BF01025868>). If all values are equal, there is a single bin.
     pub fn new(values: &[f64]) -> Self {
         let mut sorted: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
         sorted.sort_by(f64::total_cmp);
@@ -34,8 +34,8 @@ impl Histogram {
         }
         let quantile = |q: f64| nearest_rank(&sorted, q).unwrap_or(low);
         let width = 2. * (quantile(0.75) - quantile(0.25)) / (sorted.len() as f64).cbrt();
-        // Without a spread in the middle half that width is 0; then 1 + log₂ n bins (Sturges 1926,
-        // <https://doi.org/10.1080/01621459.1926.10502161>).
+        // If the middle half of the values is equal, the width is 0; then 1 + log₂ n bins are used
+        // (Sturges 1926, <https://doi.org/10.1080/01621459.1926.10502161>).
         let ideal =
             if width > 0. { (range / width).ceil() } else { 1. + (sorted.len() as f64).log2().ceil() };
         let bins = (ideal.min(BINS.1 as f64) as usize).max(BINS.0);

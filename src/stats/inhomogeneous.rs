@@ -2,7 +2,7 @@
 //! function and K, and the pair correlation function of locally scaled distances.
 //!
 //! 1. Estimate the intensity λ at every point.
-//! 2. Visit all pairs within reach, each with its translation weight.
+//! 2. Visit all pairs up to the largest distance that matters, each with its translation weight.
 //! 3. For g and K divide the weight by λ_i λ_j; for the locally scaled g divide the distance by the
 //!    local spacing instead.
 
@@ -17,20 +17,20 @@ use crate::mosaic::hexagonal_spacing;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// Smallest number of points: fewer do not determine an intensity.
+/// Smallest number of points that is accepted; fewer points do not determine an intensity.
 const FEWEST: usize = 20;
 
-/// Second-order functions of a pattern whose density varies.
+/// Pair correlation and K functions of a pattern whose density varies across the window.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Inhomogeneous {
-    /// Distances, in hexagonal spacings of the mean density.
+    /// Distances at which the functions are evaluated, in hexagonal spacings at the mean density.
     pub r: Vec<f64>,
     /// Inhomogeneous pair correlation function: 1 for independent points of any intensity.
     pub g: Vec<f64>,
     /// Inhomogeneous K, in squared units of the coordinates: πr² for independent points.
     pub k: Vec<f64>,
-    /// Pair correlation function of distances in *local* spacings, for mosaics whose spacing
-    /// follows their density.
+    /// Pair correlation function of distances that are measured in *local* spacings. It suits
+    /// mosaics whose spacing follows their density.
     pub g_scaled: Vec<f64>,
     /// Hexagonal spacing at the mean density, in units of the coordinates.
     pub spacing: f64,
@@ -41,7 +41,8 @@ pub struct Inhomogeneous {
 }
 
 impl Inhomogeneous {
-    /// Returns the functions over `r`, each with its name in tables.
+    /// Returns the values of every function at the distances `r`, with the name of its column in
+    /// tables.
     pub fn columns(&self) -> [(&'static str, &[f64]); 3] {
         [("g_inhomogeneous", &self.g), ("g_locally_scaled", &self.g_scaled), ("k_inhomogeneous", &self.k)]
     }
@@ -49,21 +50,21 @@ impl Inhomogeneous {
 
 /// Computes second-order functions of a pattern with a trend in its density.
 ///
-/// Let λ be the intensity at the points, estimated with a Gaussian kernel with edge correction that
-/// leaves out the point itself. The kernel's standard deviation is `bandwidth`, in units of the
-/// coordinates; it must be at least one hexagonal spacing. The default is an eighth of the window's
-/// shorter side, at least 2.5 spacings. The intensity is scaled so that Σ 1/λ is the area A. Then
+/// Let λ_i be the intensity at point i, estimated from the other points with a Gaussian kernel and
+/// edge correction. The kernel's standard deviation is `bandwidth`, in units of the coordinates; it
+/// must be at least one hexagonal spacing. The default is an eighth of the window's shorter side,
+/// at least 2.5 spacings. The intensity is scaled so that Σ 1/λ_i is the area A of the window. Then
 ///
-/// g(r) = A Σ_{i≠j} k_σ(r − |x_i − x_j|) w_ij/(λ_i λ_j) / ((A² − Σ 1/λ²) 2πr),
+/// g(r) = A Σ_{i≠j} k_σ(r − |x_i − x_j|) w_ij/(λ_i λ_j) / ((A² − Σ 1/λ_i²) 2πr),
 ///
-/// with translation weights w_ij, and K(r) likewise with the pairs up to r (Baddeley, Møller &
-/// Waagepetersen 2000, <https://doi.org/10.1111/1467-9574.00144>). For equal λ this g is
-/// [`super::pcf()`] with the translation correction.
+/// with translation weights w_ij. K(r) is the corresponding sum over the pairs up to distance r
+/// (Baddeley, Møller & Waagepetersen 2000, <https://doi.org/10.1111/1467-9574.00144>). If all λ_i
+/// are equal, g is the same as from [`super::pcf()`] with the translation correction.
 ///
-/// Both functions assume that a trend thins the pattern without changing its distances. In cone
-/// mosaics around the fovea, spacing follows density instead. There, distances should be measured
-/// in local spacings √(2/(√3 √(λ_i λ_j))), as `g_scaled` does (locally scaled processes: Hahn,
-/// Jensen, van Lieshout & Nielsen 2003).
+/// Both functions assume that a trend thins the pattern without changing the distances between the
+/// points that remain. In cone mosaics around the fovea, spacing follows density instead. There,
+/// distances should be measured in local spacings √(2/(√3 √(λ_i λ_j))), as `g_scaled` does (locally
+/// scaled processes: Hahn, Jensen, van Lieshout & Nielsen 2003).
 ///
 /// # Errors
 /// Returns [`StatsError`] if an option is out of range, there are fewer than 20 points, or a point
@@ -90,7 +91,7 @@ pub fn inhomogeneous(
     let greatest = intensity.iter().copied().fold(0., f64::max);
     let least = intensity.iter().copied().fold(f64::INFINITY, f64::min);
 
-    // Local spacings may be wider than the mean spacing, so the search must reach farther.
+    // Local spacings may be wider than the mean spacing, so the search must extend farther.
     let mean = n as f64 / area;
     let widest = (mean / least).sqrt().max(1.);
     let reach = spacing * widest * (options.r_max + options.kernel.reach() * options.bandwidth);

@@ -7,7 +7,8 @@
 //!    window.
 //! 3. Read both at each point, subtract the point's own contribution and divide by the smoothed
 //!    share (edge correction of Diggle 1985, <https://doi.org/10.2307/2347366>).
-//! 4. Raise values below 1 % of the mean to it, then scale so that Σ 1/λ is the area of the window.
+//! 4. Raise values below 1 % of the mean density to 1 %, then scale all values so that Σ 1/λ is the
+//!    area of the window.
 
 use crate::geometry::{Point, Window};
 use crate::mosaic::hexagonal_spacing;
@@ -20,13 +21,14 @@ const LEAST_SPACINGS: f64 = 2.5;
 const NODES: f64 = 6.;
 /// Distance at which the kernel is cut off, in bandwidths.
 const REACH: f64 = 4.;
-/// Number of horizontal lines per cell along which the share of the cell in the window is
-/// integrated.
+/// Number of horizontal lines per grid cell along which the share of the cell that lies in the
+/// window is integrated.
 const ROWS: usize = 8;
-/// Lower bound on the intensity, as a share of the mean.
+/// Lower bound on the intensity, as a share of the mean density.
 const LEAST_SHARE: f64 = 0.01;
 
-/// Returns the default standard deviation of the intensity kernel, in units of the coordinates.
+/// Returns the default standard deviation of the kernel that estimates the intensity of `n` points,
+/// in units of the coordinates.
 ///
 /// It is an eighth of the shorter side of the window, but at least 2.5 hexagonal spacings.
 pub fn default_intensity_bandwidth(n: usize, window: &Window) -> f64 {
@@ -37,10 +39,10 @@ pub fn default_intensity_bandwidth(n: usize, window: &Window) -> f64 {
 
 /// Estimates the intensity λ(x) at every point from the *other* points, in points per squared unit.
 ///
-/// The kernel is a Gaussian of standard deviation `bandwidth`, divided by its share within the
-/// window (Diggle 1985). Leaving out the point itself follows Baddeley, Møller & Waagepetersen
-/// (2000), <https://doi.org/10.1111/1467-9574.00144>. Values are raised to at least 1 % of the mean
-/// and then scaled so that Σ 1/λ is the window's area.
+/// The kernel is a Gaussian of standard deviation `bandwidth`. It is divided by the share of it
+/// that lies in the window (Diggle 1985). Leaving out the point itself follows Baddeley, Møller &
+/// Waagepetersen (2000), <https://doi.org/10.1111/1467-9574.00144>. Values below 1 % of the mean
+/// density are raised to 1 %. All values are then scaled so that Σ 1/λ is the area of the window.
 ///
 /// The sums are taken on a grid of six nodes per bandwidth, in time linear in the number of points;
 /// the error is below 1 %.
@@ -70,8 +72,8 @@ pub(super) fn intensity_at_points(points: &[Point], window: &Window, bandwidth: 
 
 /// Returns the contribution of a point to the value read at its own place, along one axis.
 ///
-/// The point, at the fraction `t` between two nodes, is spread over both, smoothed, and read from
-/// both.
+/// The point lies at the fraction `t` of the way between two nodes. It is spread over both nodes,
+/// smoothed, and read from both nodes again.
 fn own_share(kernel: &[f64], t: f64) -> f64 {
     let next = kernel.get(1).copied().unwrap_or_default();
     ((1. - t) * (1. - t) + t * t) * kernel[0] + 2. * t * (1. - t) * next
@@ -85,7 +87,8 @@ struct Grid {
     columns: usize,
     rows: usize,
     torus: bool,
-    /// Kernel weights at 0, 1, 2 … nodes along x and along y; summed over both sides they give 1.
+    /// Kernel weights at distances of 0, 1, 2 … nodes along x and along y. Over both directions of
+    /// an axis they sum to 1.
     kernel: (Vec<f64>, Vec<f64>),
 }
 
@@ -188,7 +191,9 @@ impl Grid {
         down
     }
 
-    /// Returns Σ kernel · value around `at`; nodes beyond the ends of a bounded grid count as 0.
+    /// Returns the sum of kernel · value over the nodes around node `at`.
+    ///
+    /// Nodes beyond the ends of a grid that is not periodic count as 0.
     fn weighed(&self, kernel: &[f64], at: usize, nodes: usize, value: impl Fn(usize) -> f64) -> f64 {
         let mut sum = kernel[0] * value(at);
         for (k, weight) in kernel.iter().enumerate().skip(1) {
@@ -218,7 +223,8 @@ mod tests {
         sampler("uniform").unwrap().sample(n, window, &mut ChaCha8Rng::seed_from_u64(4)).unwrap()
     }
 
-    /// Sums every pair with the exact kernel; the share of the kernel within the window is counted.
+    /// Sums every pair with the exact kernel; the share of the kernel in the window is found by
+    /// counting places.
     fn direct(points: &[Point], window: &Window, bandwidth: f64) -> Vec<f64> {
         let bounds = window.bounds();
         let kernel = |a: Point, b: Point| {

@@ -1,8 +1,8 @@
 //! Statistics of point patterns.
 //!
 //! Every statistic takes the points and the window in which they were observed. Points must be
-//! finite and lie inside the window, as those of a [`Mosaic`](crate::mosaic::Mosaic) do. The module
-//! knows nothing of samplers or files.
+//! finite and lie inside the window, as the points of a [`Mosaic`](crate::mosaic::Mosaic) always
+//! do. The module does not depend on samplers or files.
 //!
 //! # Examples
 //! ```

@@ -6,18 +6,18 @@ use strum::{Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
 /// Returns, for each point, whether it is at least as far from the border as from its nearest
 /// neighbour.
 ///
-/// For such interior points no neighbour beyond the border could have been nearer. On a torus all
-/// points are interior.
+/// A point for which this holds is called interior: no point beyond the border can be nearer than
+/// the neighbour that was found. On a torus all points are interior.
 pub fn interior(points: &[Point], window: &Window, nearest: &NearestNeighbours) -> Vec<bool> {
     interior_by(&window.border_distances(points), nearest).collect()
 }
 
-/// Returns the flags of [`interior`], given the distance of every point to the border.
+/// Returns the same flags as [`interior`], from the distance of every point to the border.
 pub(super) fn interior_by(borders: &[f64], nearest: &NearestNeighbours) -> impl Iterator<Item = bool> {
     borders.iter().zip(&nearest.distances).map(|(b, d)| b >= d)
 }
 
-/// Divisor of the variance.
+/// Divisor for the variance of n values.
 #[derive(
     Clone,
     Copy,
@@ -43,7 +43,8 @@ pub enum Deviation {
     /// Divisor n − 1, for the variance of a sample.
     #[default]
     Sample,
-    /// Divisor n, for the variance of a population, as in the tables of Lanaro et al.
+    /// Divisor n, for the variance of a population, as in the tables of Lanaro et al. (2020),
+    /// <https://doi.org/10.1088/2399-6528/ab8064>.
     Population,
 }
 
@@ -54,21 +55,21 @@ impl Deviation {
     }
 }
 
-/// Mean, standard deviation and their ratio.
+/// Mean and standard deviation of a set of values, and their ratio.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Moments {
     /// Number of values, including any that are not finite.
     pub n: usize,
-    /// Mean μ; `None` without values.
+    /// Mean μ; `None` if there are no values or one of them is not finite.
     pub mean: Option<f64>,
-    /// Standard deviation σ; `None` with fewer values than its divisor needs.
+    /// Standard deviation σ; `None` if there is no mean, or if the divisor n − 1 is 0.
     pub sd: Option<f64>,
     /// Ratio μ/σ: for nearest-neighbour distances, the regularity (conformity) index.
     ///
     /// Sources: Wässle & Riemann (1978), <https://doi.org/10.1098/rspb.1978.0026>; Cook (1996).
     ///
-    /// `None` without σ, and where σ is below 10⁻¹² μ. Then σ is only rounding and all values are
-    /// equal: the index of a perfect lattice is not defined.
+    /// `None` without σ, or if σ is at most 10⁻¹² |μ|. Then all values are equal and σ is only
+    /// rounding error, as in a perfect lattice, whose index is not defined.
     pub ri: Option<f64>,
 }
 
@@ -88,7 +89,8 @@ impl Moments {
     }
 }
 
-/// Relative standard deviation below which values count as equal up to rounding.
+/// Values whose standard deviation is at most this fraction of their mean count as equal: the
+/// difference is only rounding error.
 const ROUNDING: f64 = 1e-12;
 
 /// Computes the moments of `values`; all are `None` if a value is not finite.

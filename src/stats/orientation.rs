@@ -6,7 +6,8 @@
 //!    since they share axes.
 //! 3. Average the second moments of the vectors from bound cells to their neighbours, and convert
 //!    them to an ellipse.
-//! 4. Take the phase of ψ6 of each bound cell, and of their mean, as the orientation of hexagons.
+//! 4. Take the phase of ψ6 of each bound cell, and the phase of the mean of ψ6, as the orientation
+//!    of hexagons.
 
 use super::{NearestNeighbours, Voronoi};
 use crate::geometry::{Point, Window};
@@ -16,32 +17,36 @@ use serde::{Deserialize, Serialize};
 pub const AXIS_BIN: f64 = 10.;
 /// Number of bins that cover 180°.
 const AXIS_BINS: usize = 18;
-/// Smallest number of groups of points with a p-value: with fewer, it would not be distributed like
-/// a p-value.
+/// Least number of groups of linked points for which a p-value is given. With fewer groups it would
+/// not be distributed like a p-value.
 const FEWEST_GROUPS: usize = 10;
-/// Relative size below which differences and sums of directions are only rounding.
+/// Differences and sums of directions count as 0 below this relative size, because they are only
+/// rounding error.
 const ROUNDING: f64 = 1e-9;
 
 /// Directions in which a mosaic is ordered and in which it is stretched.
 ///
 /// All angles are in degrees, counter-clockwise from the positive x axis (to the right) as seen in
-/// the picture: although y points down in coordinates, 90° is up. Axes have no sense, so 0° and
-/// 180° are the same.
+/// the picture: although y points down in coordinates, 90° is up. An axis points both ways, so 0°
+/// and 180° are the same.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Orientation {
-    /// Directions of the nearest neighbours.
+    /// Axes from points to their nearest neighbours.
     pub nearest: NearestAxes,
-    /// Ellipse of the vectors from cells to their neighbours; `None` without bound cells.
+    /// Ellipse with the second moments of the vectors from cells to their neighbours.
+    ///
+    /// `None` without bound cells, which are Voronoi cells strictly inside the window.
     pub ellipse: Option<NeighbourEllipse>,
     /// Orientation of the hexagon around each point: the phase of ψ6 divided by 6, 0–60°.
     ///
-    /// Where the neighbours are regularly arranged, it is the direction of a neighbour. `None`
-    /// where the cell is not bound or ψ6 is 0, as in a square.
+    /// If the neighbours form a regular hexagon, it is the direction of one of them. `None` if the
+    /// Voronoi cell of the point does not lie strictly inside the window, or if ψ6 is 0, as in a
+    /// square lattice.
     pub hexagons: Vec<Option<f64>>,
-    /// Orientation of the mean ψ6 of the bound cells, 0–60°.
+    /// Orientation of the mean ψ6 over the cells strictly inside the window, 0–60°.
     ///
-    /// The modulus of that mean ([`super::VoronoiSummary::psi6_global`]) tells how far the cells
-    /// agree.
+    /// The modulus of this mean ([`super::VoronoiSummary::psi6_global`]) tells how well the
+    /// orientations of the cells agree.
     pub hexagon_direction: Option<f64>,
 }
 
@@ -50,46 +55,54 @@ pub struct Orientation {
 pub struct NearestAxes {
     /// Axis from every point to its nearest neighbour, 0–180°.
     ///
-    /// `None` where there is no neighbour or it coincides with the point. If several neighbours are
-    /// equally near, it is the axis of one of them; in a perfect lattice these numbers are
-    /// therefore arbitrary.
+    /// `None` if there is no neighbour or the neighbour coincides with the point. If several
+    /// neighbours are equally near, the axis to one of them is given; in a perfect lattice the axes
+    /// are therefore arbitrary.
     pub degrees: Vec<Option<f64>>,
-    /// Number of axes in the fields below, which count interior points only.
+    /// Number of axes from interior points. The other fields, except `degrees`, use only these
+    /// axes.
     ///
-    /// Interior points are at least as far from the border as from their neighbour. Near the
-    /// border, neighbours beyond it are missed, and more of them in one direction than in others.
+    /// An interior point is at least as far from the border as from its nearest neighbour. Nearer
+    /// to the border, neighbours beyond it are missed, and more of them in one direction than in
+    /// others.
     pub n: usize,
-    /// Numbers of these axes in 0–10°, 10–20° … 170–180°.
+    /// Numbers of axes from interior points in 0–10°, 10–20° … 170–180°.
     pub counts: [usize; AXIS_BINS],
-    /// Length of the mean of exp(2iθ): 0 for evenly spread axes, 1 for parallel ones.
+    /// Length of the mean of exp(2iθ) over the axes θ from interior points: 0 for evenly spread
+    /// axes, 1 for parallel ones.
     ///
     /// For n independent axes it is about .9/√n by chance. `None` without axes. Source: Mardia &
     /// Jupp (2000), chapter 9, <https://doi.org/10.1002/9780470316979>.
     pub resultant: Option<f64>,
-    /// Mean axis, 0–180°; `None` where the resultant is 0.
+    /// Mean axis from interior points to their nearest neighbours, 0–180°; `None` if `resultant` is
+    /// 0 or `None`.
     pub direction: Option<f64>,
-    /// Probability of a resultant at least this long if no direction is preferred.
+    /// Probability, if no direction is preferred, of a mean of exp(2iθ) at least as long as
+    /// `resultant`.
     ///
-    /// It is Rayleigh's test with the variance of groups: points that are linked through nearest
-    /// neighbours share axes (mutual nearest neighbours even have the same one) and count as one.
-    /// For axes that are not linked it is Rayleigh's test itself.
+    /// The p-value is that of Rayleigh's test, with the variance taken from groups of points.
+    /// Points that are linked through nearest neighbours share axes (mutual nearest neighbours even
+    /// have the same axis), so all points that are linked form one group. Without links, this is
+    /// Rayleigh's test itself.
     ///
-    /// The p-value is uniform for independent points. In a regular mosaic the axes of a whole patch
-    /// of lattice agree: of 200 simulated mosaics without direction, of some 320 cones, 18 % were
-    /// below .05. `None` for fewer than 10 groups.
+    /// The p-value is uniform for independent points. In a regular mosaic it is too often small,
+    /// because the axes in an entire patch of lattice agree: in 200 simulated mosaics of some 320
+    /// cones without preferred direction, 18 % of the p-values were below .05. `None` for fewer
+    /// than 10 groups.
     pub p_value: Option<f64>,
 }
 
 /// Ellipse with the second moments of the vectors from cells to their neighbours, averaged over the
-/// bound cells.
+/// bound cells (Voronoi cells strictly inside the window).
 ///
 /// The neighbours are the points beyond the sides of a Voronoi cell. A bound cell may still miss a
 /// neighbour beyond the border.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NeighbourEllipse {
-    /// Number of cells in the mean.
+    /// Number of bound cells over which the second moments are averaged.
     pub cells: usize,
-    /// Longer semi-axis, in the unit of the coordinates: √2 times the root mean square along it.
+    /// Longer semi-axis, in the unit of the coordinates: √2 times the root mean square of the
+    /// vectors' components along it.
     ///
     /// For a triangular lattice both semi-axes are its spacing.
     pub major: f64,
@@ -97,19 +110,20 @@ pub struct NeighbourEllipse {
     pub minor: f64,
     /// Ratio of the longer to the shorter semi-axis, at least 1.
     ///
-    /// For a triangular lattice stretched by up to √3 it is that stretch; beyond, the lattice has
-    /// other neighbours. By chance it is 1.02 (median) to 1.045 (95 %) in simulated mosaics of 320
-    /// cones without direction, and approaches 1 as 1/√n.
+    /// For a triangular lattice that is stretched by a factor of up to √3, the ratio is this
+    /// factor; beyond √3, the neighbours change. By chance the ratio exceeds 1: in simulated
+    /// mosaics of 320 cones without preferred direction, its median is 1.02 and its 95th percentile
+    /// 1.045. It approaches 1 as 1/√n.
     pub anisotropy: f64,
-    /// Direction of the longer semi-axis, 0–180°; `None` where both are equal.
+    /// Direction of the longer semi-axis, 0–180°; `None` if both semi-axes are equal.
     pub direction: Option<f64>,
 }
 
 /// Computes the orientation and anisotropy of a mosaic.
 ///
-/// The inputs are its nearest neighbours, the flags of its [`interior`](super::interior) points,
-/// and its cells. The time is linear in n. The function never fails: values that are not defined
-/// are `None`.
+/// `nearest` holds the nearest neighbours of the points, `interior` the flags from
+/// [`interior`](super::interior), and `cells` the Voronoi cells. The time is linear in n. The
+/// function never fails: values that are not defined are `None`.
 ///
 /// Sources: Curcio & Sloan (1992), <https://doi.org/10.1017/S0952523800009639>; Cooper et al.
 /// (2016), <https://doi.org/10.1167/iovs.16-19072>.
@@ -138,7 +152,7 @@ fn phase([re, im]: [f64; 2], fold: f64, least: f64) -> Option<f64> {
     let turn = 360. / fold;
     // In coordinates y points down and angles run clockwise, hence the minus sign.
     let angle = (-im.atan2(re).to_degrees() / fold).rem_euclid(turn);
-    // The remainder of a tiny negative angle may round up to the whole turn.
+    // The remainder of a tiny negative angle may round up to a full turn.
     (re.hypot(im) > least).then_some(if angle < turn { angle } else { 0. })
 }
 
@@ -211,7 +225,10 @@ fn ellipse(cells: &Voronoi) -> Option<NeighbourEllipse> {
     })
 }
 
-/// Disjoint sets of linked points; each entry points to a lower or equal index of its set.
+/// Disjoint sets of linked points (union–find).
+///
+/// Each entry is the index of a point in the same set: a lower index, or its own for the
+/// representative of the set.
 struct Groups(Vec<usize>);
 
 impl Groups {
@@ -258,7 +275,7 @@ mod tests {
     ///
     /// The rows are at `rows` degrees and the stretch is `stretch` along the axis at `axis`
     /// degrees, both counter-clockwise in the picture. The lattice continues beyond the window, so
-    /// that cells at its border are those of the lattice.
+    /// that cells at the border are cells of the complete lattice.
     fn lattice(rows: f64, stretch: f64, axis: f64) -> (Vec<Point>, Window) {
         let turned = |[x, y]: [f64; 2], by: f64| {
             let (sin, cos) = by.to_radians().sin_cos();
@@ -311,8 +328,8 @@ mod tests {
     #[test]
     fn pairs_in_one_direction_have_that_axis() {
         let window = Window::rectangle(0., 0., 400., 40.).unwrap();
-        // Pairs point up to the right, half of them from the other end, and one crosses the edge of
-        // the torus.
+        // The axes of all pairs point up to the right; one further pair lies across the edge of a
+        // torus.
         let mut points: Vec<Point> = (0..20).map(|k| Point::new(10. + 19. * f64::from(k), 20.)).collect();
         points.extend(points.clone().iter().map(|p| Point::new(p.x + 3f64.sqrt(), p.y - 1.)));
         let found = of(&points, &window).nearest;

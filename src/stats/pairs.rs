@@ -1,21 +1,23 @@
-//! Grid search for all pairs of points that are no farther apart than a given reach.
+//! Grid search for all pairs of points that are no farther apart than a cut-off distance.
 //!
-//! 1. Sort the points by cell of a grid whose cells are at least a third of the reach wide.
-//! 2. For each point, scan the rest of its cell, the cells to its right and the rows below, as far
-//!    as the reach. Looking in one half of the plane only visits every pair once.
-//! 3. On a torus, cells beyond the edge are those of the opposite side, shifted by the window's
+//! 1. Sort the points by cell of a grid whose cells are at least a third of the cut-off distance
+//!    wide.
+//! 2. For each point, scan the rest of its cell, the cells to its right and the rows below, up to
+//!    the cut-off distance. Only one half of the plane is searched, so every pair is visited once.
+//! 3. On a torus, cells beyond an edge are the cells at the opposite edge, shifted by the window's
 //!    width or height.
 
 use crate::geometry::{Point, Window};
 
-/// Number of grid cells along the length of one reach.
+/// Number of grid cells per cut-off distance along either axis.
 const CELLS_PER_REACH: f64 = 3.;
 
-/// Points sorted by grid cell, for visiting all pairs within reach in time linear in their number.
+/// Points sorted by grid cell, so that all pairs up to a cut-off distance can be visited in time
+/// linear in the number of pairs.
 ///
-/// On a torus, a point is paired with every image of another point within reach. A reach beyond
-/// half the window therefore still covers the whole disk around each point. A point and its own
-/// images are not paired.
+/// On a torus, a point is paired with every periodic image of another point within the cut-off
+/// distance. The entire disk around each point is therefore covered, even if the cut-off distance
+/// exceeds half the window. A point is not paired with its own images.
 pub(super) struct PairGrid {
     x0: f64,
     y0: f64,
@@ -24,7 +26,7 @@ pub(super) struct PairGrid {
     torus: bool,
     columns: usize,
     rows: usize,
-    /// Index of each cell's first sorted point; one entry more than there are cells.
+    /// Index of each cell's first point in sorted order, followed by the number of points.
     starts: Vec<usize>,
     xs: Vec<f64>,
     ys: Vec<f64>,
@@ -34,13 +36,14 @@ pub(super) struct PairGrid {
 }
 
 impl PairGrid {
-    /// Sorts the points, which must lie in the window, into cells for pairs no farther apart than
-    /// `reach`.
+    /// Sorts the points into cells, to find pairs that are no farther apart than `reach`.
+    ///
+    /// The points must lie in the window.
     pub(super) fn new(points: &[Point], window: &Window, torus: bool, reach: f64) -> Self {
         let bounds = window.bounds();
         let (x0, y0, width, height) = (bounds.x0(), bounds.y0(), bounds.width(), bounds.height());
-        // Smaller cells than one per point would only cost time, hence the second bound on their
-        // side.
+        // More cells than points would only cost time, hence the second lower bound on the side of
+        // a cell.
         let side = (reach / CELLS_PER_REACH).max((width * height / points.len().max(1) as f64).sqrt());
         let cells_along = |length: f64| ((length / side) as usize).clamp(1, points.len().max(1));
         let (columns, rows) = (cells_along(width), cells_along(height));
@@ -74,23 +77,25 @@ impl PairGrid {
         self.rows
     }
 
-    /// Returns values given per point in the order in which the grid holds the points.
+    /// Returns the values of the points in the sorted order of the grid.
+    ///
+    /// `of_points` holds one value per point, in the original order.
     pub(super) fn sorted<T: Copy>(&self, of_points: &[T]) -> Vec<T> {
         self.given.iter().map(|&index| of_points[index]).collect()
     }
 
-    /// Returns a point by its index in sorted order.
+    /// Returns the point with index `i` in sorted order.
     pub(super) fn point(&self, i: usize) -> Point {
         Point::new(self.xs[i], self.ys[i])
     }
 
-    /// Visits each pair once, for first points that lie in the cell rows `rows`.
+    /// Visits, once each, the pairs whose first point lies in one of the cell rows `rows`.
     ///
     /// `pair` receives the indices of both points in sorted order and the vector from the first to
     /// the second.
     pub(super) fn visit(&self, rows: std::ops::Range<usize>, mut pair: impl FnMut(usize, usize, f64, f64)) {
         let (cell_width, cell_height) = (self.width / self.columns as f64, self.height / self.rows as f64);
-        // Rounding must not exclude a pair at exactly the reach.
+        // Rounding must not exclude a pair at exactly the cut-off distance.
         let reach = self.reach * (1. + 1e-9);
         let reach2 = self.reach * self.reach;
         let mut scan = |from: usize, first: usize, last: usize, shift_x: f64, shift_y: f64| {
@@ -137,8 +142,8 @@ impl PairGrid {
         }
     }
 
-    /// Scans the sorted points `first..last` except point `i`, which occurs there only as its own
-    /// image.
+    /// Scans the sorted points `first..last` except point `i`, because a point is not paired with
+    /// its own image.
     #[inline]
     fn scan_others(
         &self,
@@ -157,10 +162,11 @@ impl PairGrid {
         }
     }
 
-    /// Calls `run` on each run of sorted points in columns `left..=right` of a row.
+    /// Calls `run` for each contiguous range of sorted points in the columns `left..=right` of a
+    /// row.
     ///
-    /// `run` receives the first index, the end index and the shift along x, which is a multiple of
-    /// the width on a torus.
+    /// `run` receives the first index, the end index and the shift along x. On a torus the shift is
+    /// a multiple of the window's width, otherwise it is 0.
     #[inline]
     fn segments(&self, row: usize, left: isize, right: isize, mut run: impl FnMut(usize, usize, f64)) {
         let columns = self.columns as isize;

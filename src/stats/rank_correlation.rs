@@ -3,12 +3,13 @@
 use rand::Rng;
 use rand::seq::SliceRandom;
 
-/// Smallest number of pairs for which a correlation is tested: with 4, even a perfect one has
-/// p = 0.08.
+/// Smallest number of pairs for which a correlation is tested: with 4 pairs, even a perfect
+/// correlation has p = 0.08.
 pub const FEWEST_PAIRS: usize = 5;
-/// Largest number of pairs for which all orders are tried; with more, a random sample of orders.
+/// Largest number of pairs for which every order of the values is tried. For more pairs, random
+/// orders are drawn.
 const MOST_EXACT: usize = 8;
-/// Number of random orders that are tried with more pairs.
+/// Number of random orders that are drawn for more than [`MOST_EXACT`] pairs.
 const PERMUTATIONS: usize = 9_999;
 
 /// Strength and significance of a monotonic relation between two quantities.
@@ -16,10 +17,10 @@ const PERMUTATIONS: usize = 9_999;
 pub struct RankCorrelation {
     /// Number of pairs of values.
     pub n: usize,
-    /// Spearman's ρ, from −1 to 1; ties share their mean rank.
+    /// Spearman's rank correlation ρ, from −1 to 1; equal values share their mean rank.
     pub rho: f64,
-    /// Probability, by permutation, of a correlation at least as strong of either sign if the two
-    /// quantities are independent.
+    /// Two-sided p-value by permutation: the probability of a |ρ| at least as large as the observed
+    /// |ρ| if the two quantities are independent.
     pub p_value: f64,
 }
 
@@ -67,15 +68,15 @@ pub fn rank_correlation(pairs: &[(f64, f64)], rng: &mut dyn Rng) -> Option<RankC
     Some(RankCorrelation { n, rho: observed / norm, p_value })
 }
 
-/// Returns the ranks minus their mean; ties share their mean rank.
+/// Returns the ranks of the values minus the mean rank; equal values share their mean rank.
 fn centred_ranks(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let values: Vec<f64> = values.collect();
     let count = |of: &dyn Fn(f64) -> bool| values.iter().filter(|&&v| of(v)).count() as f64;
-    // The number of smaller values minus that of larger values is twice the centred rank.
+    // The number of smaller values minus the number of larger values is twice the centred rank.
     values.iter().map(|&v| (count(&|o| o < v) - count(&|o| o > v)) / 2.).collect()
 }
 
-/// Visits every order of the first `k` values (Heap 1963,
+/// Calls `visit` with every order of the first `k` values (algorithm of Heap 1963,
 /// <https://doi.org/10.1093/comjnl/6.3.293>).
 fn each_order(values: &mut [f64], k: usize, visit: &mut impl FnMut(&[f64])) {
     if k <= 1 {

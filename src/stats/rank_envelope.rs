@@ -1,12 +1,12 @@
-//! Global envelope test by extreme rank length: one p-value for a whole observed curve among
-//! simulated ones (Myllymäki et al. 2017, J. R. Stat. Soc. B 79, 381–404,
+//! Global envelope test by extreme rank length: one p-value for an entire observed curve among
+//! simulated curves (Myllymäki et al. 2017, J. R. Stat. Soc. B 79, 381–404,
 //! <https://doi.org/10.1111/rssb.12172>).
 
-/// Result of comparing an observed curve with simulated ones: the global p-value and envelope.
+/// Result of comparing an observed curve with simulated curves: the global p-value and envelope.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RankEnvelope {
     /// Probability that a curve of the simulated process is at least as extreme as the observed
-    /// one, by extreme rank length.
+    /// curve, by extreme rank length.
     pub p_value: f64,
     /// Lower edge of the envelope, one value per bin.
     pub low: Vec<f64>,
@@ -15,8 +15,8 @@ pub struct RankEnvelope {
 }
 
 impl RankEnvelope {
-    /// Returns the stretches in which `curve` is outside the envelope, each as its first and last
-    /// bin.
+    /// Returns the ranges of bins in which `curve` is outside the envelope, each as (first bin,
+    /// last bin).
     pub fn outside(&self, curve: &[f64]) -> Vec<(usize, usize)> {
         let mut stretches: Vec<(usize, usize)> = Vec::new();
         for (bin, value) in curve.iter().enumerate() {
@@ -32,16 +32,17 @@ impl RankEnvelope {
     }
 }
 
-/// Tests an observed curve against simulated ones by extreme rank length.
+/// Tests an observed curve against simulated curves by extreme rank length.
 ///
-/// In every bin each curve, observed or simulated, has a rank counted from its nearer end; ties
-/// share their mean rank. The ranks of a curve, in rising order, are compared with those of the
-/// others in lexicographic order: the smaller, the more extreme. The p-value is the share of curves
-/// at least as extreme as the observed one.
+/// In every bin, all curves, observed and simulated, are ranked both from the smallest value and
+/// from the largest; a curve takes the smaller of its two ranks, and tied curves share their mean
+/// rank. The ranks of each curve are sorted in rising order, and curves are compared
+/// lexicographically by their sorted ranks: the smaller, the more extreme. The p-value is the share
+/// of curves that are at least as extreme as the observed curve.
 ///
-/// The envelope at `level` is the hull of the curves that remain when the most extreme ones, at
-/// most that share of all, are removed. The observed curve lies within it in every bin if and only
-/// if its p-value is above `level` (up to ties).
+/// The most extreme curves, at most the share `level` of all, are then removed. The envelope is the
+/// range of the remaining curves in every bin. The observed curve lies within it in every bin if
+/// and only if its p-value is above `level` (up to ties).
 ///
 /// Returns `None` without simulations, or if the curves differ in length.
 ///
@@ -60,8 +61,8 @@ pub fn rank_envelope(observed: &[f64], simulated: &[&[f64]], level: f64) -> Opti
         while first < count {
             let value = curves[order[first]][bin];
             let tied = order[first..].iter().take_while(|&&c| curves[c][bin] == value).count();
-            // Twice the rank is stored, so that the mean rank of ties is whole: 2 to 2·count from
-            // either end.
+            // Twice the rank is stored, 2 to 2·count, so that the mean rank of tied curves is an
+            // integer.
             let from_below = 2 * first + tied + 1;
             let rank = from_below.min(2 * (count + 1) - from_below);
             order[first..first + tied].iter().for_each(|&c| ranks[c].push(rank));

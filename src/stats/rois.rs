@@ -16,27 +16,29 @@ const STEP: f64 = 1.2;
 const PRECISION: f64 = 1e-4;
 /// Largest number of sliding boxes; requests for more are refused.
 const MOST: f64 = 100_000.;
-/// Relative difference of area up to which a box counts as lying inside a polygon: rounding.
+/// A box counts as lying inside a polygon if at most this share of its area is outside, which is
+/// only rounding error.
 const ROUNDING: f64 = 1e-9;
 
-/// Region of interest that was grown around its centre.
+/// Rectangular region of interest that was grown about its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grown {
-    /// Box that the region covers.
+    /// Box to which the region has grown.
     pub frame: Rectangle,
-    /// Flag that the box holds as many bound cells as requested.
+    /// `true` if the box holds at least the requested number of bound cells, which are Voronoi
+    /// cells strictly inside the box.
     pub enough: bool,
 }
 
-/// Grows a box about its centre until the points in it have `needed` bound cells.
+/// Grows a box about its centre until it holds `needed` bound cells.
 ///
-/// The sides keep their proportion, and the size is exact to 1/10 000. The cells are the Voronoi
-/// cells of the points in the box alone, as if it were a mosaic of its own; a cell is bound if it
-/// lies strictly inside the box.
+/// The cells are the Voronoi cells of the points in the box alone, as if the box were a mosaic of
+/// its own; a cell is bound if it lies strictly inside the box. The sides of the box keep their
+/// proportion, and its size is exact to 1/10 000.
 ///
-/// A box that already has enough cells stays as it is. A box that reaches the border of the window
-/// first ends there, with `enough` false. A bound cell stays bound when a box grows, so the
-/// smallest sufficient box is well defined.
+/// A box that already holds enough cells stays as it is. A box that meets the border of the window
+/// before it holds enough cells ends there, and [`Grown::enough`] is `false`. A bound cell stays
+/// bound when a box grows, so the smallest sufficient box is well defined.
 pub fn grown(points: &[Point], window: &Window, frame: Rectangle, needed: usize) -> Grown {
     let bound = |frame: &Rectangle| bound_cells(points, window, frame);
     let enough = |frame: &Rectangle| bound(frame) >= needed;
@@ -73,7 +75,7 @@ pub fn grown(points: &[Point], window: &Window, frame: Rectangle, needed: usize)
     }
 }
 
-/// Returns the largest factor for which `holds` is true, by bisection.
+/// Returns the largest factor for which `holds` is true, found by bisection.
 ///
 /// `holds` must be true at `low` and false at `high`.
 fn last(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
@@ -103,18 +105,19 @@ pub fn lies_in(frame: &Rectangle, window: &Window) -> bool {
     }
 }
 
-/// Counts the bound Voronoi cells of the points in the box, taken as a mosaic of its own.
+/// Counts the bound cells in the box, as if the points in the box were a mosaic of their own.
 fn bound_cells(points: &[Point], window: &Window, frame: &Rectangle) -> usize {
     let Some(window) = window.within(frame) else { return 0 };
     let inside: Vec<Point> = points.iter().copied().filter(|&p| window.contains(p)).collect();
     voronoi(&inside, &window).cells.iter().filter(|cell| cell.bound).count()
 }
 
-/// Returns boxes of side `side` at steps of `step`, from the upper left corner of a window.
+/// Returns square boxes of side `side` that slide over `bounds` in steps of `step`, from the upper
+/// left corner.
 ///
-/// There are as many as fit in the bounds, row by row, each with its row and column counted from 1.
-/// Lengths are in units of the coordinates. The list is empty if the window is smaller than one
-/// box.
+/// As many boxes as fit are returned, row by row, each with the numbers of its row and its column,
+/// of which the first is 1. Lengths are in units of the coordinates. The list is empty if `bounds`
+/// is smaller than one box.
 ///
 /// # Errors
 /// Returns [`StatsError::Option`] if a length is not positive or there would be more than 100 000

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 /// Statistics of a mosaic that are single numbers, not series.
 ///
-/// They fill one row of `summary.csv` and one record of `metrics.json`. Lengths are in the unit of
-/// the mosaic.
+/// The numbers fill one row of `summary.csv` and one record of `metrics.json`. Lengths are in the
+/// unit of the mosaic.
 ///
 /// A new statistic needs one field here and one line in `Summary::of`; records and files then
 /// contain it without further changes.
@@ -17,44 +17,53 @@ use serde::{Deserialize, Serialize};
 pub struct Summary {
     /// Density in points per squared unit of the mosaic.
     pub density: f64,
-    /// Hexagonal spacing at that density; `None` without points.
+    /// Hexagonal spacing: the spacing of the triangular lattice that has the density of the mosaic.
+    /// `None` without points.
     pub spacing: Option<f64>,
-    /// Divisor of the variances of nearest-neighbour distances.
+    /// Divisor for the variances of nearest-neighbour distances: n − 1 or n.
     pub deviation: Deviation,
-    /// Nearest-neighbour distances of all points.
+    /// Moments of the nearest-neighbour distances of all points.
     pub nearest: Moments,
-    /// Nearest-neighbour distances of interior points: those at least as far from the border as
-    /// from their nearest neighbour.
+    /// Moments of the nearest-neighbour distances of interior points.
+    ///
+    /// An interior point is at least as far from the border as from its nearest neighbour.
     pub nearest_interior: Moments,
-    /// Nearest-neighbour distances of points whose Voronoi cell lies strictly inside the window.
+    /// Moments of the nearest-neighbour distances of points whose Voronoi cell lies strictly inside
+    /// the window.
     pub nearest_bound: Moments,
-    /// Mean nearest-neighbour distance divided by that of independent points.
+    /// Clark–Evans index: the mean nearest-neighbour distance divided by the mean that is expected
+    /// for independent points of the same density.
     pub clark_evans: ClarkEvans,
     /// Statistics of the Voronoi cells that lie strictly inside the window.
     pub voronoi: VoronoiSummary,
-    /// Density recovery profile with the default options; `None` for fewer than two points.
+    /// Effective radius and packing factor from the density recovery profile with the default
+    /// options; `None` for fewer than two points.
     pub density_recovery: Option<RecoverySummary>,
-    /// Directions of the nearest neighbours, and anisotropy.
+    /// Directions of nearest neighbours, anisotropy, and orientation of the hexagons.
     pub orientation: OrientationSummary,
-    /// Ring of the points' power spectrum; `None` if the spectrum has none.
+    /// First ring of the power spectrum of the points, and the spacing that belongs to it.
+    ///
+    /// `None` if the spectrum has no ring or cannot be computed, as in a polygon.
     pub modal: Option<ModalSpacing>,
-    /// Variation of density across the window.
+    /// Variation of the density across the window, and its significance.
     pub trend: Trend,
 }
 
-/// Scalars of a density recovery profile, defined in [`DensityRecovery`].
+/// Single numbers that summarise a density recovery profile; [`DensityRecovery`] defines them.
 ///
 /// Lengths are in the unit of the mosaic.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RecoverySummary {
     /// Width of the annuli, in the unit of the mosaic.
     pub bin_width: f64,
-    /// Effective radius; `None` if no annulus exceeds the mean density.
+    /// Effective radius: the radius of an empty disk that lacks as many points as the profile does
+    /// near distance 0. `None` if no annulus exceeds the mean density.
     pub effective_radius: Option<f64>,
-    /// Packing factor, 0 for independent points and 1 for the triangular lattice; `None` without an
-    /// effective radius.
+    /// Packing factor, 0 for independent points and 1 for the triangular lattice; `None` if there
+    /// is no effective radius.
     pub packing: Option<f64>,
-    /// Rodieck's reliability factor k.
+    /// Rodieck's reliability factor k = D·w·√(πA), with D the mean density, w the width of the
+    /// annuli and A the area of the window.
     pub reliability: f64,
 }
 
@@ -69,22 +78,27 @@ impl From<&DensityRecovery> for RecoverySummary {
     }
 }
 
-/// Scalars of an [`Orientation`].
+/// Single numbers that summarise an [`Orientation`].
 ///
 /// Angles are in degrees, counter-clockwise from the x axis as seen in the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OrientationSummary {
-    /// Number of interior points whose nearest neighbour has a direction.
+    /// Number of interior points for which the direction to the nearest neighbour is defined.
+    ///
+    /// An interior point is at least as far from the border as from its nearest neighbour.
     pub axes: usize,
-    /// Length of the mean of exp(2iθ) over these directions θ.
+    /// Length of the mean of exp(2iθ), with θ the direction from an interior point to its nearest
+    /// neighbour: 0 for evenly spread directions, 1 for parallel ones. `None` without directions.
     pub resultant: Option<f64>,
-    /// Mean axis of these directions, 0–180°.
+    /// Mean axis from interior points to their nearest neighbours, 0–180°. `None` if `resultant` is
+    /// 0 or `None`.
     pub direction: Option<f64>,
-    /// Probability of a resultant at least this long if no direction is preferred.
+    /// Probability, if no direction is preferred, of a mean of exp(2iθ) at least as long as
+    /// `resultant`.
     pub p_value: Option<f64>,
-    /// Ellipse of the vectors from cells to their neighbours.
+    /// Ellipse with the second moments of the vectors from cells to their neighbours.
     pub ellipse: Option<NeighbourEllipse>,
-    /// Common orientation of the hexagons, 0–60°.
+    /// Common orientation of the hexagons that the neighbours form around the cells, 0–60°.
     pub hexagon_direction: Option<f64>,
 }
 
@@ -101,25 +115,25 @@ impl From<&Orientation> for OrientationSummary {
     }
 }
 
-/// Series from which the scalars are computed, one value per point.
+/// Values per point and curves from which a [`Summary`] is computed.
 pub(super) struct Series<'a> {
     /// Nearest neighbour of every point.
     pub neighbours: &'a NearestNeighbours,
     /// Distance of every point to the border.
     pub borders: &'a [f64],
-    /// Flags of the points that are at least as far from the border as from their nearest
+    /// `true` for every point that is at least as far from the border as from its nearest
     /// neighbour.
     pub interior: &'a [bool],
     /// Voronoi cell of every point.
     pub cells: &'a Voronoi,
     /// Directions and anisotropy of the pattern.
     pub orientation: &'a Orientation,
-    /// Density recovery profile, if there is one.
+    /// Density recovery profile; `None` if it could not be computed.
     pub recovery: Option<&'a DensityRecovery>,
 }
 
 impl Summary {
-    /// Computes all scalars of a mosaic from its series.
+    /// Computes the summary of a mosaic from its `series`.
     pub(super) fn of(mosaic: &Mosaic, deviation: Deviation, series: &Series) -> Self {
         let (points, window) = (mosaic.points(), mosaic.window());
         let distances = &series.neighbours.distances;

@@ -1,9 +1,10 @@
 //! Voronoi cells of a pattern and the statistics of their areas, sides and neighbours.
 //!
-//! 1. Triangulate the points (Delaunay); on a torus, together with images around the window.
+//! 1. Triangulate the points (Delaunay); on a torus, together with their periodic images around the
+//!    window.
 //! 2. Collect each cell's corners from the circumcentres around its point, merging those that
 //!    coincide.
-//! 3. Compute area, number of sides and neighbours; clip the cells that reach beyond the window.
+//! 3. Compute area, number of sides and neighbours; clip the cells that extend beyond the window.
 
 use super::delaunay::{Delaunay, delaunay};
 use super::{Deviation, Moments, moments};
@@ -14,12 +15,13 @@ use serde::{Deserialize, Serialize};
 use spade::handles::{VertexHandle, VoronoiVertex};
 use spade::{Point2, Triangulation};
 
-/// Distance, as a share of the spacing, below which Voronoi vertices are merged: a side of no
-/// length is no side.
+/// Voronoi vertices that are closer than this share of the hexagonal spacing are merged, because a
+/// side without length is no side.
 const SAME_VERTEX: f64 = 1e-7;
-/// Number of points from which cells are computed on all threads.
+/// Least number of points for which cells are computed on all threads.
 const SPREAD_FROM: usize = 8192;
-/// Distance, in spacings, to which the pattern of a torus is first repeated beyond its edges.
+/// Width of the margin around a torus, in hexagonal spacings, in which the pattern is first
+/// repeated.
 const MARGIN: f64 = 5.;
 
 type Vertex<'a> = VertexHandle<'a, Point2<f64>, (), (), ()>;
@@ -29,37 +31,39 @@ type Vertex<'a> = VertexHandle<'a, Point2<f64>, (), (), ()>;
 pub struct Cell {
     /// Area in squared units of the coordinates, not clipped to the window.
     ///
-    /// `None` where the cell is infinite, and for a point that coincides with an earlier one (which
-    /// has the cell).
+    /// `None` if the cell is infinite, or if the point coincides with an earlier point, which then
+    /// has the cell.
     pub area: Option<f64>,
-    /// Number of sides of positive length; 0 where there is no area.
+    /// Number of sides of positive length; 0 if `area` is `None`.
     pub sides: usize,
-    /// Flag of a bound cell: it is finite and every vertex lies strictly inside the window.
+    /// `true` if the cell is bound: it is finite and all its vertices lie strictly inside the
+    /// window. On a torus, every cell is bound.
     ///
     /// Source: Cooper et al. (2016), <https://doi.org/10.1167/iovs.16-19072>.
     pub bound: bool,
-    /// Area of the part inside the window, in squared units of the coordinates (Dirichlet area in
-    /// spatstat).
+    /// Area of the part of the cell inside the window, in squared units of the coordinates
+    /// (Dirichlet area in spatstat).
     ///
-    /// Infinite cells have one too. `None` for a point that coincides with an earlier one.
+    /// Infinite cells have a clipped area too. `None` for a point that coincides with an earlier
+    /// point.
     pub clipped_area: Option<f64>,
     /// Inter-cell distance: mean distance to the points beyond the cell's sides, its Delaunay
-    /// neighbours.
+    /// neighbours, in units of the coordinates.
     pub inter_cell: Option<f64>,
-    /// Distance to the farthest of these neighbours.
+    /// Distance to the farthest Delaunay neighbour, in units of the coordinates.
     pub furthest: Option<f64>,
-    /// Bond-orientational order ψ6: mean of exp(6iθ) over the directions θ to the neighbours, as
-    /// real and imaginary part.
+    /// Bond-orientational order ψ6: mean of exp(6iθ) over the directions θ to the Delaunay
+    /// neighbours, as real and imaginary part.
     ///
     /// Source: Nelson & Halperin (1979), <https://doi.org/10.1103/PhysRevB.19.2457>.
     pub psi6: Option<[f64; 2]>,
-    /// Second moments of the vectors to the neighbours: means of dx², dx·dy and dy², in squared
-    /// units of the coordinates.
+    /// Second moments of the vectors to the Delaunay neighbours: means of dx², dx·dy and dy², in
+    /// squared units of the coordinates.
     pub second_moments: Option<[f64; 3]>,
-    /// Reach of the cell from its point to the left, up, to the right and down, in units of the
-    /// coordinates.
+    /// Distances by which the cell extends from its point to the left, up, to the right and down,
+    /// in units of the coordinates.
     ///
-    /// `None` where there is no area.
+    /// `None` if `area` is `None`.
     pub extent: Option<[f64; 4]>,
 }
 
@@ -70,10 +74,12 @@ pub struct Voronoi {
     pub cells: Vec<Cell>,
 }
 
-/// Summary of the bound cells of a pattern.
+/// Summary of the Voronoi cells of a pattern.
+///
+/// A cell is bound if it lies strictly inside the window ([`Cell::bound`]).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VoronoiSummary {
-    /// Number of all cells, which is that of the points.
+    /// Number of all cells, which equals the number of points.
     pub n: usize,
     /// Number of bound cells.
     pub bound: usize,
@@ -89,18 +95,25 @@ pub struct VoronoiSummary {
     /// coordinates.
     pub density: Option<f64>,
     /// Inter-cell distances of the bound cells, in units of the coordinates.
+    ///
+    /// The inter-cell distance of a cell is its mean distance to its Delaunay neighbours.
     pub inter_cell: Moments,
-    /// Distances to the farthest neighbours of the bound cells, in units of the coordinates.
+    /// Distances from the points of bound cells to their farthest Delaunay neighbours, in units of
+    /// the coordinates.
     pub furthest: Moments,
     /// Inter-cell distances of all cells, in units of the coordinates.
     ///
-    /// Cells at the border count points along the convex hull that are not true neighbours.
+    /// At the border, these distances include points along the convex hull that are not true
+    /// neighbours.
     pub inter_cell_all: Moments,
-    /// Distances to the farthest neighbours of all cells, in units of the coordinates.
+    /// Distances from all points to their farthest Delaunay neighbours, in units of the
+    /// coordinates.
     pub furthest_all: Moments,
-    /// Mean modulus of ψ6 of the bound cells: 1 where every cell is a regular hexagon.
+    /// Mean modulus of the bond-orientational order ψ6 over the bound cells: 1 if every cell is a
+    /// regular hexagon.
     pub psi6_mean: Option<f64>,
-    /// Modulus of the mean ψ6 of the bound cells: 1 where all hexagons have the same orientation.
+    /// Modulus of the mean of the bond-orientational order ψ6 over the bound cells: 1 if all cells
+    /// are regular hexagons with the same orientation.
     pub psi6_global: Option<f64>,
 }
 
@@ -138,8 +151,9 @@ impl Voronoi {
 
 /// Computes the Voronoi cells of a pattern from its Delaunay triangulation.
 ///
-/// On a torus the pattern is repeated around the window, and every cell is bound. Points that are
-/// not finite have no cell. If all points lie on a line, every cell is infinite.
+/// A cell is bound if it lies strictly inside the window ([`Cell::bound`]). On a torus the pattern
+/// is repeated around the window, and every cell is bound. Points that are not finite have no cell.
+/// If all points lie on a line, every cell is infinite.
 ///
 /// # Examples
 /// ```
@@ -177,22 +191,23 @@ pub fn voronoi(points: &[Point], window: &Window) -> Voronoi {
         }
         cells(&repeated, points.len(), window, spacing)
     };
-    // No image beyond the margin can reach a cell whose vertices are all within half of it.
+    // An image beyond the margin cannot change a cell whose vertices are all within half the margin
+    // of its point.
     let margin = MARGIN * spacing;
     let (cells, farthest) = repeated_to(margin);
     if 2. * farthest <= margin {
         return Voronoi { cells };
     }
-    // The pattern and its eight neighbours always suffice. A cell lies in the w × h rectangle
-    // around its point, since the point's own images take the rest, and the same holds for the cell
-    // of a neighbour.
+    // The pattern and its eight shifted copies always suffice. A cell lies in the w × h rectangle
+    // around its point, because everything beyond is nearer to the point's own images, and the same
+    // holds for the cell of a neighbour.
     Voronoi { cells: repeated_to(f64::INFINITY).0 }
 }
 
 /// Returns the cells of the first `n` points and the greatest distance from a point to a vertex of
 /// its cell.
 ///
-/// That distance is infinite if a cell is.
+/// The distance is infinite if one of the cells is infinite.
 fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell>, f64) {
     const NONE: Cell = Cell {
         area: None,
@@ -212,7 +227,7 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
         return (cells, 0.);
     };
     let same = SAME_VERTEX * spacing / side;
-    // Returns the cell and the distance of its farthest corner.
+    // Returns the cell and the distance from its point to its farthest corner.
     let cell_of = |(index, site): &(usize, [f64; 2]), vertex: Vertex| {
         let mut corners: Vec<[f64; 2]> = Vec::with_capacity(8);
         let mut finite = true;
@@ -281,7 +296,7 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
         cell.clipped_area = Some(if whole { area } else { clipped_cell_area(window, at, &adjacent) });
         (cell, reach * side)
     };
-    // The sites keep the order of the points, so those of the first n points come first.
+    // The sites keep the order of the points, so the sites of the first n points come first.
     let wanted = sites.partition_point(|(i, _)| *i < n);
     let (sites, vertices) = (&sites[..wanted], &triangulation.vertices().take(wanted).collect::<Vec<_>>());
     let found: Vec<(Cell, f64)> = if wanted < SPREAD_FROM {
@@ -297,7 +312,8 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
     (cells, farthest)
 }
 
-/// Fills in the distances and directions from a cell's point to the points beyond its sides.
+/// Fills in the fields of `cell` that depend on the distances and directions from its point to the
+/// points beyond its sides.
 fn describe_neighbours(cell: &mut Cell, at: Point, neighbours: &[Point]) {
     if neighbours.is_empty() {
         return;
@@ -366,7 +382,7 @@ mod tests {
             .map(|i| outside[i])
             .collect();
         assert!(lost.len() > 10 && whole.cells.iter().zip(&framed.cells).all(|(a, b)| a.area == b.area));
-        // Only cells next to the hole reach into it.
+        // Only cells next to the hole extend into it.
         assert!(lost.iter().all(|&p| frame.border_distance(p) < 0.15), "{lost:?}");
     }
 

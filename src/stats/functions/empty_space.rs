@@ -5,14 +5,17 @@ use crate::geometry::{Point, Window, distances_to_nearest};
 /// Number of test places along each side of the window's bounds, as in spatstat.
 const PLACES: usize = 128;
 
-/// Distances from the centres of 128 × 128 pixels that cover the window to the nearest point and to
-/// the border.
+/// Distances from test places to the nearest point and to the border.
+///
+/// The test places are the centres of 128 × 128 pixels that cover the bounding box, as far as they
+/// lie in the window.
 pub(super) struct EmptySpace {
-    /// Distance of each place to the nearest point; infinite without points.
+    /// Distance from each test place to the nearest point; infinite without points.
     pub distances: Vec<f64>,
-    /// Distance of each place to the border; infinite on a torus.
+    /// Distance from each test place to the border; infinite on a torus.
     pub borders: Vec<f64>,
-    /// Border distances in rising order, for areas of eroded polygons.
+    /// Distances of the test places to the border in rising order, from which areas of eroded
+    /// polygons are counted.
     sorted_borders: Vec<f64>,
 }
 
@@ -35,8 +38,9 @@ pub(super) fn empty_space(points: &[Point], window: &Window) -> EmptySpace {
 }
 
 impl EmptySpace {
-    /// Returns the area of the window without a margin of width `r`: exact for rectangles, counted
-    /// in pixels for polygons.
+    /// Returns the area of the part of the window that is at least `r` from the border.
+    ///
+    /// The area is exact for rectangles and counted in pixels for polygons.
     pub(super) fn eroded(&self, window: &Window, r: f64) -> f64 {
         let bounds = window.bounds();
         match window {

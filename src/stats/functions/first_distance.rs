@@ -4,16 +4,18 @@
 //! Distances d fall into bins (r_{k−1}, r_k]. A distance is censored if it exceeds b, the distance
 //! to the border, beyond which a nearer point may be hidden.
 //!
-//! 1. Count distances and border distances by the first row that reaches them.
-//! 2. Pass over the rows once, updating the numbers reached, beyond the border and at risk.
+//! 1. Count the distances d, and likewise the border distances b, by the first row k with d ≤ r_k.
+//! 2. Go through the rows once and update the numbers of points in the estimates, such as #{d ≤ r}
+//!    and #{min(d, b) > r_{k−1}}.
 
 use super::first_at_least;
 
 /// Distribution function of the distance to the nearest point, at given distances r, with several
 /// rules for the border.
 ///
-/// Distances d fall into bins (r_{k−1}, r_k]; b is the distance to the border, beyond which a
-/// nearer point may be hidden.
+/// Distances d fall into bins (r_{k−1}, r_k]. The distance to the border is b; if d > b, a nearer
+/// point may be hidden beyond the border. #{…} counts the points, or the test places for F, for
+/// which a condition holds.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FirstDistance {
     /// Estimate without correction: #{d ≤ r}/n.
@@ -32,8 +34,8 @@ pub struct FirstDistance {
 }
 
 impl FirstDistance {
-    /// Estimates the distribution; `eroded(r)` is the area of the window without a margin of width
-    /// r, in any unit.
+    /// Estimates the distribution; `eroded(r)` is the area of the part of the window that is at
+    /// least r from the border, in any unit.
     pub(in crate::stats) fn new(
         distances: &[f64],
         borders: &[f64],
@@ -41,11 +43,11 @@ impl FirstDistance {
         eroded: impl Fn(f64) -> f64,
     ) -> Self {
         let rows = r.len();
-        // Values are counted by the first row that reaches them; those beyond the last row come
-        // after it.
+        // A value is counted in the first row whose r is not below it. Values beyond the last row
+        // are counted in a further row after it.
         let count = || vec![0usize; rows + 2];
         let (mut all, mut seen, mut observed, mut border) = (count(), count(), count(), count());
-        // Uncensored distances, by the first row beyond their border distance.
+        // Uncensored distances, counted in the first row in which b > r_{k−1} no longer holds.
         let mut seen_ends = count();
         for (&d, &b) in distances.iter().zip(borders) {
             let (at_d, at_b) = (first_at_least(r, d), first_at_least(r, b));

@@ -1,8 +1,8 @@
 //! Pair correlation function by spatstat's convention, with an Epanechnikov kernel of half width
 //! .15/√λ.
 //!
-//! It is smoothed as `pcf.ppp` does through R's binned `density.default`, so that values agree with
-//! R's to the last digits. Exact kernel sums differ from these by up to .003.
+//! Smoothing follows spatstat's `pcf.ppp`, which uses R's binned `density.default`, so that values
+//! agree with R's to the last digits. Exact kernel sums differ from these values by up to .003.
 //!
 //! 1. Spread each distance linearly over the two nearest of 512 nodes.
 //! 2. Convolve the nodes with the kernel.
@@ -10,14 +10,14 @@
 
 use std::f64::consts::TAU;
 
-/// Number of nodes of R's `density.default`.
+/// Number of nodes over which distances are spread, as in R's `density.default`.
 const NODES: usize = 512;
 /// Half width of the kernel times √λ (Stoyan & Stoyan 1994).
 const STOYAN: f64 = 0.15;
-/// Number of bandwidths by which R widens the range on either side.
+/// Number of bandwidths by which R extends the nodes beyond the range of distances on either side.
 const CUT: f64 = 4.;
 
-/// Pair distances on the nodes of R's `density.default`, with their edge weights.
+/// Pair distances, with their edge weights, spread over nodes as in R's `density.default`.
 #[derive(Clone, Debug)]
 pub(super) struct Binned {
     bandwidth: f64,
@@ -25,11 +25,12 @@ pub(super) struct Binned {
     high: f64,
     /// Number of nodes per unit of length.
     density: f64,
-    /// Sums at every node: translation weights, isotropic weights, and both divided by distance.
+    /// Four sums at every node: translation weights, isotropic weights, and both divided by
+    /// distance.
     nodes: Vec<[f64; 4]>,
 }
 
-/// Values of g at the distances of a table; NaN where it is not defined.
+/// Values of g at the distances of a table; NaN where g is not defined.
 #[derive(Clone, Debug)]
 pub(super) struct PcfCurves {
     /// Estimate in which the sum at r is divided by 2πr.
@@ -39,7 +40,8 @@ pub(super) struct PcfCurves {
 }
 
 impl Binned {
-    /// Prepares empty nodes for distances up to `r_max` and the given density of points.
+    /// Prepares empty nodes for distances up to `r_max` and a pattern with `density` points per
+    /// squared unit.
     pub(super) fn new(r_max: f64, density: f64) -> Self {
         let bandwidth = STOYAN / density.sqrt() / 5f64.sqrt();
         let margin = CUT * bandwidth;
@@ -52,7 +54,8 @@ impl Binned {
         }
     }
 
-    /// Returns the distance from r beyond which a pair does not count.
+    /// Returns the half width of the kernel: at r, only pairs count whose distance differs from r
+    /// by less.
     pub(super) fn half_width(&self) -> f64 {
         self.bandwidth * 5f64.sqrt()
     }
@@ -74,18 +77,19 @@ impl Binned {
         }
     }
 
-    /// Adds the sums of another part of the pattern.
+    /// Adds the sums that were taken over another part of the pattern.
     pub(super) fn merge(&mut self, other: &Self) {
         for (a, b) in self.nodes.as_flattened_mut().iter_mut().zip(other.nodes.as_flattened()) {
             *a += b;
         }
     }
 
-    /// Returns the curves with translation and with isotropic weights; `per_pair` is A/(n(n−1)).
+    /// Returns the curves with translation and with isotropic weights; `per_pair` is A/(n(n−1)) for
+    /// n points in a window of area A.
     pub(super) fn curves(&self, r: &[f64], per_pair: f64) -> [PcfCurves; 2] {
         let range = self.high - self.low;
-        // For the kernel R takes 2n nodes over twice the range, which are not quite as far apart as
-        // those of the data.
+        // R evaluates the kernel at twice as many nodes over twice the range. These nodes are not
+        // quite as far apart as the nodes of the data.
         let kernel_step = 2. * range / (2 * NODES - 1) as f64;
         let half = self.half_width();
         let kernel: Vec<f64> = (0..NODES)

@@ -1,15 +1,17 @@
-//! Functions of distance: G, F, J, K, L and g.
+//! Functions of distance: the distance distributions G and F, their ratio J, Ripley's K and L, and
+//! the pair correlation function g.
 //!
 //! Edge corrections and binning are those of spatstat 3.0 (Baddeley, Rubak & Turner 2015,
 //! <https://doi.org/10.1201/b19708>), so that values can be compared digit by digit.
 //!
 //! In a polygon spatstat approximates some quantities by pixels:
 //!
-//! - F: the distance to the nearest pixel outside replaces that to the border. Its F differs by up
-//!   to .004 for that reason, measured on one outline.
-//! - Translation weights: a table of the set covariance, as here; K is then within .2 % of the
-//!   exact value.
-//! - Hanisch's estimates: the area of an eroded mask, as here; within 1 % of F and G.
+//! - F: spatstat takes the distance to the nearest pixel outside the window instead of the distance
+//!   to the border. Its F therefore differs from the F here by up to .004, measured on one outline.
+//! - Translation weights: spatstat takes them from a table of the set covariance, as is done here;
+//!   K is then within .2 % of the exact value.
+//! - Hanisch's estimates: spatstat takes the area of an eroded mask of pixels, as is done here;
+//!   they are within 1 % of F and G.
 
 mod empty_space;
 mod first_distance;
@@ -28,24 +30,25 @@ use std::f64::consts::PI;
 
 /// Largest number of distances; requests for more are refused.
 const MAX_ROWS: f64 = 100_000.;
-/// Number of steps up to `r_max` where no step is given.
+/// Number of steps up to `r_max` if no step is given.
 const DEFAULT_ROWS: f64 = 128.;
 
-/// Distances at which functions are taken: 0, step, 2 step, … up to `r_max`, in the unit of the
-/// coordinates.
+/// Distances at which functions are evaluated: 0, `r_step`, 2 `r_step`, … up to `r_max`, in the
+/// unit of the coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FunctionOptions {
-    /// Distance between rows; `None` gives 128 steps to `r_max`.
+    /// Step between successive distances; `None` gives 128 steps up to `r_max`.
     pub r_step: Option<f64>,
-    /// Upper limit of the distances.
+    /// Largest distance at which functions are evaluated.
     ///
     /// `None` gives a quarter of the shorter side of the window (Ripley's rule), but, as in
-    /// spatstat, at most √(1000/(πλ)), where 1000 points are expected within reach.
+    /// spatstat, at most √(1000/(πλ)), the radius of a disk in which 1000 points are expected at
+    /// the density λ.
     pub r_max: Option<f64>,
 }
 
 impl FunctionOptions {
-    /// Returns the distances, in the unit of the coordinates.
+    /// Returns the distances for a pattern of `points` points, in the unit of the coordinates.
     ///
     /// # Errors
     /// Returns [`StatsError::Option`] if a length is not positive or there would be more than
@@ -69,9 +72,10 @@ impl FunctionOptions {
     }
 }
 
-/// Functions of distance, all at the same distances.
+/// Functions of distance of one pattern, all evaluated at the same distances.
 ///
-/// A value that is not defined (no points at risk, g at r = 0) is NaN.
+/// A value that is not defined is NaN: g at r = 0, for example, or an estimate to which no point
+/// contributes.
 #[derive(Clone, Debug)]
 pub struct Functions {
     /// Distances r, in the unit of the coordinates.
@@ -83,7 +87,8 @@ pub struct Functions {
     pub f: Option<FirstDistance>,
     /// Values of G and F for independent points of the same density: 1 − exp(−λπr²).
     pub poisson: Vec<f64>,
-    /// K and g with their edge corrections; `None` for fewer than two points.
+    /// Ripley's K and the pair correlation function g with their edge corrections; `None` for fewer
+    /// than two points.
     ripley: Option<Ripley>,
 }
 
@@ -120,8 +125,8 @@ pub fn functions(
 impl Functions {
     /// Returns the names and values of all columns, in the order of a table.
     ///
-    /// Names are those of spatstat, preceded by the function's. Distances and L are in the unit of
-    /// the coordinates, K in its square; the others are pure numbers.
+    /// A name consists of the function and spatstat's name of the estimate. Distances and L are in
+    /// the unit of the coordinates, K is in squared units, and the other columns are pure numbers.
     pub fn columns(&self) -> Vec<(&'static str, Vec<f64>)> {
         let nan = || vec![f64::NAN; self.r.len()];
         let of = |d: &Option<FirstDistance>, pick: fn(&FirstDistance) -> &Vec<f64>| {
@@ -176,18 +181,19 @@ impl Functions {
 pub struct RipleyK {
     /// Distances r, in the unit of the coordinates.
     pub r: Vec<f64>,
-    /// Estimate without edge correction.
+    /// K without edge correction.
     pub none: Vec<f64>,
-    /// Border correction: only the points with border distance b ≥ r count; NaN where there are
-    /// none.
+    /// K with the border correction: only points whose distance to the border is at least r count;
+    /// NaN where there is no such point.
     pub border: Vec<f64>,
-    /// Translation correction (Ohser & Stoyan 1981, <https://doi.org/10.1002/bimj.4710230602>).
+    /// K with the translation correction (Ohser & Stoyan 1981,
+    /// <https://doi.org/10.1002/bimj.4710230602>).
     pub translation: Vec<f64>,
-    /// Isotropic correction (Ripley 1976, <https://doi.org/10.2307/3212829>).
+    /// K with the isotropic correction (Ripley 1976, <https://doi.org/10.2307/3212829>).
     pub isotropic: Vec<f64>,
 }
 
-/// Computes K alone, with the same values as in [`functions`].
+/// Computes only Ripley's K, with the same values as [`functions`].
 ///
 /// # Errors
 /// Returns [`StatsError`] if the distances are out of range, a point is not inside the window, or
@@ -210,7 +216,7 @@ fn first_at_least(r: &[f64], d: f64) -> usize {
     settle(r, (d / step) as usize, d)
 }
 
-/// Returns the same index as [`first_at_least`], by a search that starts at a nearby index.
+/// Returns the same index as [`first_at_least`], by a search that starts at the index `near`.
 #[inline]
 fn settle(r: &[f64], near: usize, d: f64) -> usize {
     let mut k = near.min(r.len());

@@ -1,8 +1,9 @@
 //! Ripley's K and the pair correlation function g, with several edge corrections.
 //!
-//! 1. Visit all pairs within reach, in parts that may run in parallel.
-//! 2. Add each pair's weights to the first row of the table that reaches its distance.
-//! 3. Cumulate the rows and divide by the expected number of pairs.
+//! 1. Visit all pairs up to the largest distance that matters, in parts that may run in parallel.
+//! 2. Add each pair's weights to the first row of the table whose r is at least the pair's
+//!    distance.
+//! 3. Sum the rows up to each r and divide by the expected number of pairs.
 
 use super::kernel_pcf::{Binned, PcfCurves};
 use super::{first_at_least, settle};
@@ -11,14 +12,17 @@ use crate::stats::edge_weight::EdgeWeights;
 use crate::stats::pairs::PairGrid;
 use rayon::prelude::*;
 
-/// Number of parts of a large pattern that may run in parallel; their sums are added in order.
+/// Number of parts into which a large pattern is split. Parts may run in parallel; their sums are
+/// added in order.
 const CHUNKS: usize = 32;
-/// Number of points from which a pattern is cut into parts.
+/// Least number of points for which a pattern is split into [`CHUNKS`] parts.
 const CHUNKED_FROM: usize = 2048;
 
 /// K and g with several edge corrections: none, border, translation and isotropic.
 ///
-/// λ² is n(n−1)/A²; the border correction takes λ = n/A and the points with border distance b ≥ r.
+/// The squared density λ² is estimated by n(n−1)/A², for n points in a window of area A. The border
+/// correction instead takes λ = n/A, and only the points whose distance to the border is at least
+/// r.
 ///
 /// Sources: K of Ripley (1977), <https://doi.org/10.1111/j.2517-6161.1977.tb01615.x>; translation
 /// correction of Ohser & Stoyan (1981), <https://doi.org/10.1002/bimj.4710230602>; isotropic
@@ -27,7 +31,7 @@ const CHUNKED_FROM: usize = 2048;
 pub(super) struct Ripley {
     /// K without edge correction.
     pub none: Vec<f64>,
-    /// K with the border correction; NaN where no point has b ≥ r.
+    /// K with the border correction; NaN where no point is at least r from the border.
     pub border: Vec<f64>,
     /// K with the translation correction.
     pub translation: Vec<f64>,
@@ -39,14 +43,16 @@ pub(super) struct Ripley {
     pub g_isotropic: PcfCurves,
 }
 
-/// Sums over the pairs of one part of the pattern, by the first row that reaches them.
+/// Sums over the pairs of one part of the pattern. A pair counts in the first row whose r is at
+/// least its distance.
 struct Sums {
     /// Pair weights per row: without correction, with translation and with isotropic correction.
     k: Vec<[f64; 3]>,
-    /// Differences from row to row of the number of pairs seen from a point whose border distance
-    /// is at least r.
+    /// Differences, from row to row, of the number of ordered pairs whose first point is at least r
+    /// from the border.
     ///
-    /// A pair adds 1 at its first row and subtracts 1 where its point drops out.
+    /// A pair adds 1 in the first row whose r is at least its distance, and subtracts 1 in the row
+    /// from which on its first point is nearer to the border than r.
     border: Vec<i64>,
     g: Binned,
 }
@@ -54,7 +60,8 @@ struct Sums {
 impl Ripley {
     /// Computes the functions of at least two points, all inside the window.
     ///
-    /// `borders` are the points' distances to the border. g is 0 unless `with_g` is set.
+    /// `borders` are the points' distances to the border. g is computed only if `with_g` is set and
+    /// is 0 otherwise.
     pub(super) fn new(points: &[Point], borders: &[f64], window: &Window, r: &[f64], with_g: bool) -> Self {
         let (n, area, rows) = (points.len(), window.area(), r.len());
         let density = n as f64 / area;
@@ -64,8 +71,8 @@ impl Ripley {
         let per_step = r.get(1).map_or(0., |step| step.recip());
         let grid = PairGrid::new(points, window, torus, reach);
         let weights = EdgeWeights::new(window);
-        // Number of rows that the border distance of each point reaches, in the grid's order of
-        // points.
+        // For each point, in the grid's order: the number of rows whose r is at most its border
+        // distance.
         let borders = grid.sorted(borders);
         let seen_from: Vec<usize> = borders.iter().map(|&b| rows_up_to(r, b)).collect();
         let chunks = if n < CHUNKED_FROM { 1 } else { CHUNKS.min(grid.rows()) };
@@ -75,7 +82,8 @@ impl Ripley {
             grid.visit(part, |i, j, dx, dy| {
                 let d = (dx * dx + dy * dy).sqrt();
                 let translation = if torus { 1. } else { weights.translation(dx, dy) };
-                // Circles that do not reach the border are whole; this saves computing their arcs.
+                // Circles that do not cross the border have weight 1; this saves computing their
+                // arcs.
                 let isotropic = if borders[i] >= d && borders[j] >= d {
                     1.
                 } else {
@@ -90,7 +98,7 @@ impl Ripley {
                 let Some(k) = sums.k.get_mut(at) else { return };
                 *k = [k[0] + 2., k[1] + 2. * translation, k[2] + 2. * isotropic];
                 let ends = [seen_from[i], seen_from[j]];
-                // A pair that ends behind the last row needs no end.
+                // If neither point drops out by the last row, nothing has to be subtracted.
                 if ends == [rows; 2] {
                     sums.border[at] += 2;
                     return;

@@ -21,14 +21,15 @@ pub struct Ellipse {
     pub semi_major: f64,
     /// Shorter semi-axis, in units of the coordinates.
     pub semi_minor: f64,
-    /// Direction of the longer axis in degrees from x towards y (down), 0 to 180.
+    /// Direction of the longer axis in degrees, 0 to 180, from the x axis towards the y axis, which
+    /// points down.
     pub degrees: f64,
 }
 
-/// Fits the ellipse of least algebraic distance to a closed line, each piece weighted by its
-/// length.
+/// Fits the ellipse of least algebraic distance to a closed line, whose pieces are weighted by
+/// their lengths.
 ///
-/// Returns `None` for lines that do not close, have fewer than 6 places, or have no ellipse.
+/// Returns `None` if the line is not closed, has fewer than 6 places, or no ellipse fits it.
 ///
 /// Sources: Fitzgibbon, Pilu & Fisher (1999), <https://doi.org/10.1109/34.765658>; solved as by
 /// Halíř & Flusser (1998).
@@ -37,8 +38,8 @@ pub(super) fn fitted_ellipse(contour: &Contour) -> Option<Ellipse> {
     if !contour.closed || contour.places.len() < 6 || !(length.is_finite() && length > 0.) {
         return None;
     }
-    // Midpoints of the pieces, relative to their centroid and scaled by the length, keep all
-    // numbers near 1.
+    // The midpoints of the pieces are taken relative to their centroid and scaled by the length of
+    // the line, so that all numbers are near 1.
     let next = contour.places.iter().cycle().skip(1);
     let pieces: Vec<(Point, f64)> = contour
         .places
@@ -86,7 +87,9 @@ pub(super) fn fitted_ellipse(contour: &Contour) -> Option<Ellipse> {
     })
 }
 
-/// Converts a x² + b xy + c y² + d x + e y + f = 0 to an ellipse; `None` if it is none.
+/// Converts a x² + b xy + c y² + d x + e y + f = 0 to an ellipse.
+///
+/// Returns `None` if the equation does not describe an ellipse.
 fn geometric([a, b, c]: [f64; 3], [d, e, f]: [f64; 3]) -> Option<Ellipse> {
     let determinant = 4. * a * c - b * b;
     let centre = Point::new((b * e - 2. * c * d) / determinant, (b * d - 2. * a * e) / determinant);
@@ -97,8 +100,8 @@ fn geometric([a, b, c]: [f64; 3], [d, e, f]: [f64; 3]) -> Option<Ellipse> {
     if !(one.is_finite() && other.is_finite() && one > 0. && other > 0.) {
         return None;
     }
-    // The form curves most along the shorter axis if it is positive, along the longer one
-    // otherwise.
+    // `steep` is the direction of the greater eigenvalue of the quadratic form: the shorter axis if
+    // the form is positive, the longer axis if it is negative.
     let steep = b.atan2(a - c) / 2.;
     let along = if one < other { steep + PI / 2. } else { steep };
     Some(Ellipse {

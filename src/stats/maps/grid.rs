@@ -2,28 +2,30 @@ use super::surface::{Surface, weighted};
 use super::{LocalFlag, LocalValues};
 use crate::geometry::{Point, Rectangle};
 
-/// Map sampled at the centres of the cells of a square grid over the bounds of a window.
+/// Map sampled at the centres of square grid cells that cover the bounding box of a window.
 ///
-/// Cells are stored row by row from the upper left.
+/// Grid cells are stored row by row, from the upper left.
 #[derive(Clone, Debug)]
 pub struct MapGrid {
-    /// Number of cells per row.
+    /// Number of grid cells per row.
     pub columns: usize,
     /// Number of rows of the grid.
     pub rows: usize,
-    /// Side of a cell, in units of the coordinates.
+    /// Side of a grid cell, in units of the coordinates.
     pub step: f64,
-    /// Values of the map, NaN where it is not defined.
+    /// Value of the map in each grid cell; NaN where the map is not defined.
     ///
-    /// It is not defined beyond the hull of the cones or the window, nor in triangles with a corner
-    /// that has no value.
+    /// The map is interpolated in triangles between cones. It is not defined outside the convex
+    /// hull of the cones, outside the window, and in triangles of which a corner has no value.
     pub values: Vec<f64>,
-    /// Flags of cells for which the local windows of all three corners are whole.
+    /// One flag per grid cell: `true` if its value is interpolated between three cones whose local
+    /// windows all lie inside the window of the mosaic.
     pub whole: Vec<bool>,
 }
 
-/// Samples the map of one local value on a grid; `longer` is the number of cells along the longer
-/// side.
+/// Samples the map of the local value that `value` selects on a square grid over `bounds`.
+///
+/// `longer` is the number of grid cells along the longer side of `bounds`.
 pub(super) fn grid(
     surface: &Surface,
     bounds: &Rectangle,

@@ -9,27 +9,32 @@ use crate::geometry::{Point, Window};
 /// Lengths are in units of the coordinates, densities per squared unit.
 #[derive(Clone, Debug, Default)]
 pub struct Landmarks {
-    /// Number of cones whose local window is whole; the map is made of these.
+    /// Number of cones whose local window lies inside the window of the mosaic; the density map is
+    /// made from the values of these cones only.
     pub whole: usize,
-    /// Peak cone density (PCD): the greatest local density; `None` without a whole window.
+    /// Peak cone density (PCD): the greatest density in a local window that lies inside the window
+    /// of the mosaic. `None` if there is no such local window.
     pub peak: Option<f64>,
-    /// Cone at the peak; the first if there are several.
+    /// Position of the cone with the peak cone density; the first of them if several are equal.
     pub peak_at: Option<Point>,
-    /// Area of the region in which the map is at least the given share of the peak; `None` without
-    /// a map.
+    /// Area of the isodensity region, in which the density map is at least
+    /// [`MapOptions::isodensity`] times the peak. `None` without a density map.
     pub isodensity_area: Option<f64>,
-    /// Cone density centroid (CDC): the density-weighted centroid of that region.
+    /// Cone density centroid (CDC): the density-weighted centroid of the isodensity region.
     ///
     /// Source: Reiniger et al. (2021), <https://doi.org/10.1016/j.cub.2021.07.005>.
     pub centroid: Option<Point>,
-    /// Density of the map at the centroid; `None` where the map is not defined there.
+    /// Value of the density map at the cone density centroid; `None` if the map is not defined
+    /// there.
     pub centroid_density: Option<f64>,
-    /// Ellipse fitted to the longest contour of the region, if that contour closes.
+    /// Ellipse fitted to the longest outline of the isodensity region.
+    ///
+    /// `None` if the longest outline is not closed or no ellipse fits it.
     pub ellipse: Option<Ellipse>,
-    /// Flag that the region ends at the edge of the map: its area is too small, and its centroid
-    /// lies too far inwards.
+    /// `true` if the edge of the map cuts the isodensity region off: the area found is then too
+    /// small, and the centroid lies too far inwards.
     pub cut: bool,
-    /// Outlines of the region, longest first.
+    /// Outlines of the isodensity region, longest first.
     pub contours: Vec<Contour>,
 }
 

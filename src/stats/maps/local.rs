@@ -1,9 +1,10 @@
-//! Local values of a mosaic: averages over the bound cells in a square window around each cone.
+//! Local values of a mosaic: averages over the bound cells in a square window around each cone. A
+//! bound cell is a Voronoi cell strictly inside the window of the mosaic.
 //!
-//! 1. Collect the bound cells near the cone, each with the half-side of the smallest square around
-//!    the cone that contains it.
-//! 2. Take the `n` cells with the smallest half-sides, or all within a given side; search wider if
-//!    there are too few.
+//! 1. Collect the bound cells near the cone, and for each of them the half-side of the smallest
+//!    square around the cone that contains the cell.
+//! 2. Take the `n` cells with the smallest half-sides, or all cells within a square of given side.
+//!    If fewer than `n` cells are found, widen the search.
 //! 3. Average area, distances, ψ6 and numbers of sides over these cells.
 
 use super::LocalWindow;
@@ -12,26 +13,27 @@ use crate::geometry::{NearestNeighbours, Point, Rectangle, Window};
 use crate::stats::{Deviation, Voronoi, moments};
 use rayon::prelude::*;
 
-/// Factor by which the search is widened if the previous window held too few cells.
+/// Factor by which the search is widened if the previous square held too few cells.
 const WIDER: f64 = 1.4;
-/// Relative difference of area up to which a square counts as lying inside a polygon: rounding.
+/// A square counts as lying inside a polygon if at most this share of its area is outside, which is
+/// only rounding error.
 const ROUNDING: f64 = 1e-9;
 
-/// State of a local window: whether it is the one requested.
+/// State of the local window around a cone: complete, beyond the border, or missing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LocalFlag {
-    /// The window lies in the mosaic's window.
+    /// The local window lies entirely inside the window of the mosaic.
     Whole,
-    /// The window reaches beyond the mosaic's window before it holds its cells, which lie to one
-    /// side of the cone.
+    /// The local window extends beyond the window of the mosaic, so the cells in it lie mainly on
+    /// one side of the cone.
     Edge,
-    /// There are no values: the mosaic has too few bound cells or none, or the window is wider than
-    /// the torus.
+    /// The cone has no local values: the mosaic has fewer bound cells than requested or none at
+    /// all, or the local window is wider than the torus.
     Few,
 }
 
 impl LocalFlag {
-    /// Returns the name of the flag in tables, which is empty for a whole window.
+    /// Returns the name of the flag in tables, which is empty for [`Self::Whole`].
     pub const fn name(self) -> &'static str {
         match self {
             Self::Whole => "",
@@ -41,38 +43,45 @@ impl LocalFlag {
     }
 }
 
-/// Mosaic in the square window around one cone.
+/// Local values of a mosaic in the square window around one cone.
 ///
-/// Values are means over the bound cells that lie wholly in the window.
+/// The values are means over the bound cells (Voronoi cells strictly inside the window of the
+/// mosaic) that lie entirely in the local window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocalValues {
-    /// Side of the window, in units of the coordinates; the smallest that holds the requested
-    /// cells.
-    pub side: Option<f64>,
-    /// Number of bound cells in the window; without a window, that of the mosaic.
+    /// Side of the local window, in units of the coordinates: the requested side, or the smallest
+    /// side with which it holds the requested number of bound cells.
     ///
-    /// It exceeds the requested number where several cells enter at once.
+    /// `None` if there are no local values.
+    pub side: Option<f64>,
+    /// Number of bound cells in the local window, or in the entire mosaic if there are no local
+    /// values.
+    ///
+    /// The number exceeds the requested one if several cells enter the growing window at the same
+    /// size.
     pub bound: usize,
-    /// State of the window: whole, at the edge, or without values.
+    /// State of the local window: complete, beyond the border, or missing.
     pub flag: LocalFlag,
-    /// Number of cells divided by their total area, per squared unit of the coordinates.
+    /// Density: the number of bound cells divided by their total area, per squared unit of the
+    /// coordinates.
     pub density: Option<f64>,
-    /// Mean distance to the Delaunay neighbours (ICD), in units of the coordinates.
+    /// Inter-cell distance (ICD): the mean distance from a cone to its Delaunay neighbours, in
+    /// units of the coordinates.
     pub inter_cell: Option<f64>,
-    /// Mean distance to the nearest neighbour, in units of the coordinates.
+    /// Mean distance from a cone to its nearest neighbour, in units of the coordinates.
     pub nearest: Option<f64>,
     /// Regularity index of the nearest-neighbour distances: mean over standard deviation.
     pub nearest_ri: Option<f64>,
     /// Mean modulus of ψ6, the bond-orientational order.
     pub psi6: Option<f64>,
-    /// Percentage of the cells that have six sides.
+    /// Percentage of the bound cells that have six sides.
     pub six_sided_percent: Option<f64>,
 }
 
 /// Bound cell with the values that are averaged.
 struct Member {
     at: Point,
-    /// Reach of the cell from its point to the left, up, to the right and down.
+    /// Distances by which the cell extends from its point to the left, up, to the right and down.
     extent: [f64; 4],
     area: f64,
     inter_cell: f64,
@@ -81,8 +90,9 @@ struct Member {
     six: bool,
 }
 
-/// Computes the local values at every cone, in the order of the points, equal for any number of
-/// threads.
+/// Computes the local values at every cone, in the order of the points.
+///
+/// The result is the same for any number of threads.
 pub(super) fn local_values(
     points: &[Point],
     window: &Window,
@@ -125,7 +135,7 @@ pub(super) fn local_values(
 }
 
 /// Returns the values of a cone without a local window; `bound` is the number of bound cells of the
-/// mosaic.
+/// entire mosaic.
 const fn few(bound: usize) -> LocalValues {
     LocalValues {
         side: None,
@@ -140,7 +150,7 @@ const fn few(bound: usize) -> LocalValues {
     }
 }
 
-/// Averages the values of the chosen cells.
+/// Averages the values of the cells with the indices `chosen`.
 fn values(
     members: &[Member],
     chosen: &[usize],
@@ -176,7 +186,7 @@ struct Finder<'a> {
 }
 
 impl<'a> Finder<'a> {
-    /// Indexes the bound cells; `None` if there are none.
+    /// Builds the index; returns `None` if there are no bound cells.
     fn new(members: &'a [Member], window: &'a Window) -> Option<Self> {
         if members.is_empty() {
             return None;
@@ -187,16 +197,18 @@ impl<'a> Finder<'a> {
         Some(Self { members, tree, window, sides: [bounds.width(), bounds.height()] })
     }
 
-    /// Returns half the side of the largest window that fits on a torus; infinity elsewhere.
+    /// Returns half the side of the largest square that fits on a torus; infinity if the window is
+    /// no torus.
     fn widest(&self) -> f64 {
         if self.window.is_torus() { self.sides[0].min(self.sides[1]) / 2. } else { f64::INFINITY }
     }
 
-    /// Returns, for each cell whose point is at most `half` away along x and along y, its half-side
-    /// and its index.
+    /// Returns the half-side and the index of every cell whose point is at most `half` away from
+    /// `at` along x and along y.
     ///
-    /// The half-side is that of the smallest square centred on `at` that contains the cell. Since
-    /// the window is a square, a cell lies in it as soon as its extent does.
+    /// The half-side is half the side of the smallest square centred on `at` that contains the
+    /// cell. A square contains a cell if and only if it contains the cell's bounding box, so
+    /// `extent` suffices.
     fn near(&self, at: Point, half: f64) -> Vec<(f64, usize)> {
         let reach = |k: usize| {
             let member = &self.members[k];
@@ -216,10 +228,10 @@ impl<'a> Finder<'a> {
         [dx - self.sides[0] * (dx / self.sides[0]).round(), dy - self.sides[1] * (dy / self.sides[1]).round()]
     }
 
-    /// Returns half the side of the smallest window that holds `n` cells, and the cells in rising
-    /// order.
+    /// Returns half the side of the smallest square around `at` that holds `n` cells, and the
+    /// indices of the cells in it in rising order.
     ///
-    /// Returns `None` if no window holds them.
+    /// Returns `None` if no square holds `n` cells.
     fn grown(&self, at: Point, n: usize) -> Option<(f64, Vec<usize>)> {
         if self.members.len() < n || n == 0 {
             return None;
@@ -229,8 +241,9 @@ impl<'a> Finder<'a> {
         loop {
             half = half.min(self.widest());
             let mut near = self.near(at, half);
-            // A cell beyond `half` was not searched for, although its window might be no wider than
-            // that of a nearer cell. So only half-sides up to `half` are complete.
+            // Cells whose points are farther than `half` were not searched. A cell in the list may
+            // need a larger square than one of those, so the list is complete only for half-sides
+            // up to `half`.
             near.retain(|&(reach, _)| reach <= half);
             if near.len() >= n {
                 let (_, &mut (least, _), _) = near.select_nth_unstable_by(n - 1, |a, b| a.0.total_cmp(&b.0));
@@ -243,8 +256,10 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Returns half of the given side and the cells strictly within a window of that side; `None`
-    /// if it exceeds the torus.
+    /// Returns `side` / 2 and the indices of the cells strictly inside the square of side `side`
+    /// around `at`.
+    ///
+    /// Returns `None` if the square is wider than the torus.
     fn of_side(&self, at: Point, side: f64) -> Option<(f64, Vec<usize>)> {
         let half = side / 2.;
         (half <= self.widest())
@@ -252,7 +267,9 @@ impl<'a> Finder<'a> {
     }
 }
 
-/// Sorts the indices of cells, because sums must not depend on the order in which a tree is walked.
+/// Returns the indices of the found cells in rising order.
+///
+/// Sums over them then do not depend on the order in which the tree is walked.
 fn in_order(found: impl Iterator<Item = (f64, usize)>) -> Vec<usize> {
     let mut indices: Vec<usize> = found.map(|(_, k)| k).collect();
     indices.sort_unstable();
@@ -264,8 +281,8 @@ fn fits(window: &Window, at: Point, half: f64) -> bool {
     let room = window.border_distance(at);
     match window {
         Window::Rectangle(_) | Window::Torus(_) => room >= half,
-        // The border is nearer than the square's sides, or farther than its corners; both are cheap
-        // to decide.
+        // Two cases are cheap to decide: the border is nearer than the square's sides, or farther
+        // than its corners.
         _ if room < half => false,
         _ if room >= half * std::f64::consts::SQRT_2 => true,
         Window::Polygon(polygon) => {

@@ -4,11 +4,14 @@
 //! density map gives the peak cone density, the cone density centroid, the isodensity area and
 //! profiles.
 //!
-//! **Edge rule.** The cells are those of the whole mosaic, and only bound ones count (Cooper et al.
-//! 2016, <https://doi.org/10.1167/iovs.16-19072>). A cell counts in a window if all of it lies
-//! strictly inside. A window that reaches beyond the mosaic's own window before it holds enough
-//! cells continues to grow within the mosaic, so its cells lie to one side. Such a window is
-//! flagged, and neither landmarks nor meridians use it.
+//! **Edge rule.** Voronoi cells are computed once, from all cones. Only bound cells count, that is,
+//! cells strictly inside the window of the mosaic (Cooper et al. 2016,
+//! <https://doi.org/10.1167/iovs.16-19072>). A bound cell counts in a local window if it lies
+//! entirely inside it.
+//!
+//! A local window near the border may extend beyond the window of the mosaic before it holds enough
+//! cells. It continues to grow, but finds further cells only on the inner side. Its values are
+//! marked with [`LocalFlag::Edge`], and neither landmarks nor meridians use them.
 
 mod ellipse;
 mod grid;
@@ -33,7 +36,7 @@ use super::{Measures, StatsError};
 use crate::mosaic::Mosaic;
 use surface::Surface;
 
-/// Local values of every cone, and the landmarks and profiles that follow from them.
+/// Local values of every cone, and the landmarks and profiles that are derived from them.
 ///
 /// Lengths are in units of the coordinates.
 #[derive(Clone, Debug)]
@@ -52,10 +55,12 @@ pub struct Maps {
 }
 
 impl Maps {
-    /// Returns a map of any of the local values, as a grid.
+    /// Returns the map of one of the local values, sampled on a square grid.
     ///
-    /// `longer` is the number of grid cells along the longer side of the window. Values of windows
-    /// that reach beyond the mosaic's are included, and marked as not whole.
+    /// `mosaic` is the mosaic from which the maps were made, `value` selects the local value, and
+    /// `longer` is the number of grid cells along the longer side of the mosaic's window. Local
+    /// windows that extend beyond the mosaic's window are included; [`MapGrid::whole`] is `false`
+    /// for the grid cells whose values depend on them.
     pub fn grid(
         &self,
         mosaic: &Mosaic,
@@ -68,9 +73,9 @@ impl Maps {
 
 /// Computes the maps of a mosaic that has been measured.
 ///
-/// The maps are linear between cones, so their peak is at the cone of greatest local density. This
-/// is a maximum over as many windows as cones, so it exceeds the true density at that place by
-/// about the scatter of one window.
+/// The maps are linear between cones, so their peak is at the cone of greatest local density. The
+/// peak density is the maximum over as many local windows as there are cones. It therefore exceeds
+/// the true density at that place by about the scatter of the density in a single local window.
 ///
 /// # Errors
 /// Returns [`StatsError::Option`] if an option is out of its range.

@@ -1,26 +1,35 @@
 use super::StatsError;
 use serde::{Deserialize, Serialize};
 
-/// Square around a cone in which local values are taken.
+/// Size of the square around a cone in which local values are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LocalWindow {
-    /// Square that grows until it holds this many bound cells, 3 to 100 000.
+    /// Square that grows until it holds the given number of bound cells, 3 to 100 000.
+    ///
+    /// A bound cell is a Voronoi cell that lies strictly inside the window of the mosaic.
     Cells(usize),
-    /// Square with this side, in the unit of the coordinates.
+    /// Square with the given side, in the unit of the coordinates.
     Side(f64),
 }
 
 /// Options of maps and of the landmarks read from them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MapOptions {
-    /// Window around each cone; default: 100 bound cells.
+    /// Size of the square around each cone in which local values are taken.
+    ///
+    /// The default square grows until it holds 100 bound cells, which are Voronoi cells strictly
+    /// inside the window of the mosaic.
     pub window: LocalWindow,
-    /// Density of the contour whose inside is averaged, as a share of the peak: 0.01 to 0.99,
+    /// Lowest density of the isodensity region, as a share of the peak density: 0.01 to 0.99,
     /// default 0.8.
+    ///
+    /// The cone density centroid is the centroid of this region.
     pub isodensity: f64,
-    /// Distance between rows of the profiles, in the unit of the coordinates; `None` gives two
-    /// hexagonal spacings.
+    /// Distance between successive rows of the profiles, in the unit of the coordinates.
+    ///
+    /// `None` gives twice the hexagonal spacing, which is the spacing of the triangular lattice
+    /// that has the density of the mosaic.
     pub profile_step: Option<f64>,
 }
 
@@ -34,7 +43,7 @@ impl MapOptions {
     /// Checks that every field is in its range.
     ///
     /// # Errors
-    /// Returns [`StatsError::Option`] for the first field that is not, with its range.
+    /// Returns [`StatsError::Option`] for the first field that is out of its range.
     pub fn validate(&self) -> Result<(), StatsError> {
         let check = |option, value: f64, ok: bool, range| {
             if ok { Ok(()) } else { Err(StatsError::Option { option, value, range }) }

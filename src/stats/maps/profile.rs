@@ -1,5 +1,5 @@
-//! Profiles of a mosaic by distance from its cone density centroid: averages over rings, and maps
-//! along meridians.
+//! Profiles of a mosaic by distance from its cone density centroid: averages over rings, and values
+//! of maps along four meridians.
 
 use super::surface::Surface;
 use crate::geometry::{Point, Window};
@@ -7,21 +7,21 @@ use crate::mosaic::hexagonal_spacing;
 use crate::stats::edge_weight::EdgeWeights;
 use crate::stats::{NearestNeighbours, Voronoi};
 
-/// Largest number of rows in one direction.
+/// Largest number of rings, and of steps along each meridian; profiles end there.
 const MOST_ROWS: f64 = 10_000.;
 
-/// Direction of a row of a profile.
+/// Kind of a row of a profile: a ring about the centre, or a place on one of four meridians.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Along {
-    /// Rings about the centre.
+    /// Ring about the centre, over which values are averaged.
     Ring,
-    /// Meridian towards greater x.
+    /// Place on the meridian that runs from the centre towards greater x.
     Right,
-    /// Meridian towards greater y.
+    /// Place on the meridian that runs from the centre towards greater y.
     Down,
-    /// Meridian towards smaller x.
+    /// Place on the meridian that runs from the centre towards smaller x.
     Left,
-    /// Meridian towards smaller y.
+    /// Place on the meridian that runs from the centre towards smaller y.
     Up,
 }
 
@@ -29,7 +29,7 @@ impl Along {
     /// Meridians in all four directions.
     pub const MERIDIANS: [Self; 4] = [Self::Right, Self::Down, Self::Left, Self::Up];
 
-    /// Returns the name of the direction in tables.
+    /// Returns the name of the ring or meridian in tables.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Ring => "ring",
@@ -40,7 +40,7 @@ impl Along {
         }
     }
 
-    /// Returns the unit vector of a meridian; 0 for rings.
+    /// Returns the unit vector along a meridian; the zero vector for rings.
     const fn direction(self) -> [f64; 2] {
         match self {
             Self::Ring => [0., 0.],
@@ -59,30 +59,33 @@ impl Along {
 pub struct ProfileRow {
     /// Ring or meridian to which the row belongs.
     pub along: Along,
-    /// Distance from the centroid; for a ring, the middle of its width.
+    /// Distance from the cone density centroid; for a ring, the radius of the circle midway between
+    /// its inner and outer edge.
     pub r: f64,
-    /// Number of bound cells whose cones lie in the ring; `None` on a meridian.
+    /// Number of bound cells (Voronoi cells strictly inside the window) whose cones lie in the
+    /// ring; `None` on a meridian.
     pub bound: Option<usize>,
     /// Share of the circle through the middle of the ring that lies in the window; `None` on a
     /// meridian.
     pub share: Option<f64>,
     /// Density per squared unit of the coordinates.
     ///
-    /// In a ring it is the number of bound cells divided by their area, on a meridian the value of
-    /// the map.
+    /// In a ring, this is the number of bound cells divided by their total area, or `None` without
+    /// bound cells. On a meridian, it is the value of the density map.
     pub density: Option<f64>,
-    /// Hexagonal spacing at that density.
+    /// Hexagonal spacing: the spacing of the triangular lattice that has the density of the row.
     pub spacing: Option<f64>,
-    /// Mean distance to the Delaunay neighbours (ICD).
+    /// Inter-cell distance (ICD): the mean distance from a cone to its Delaunay neighbours.
     pub inter_cell: Option<f64>,
-    /// Mean distance to the nearest neighbour.
+    /// Mean distance from a cone to its nearest neighbour.
     pub nearest: Option<f64>,
 }
 
-/// Returns rings of width `step` about the centre, then the four meridians.
+/// Returns the rows of rings of width `step` about `centre`, then the rows of the four meridians.
 ///
-/// Rings extend as far as there are bound cells. Along meridians the maps of density, inter-cell
-/// distance and nearest-neighbour distance are read as far as they are defined.
+/// The outermost ring contains the farthest bound cell. Along meridians, `maps` (density,
+/// inter-cell distance and nearest-neighbour distance) are read in steps of `step`, wherever the
+/// density is defined.
 pub(super) fn profile(
     (points, window): (&[Point], &Window),
     (cells, neighbours): (&Voronoi, &NearestNeighbours),

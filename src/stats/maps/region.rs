@@ -2,7 +2,7 @@
 //!
 //! 1. Cut each triangle, in which the map is linear, along the level.
 //! 2. Integrate area and moments exactly over the part above the level.
-//! 3. Join the crossings of the level with the triangles' sides to outlines.
+//! 3. Join the places where the level crosses the sides of triangles into outlines.
 
 use super::surface::{Surface, Valued, cross};
 use crate::geometry::Point;
@@ -11,23 +11,23 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Part of a map that is at least as high as a level.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Region {
-    /// Area of the region.
+    /// Area of the region, in squared units of the coordinates.
     pub(super) area: f64,
-    /// Centroid of the region, weighted by the map.
+    /// Centroid of the region, weighted by the map; `None` if the region has no area.
     pub(super) centroid: Option<Point>,
-    /// Flag that the region is cut off by the edge of the map, where the map has not yet fallen
+    /// `true` if the region is cut off by the edge of the map, where the map has not yet fallen
     /// below the level.
     pub(super) cut: bool,
     /// Outlines of the region, longest first.
     pub(super) contours: Vec<Contour>,
 }
 
-/// Line along which a map has a given level.
+/// Line along which a map has a given value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
     /// Places along the line, in order; a closed line does not repeat its first place.
     pub places: Vec<Point>,
-    /// Flag of a line that returns to its beginning; otherwise it ends at the edge of the map.
+    /// `true` if the line returns to its first place, `false` if it ends at the edge of the map.
     pub closed: bool,
 }
 
@@ -45,14 +45,15 @@ impl Contour {
 
 /// Computes the region in which the map, linear in each triangle, is at least `level`.
 ///
-/// Sums are taken relative to `origin`, to avoid cancellation in windows far from the origin of the
-/// coordinates.
+/// Sums are taken relative to `origin`, a point near the map, to avoid cancellation in windows far
+/// from the origin of the coordinates.
 pub(super) fn region(surface: &Surface, values: &[Option<f64>], level: f64, origin: Point) -> Region {
     let (mut area, mut mass, mut moment) = (0., 0., [0.; 2]);
-    // By number of the side: the place where the level crosses it, and the sides to which that
-    // place is joined.
+    // For the index of each crossed side: the place where the level crosses the side, and the other
+    // crossed sides to which the outline continues.
     let mut crossings: BTreeMap<usize, (Point, Vec<usize>)> = BTreeMap::new();
-    // Sides that belong to one triangle only, with a corner in the region.
+    // Sides at the edge of the map, which belong to one triangle only, if an end lies in the
+    // region.
     let mut border: BTreeSet<usize> = BTreeSet::new();
     for triangle in &surface.triangles {
         let Some(corners) = surface.valued(triangle, values) else { continue };
@@ -106,7 +107,7 @@ pub(super) fn region(surface: &Surface, values: &[Option<f64>], level: f64, orig
     Region { area, centroid, cut: !border.is_empty(), contours }
 }
 
-/// Joins crossings to lines: first those that end at the edge of the map, then the closed ones.
+/// Joins crossings into lines: first the lines that end at the edge of the map, then closed lines.
 fn contours(mut crossings: BTreeMap<usize, (Point, Vec<usize>)>) -> Vec<Contour> {
     let mut lines = Vec::new();
     for open in [true, false] {

@@ -7,25 +7,26 @@ use spade::Triangulation;
 
 /// Interpolation between cones, linear over the Delaunay triangles that lie in the window.
 ///
-/// A triangle lies in the window if the midpoints of its sides do. Beyond the hull of the cones,
-/// and in a triangle with a corner that has no value, nothing is defined.
+/// A triangle lies in the window if the midpoints of its three sides lie in the window. The
+/// interpolation is not defined outside these triangles, nor in a triangle of which a corner has no
+/// value.
 #[derive(Clone, Debug)]
 pub(super) struct Surface {
     points: Vec<Point>,
     pub(super) triangles: Vec<Triangle>,
 }
 
-/// Three points and three sides of a triangle, by their indices.
+/// Triangle between three cones, given by the indices of its corners and of its sides.
 ///
-/// Side k runs from corner k to the next. A side has the same number in both triangles that share
-/// it.
+/// Side k runs from corner k to the next corner. A side that two triangles share has the same index
+/// in both of them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Triangle {
     pub(super) corners: [usize; 3],
     pub(super) sides: [usize; 3],
 }
 
-/// A place with the value of the map there.
+/// Place in the window, with the value of a map there.
 pub(super) type Valued = (Point, f64);
 
 impl Surface {
@@ -47,13 +48,13 @@ impl Surface {
         Self { points: points.to_vec(), triangles }
     }
 
-    /// Returns the corners of a triangle with their values; `None` where one has none.
+    /// Returns the corners of a triangle with their values, or `None` if a corner has no value.
     pub(super) fn valued(&self, triangle: &Triangle, values: &[Option<f64>]) -> Option<[Valued; 3]> {
         let [a, b, c] = triangle.corners;
         Some([(self.points[a], values[a]?), (self.points[b], values[b]?), (self.points[c], values[c]?)])
     }
 
-    /// Returns the values of several maps at a place, each `None` where it is not defined.
+    /// Returns the values of several maps at `place`; a map that is not defined there gives `None`.
     pub(super) fn at<const N: usize>(&self, place: Point, maps: &[Vec<Option<f64>>; N]) -> [Option<f64>; N] {
         let found = self.triangles.par_iter().find_map_first(|triangle| {
             let shares = self.shares(triangle, place)?;
@@ -64,8 +65,9 @@ impl Surface {
         found.unwrap_or([None; N])
     }
 
-    /// Returns the barycentric coordinates of a place in a triangle, including its border; `None`
-    /// outside.
+    /// Returns the barycentric coordinates of `place` in a triangle, or `None` if it lies outside.
+    ///
+    /// The border belongs to the triangle.
     pub(super) fn shares(&self, triangle: &Triangle, place: Point) -> Option<[f64; 3]> {
         let [a, b, c] = triangle.corners.map(|k| self.points[k]);
         let (low, high) = (a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
@@ -88,7 +90,8 @@ impl Surface {
     }
 }
 
-/// Returns the interpolated value within a triangle; `None` if a corner has no value.
+/// Returns the mean of the values at a triangle's corners, weighted by the barycentric coordinates
+/// `shares`; `None` if a corner has no value.
 pub(super) fn weighted(values: &[Option<f64>], triangle: &Triangle, shares: [f64; 3]) -> Option<f64> {
     let mut sum = 0.;
     for (&corner, share) in triangle.corners.iter().zip(shares) {

@@ -20,7 +20,8 @@ fn cells(n: usize) -> MapOptions {
     MapOptions { window: LocalWindow::Cells(n), ..MapOptions::default() }
 }
 
-/// Returns a triangular lattice of spacing 1, `columns` × `rows`, that fills a torus.
+/// Returns `columns` × `rows` points of a triangular lattice of spacing 1, and the torus that they
+/// fill.
 fn lattice(columns: u32, rows: u32) -> (Vec<Point>, Rectangle) {
     let height = 3f64.sqrt() / 2.;
     let points = (0..rows)
@@ -138,8 +139,8 @@ fn fovea(seed: u64) -> (Mosaic, Point, impl Fn(f64) -> f64) {
     (mosaic(points, window), Point::new(349.5, 299.5), law)
 }
 
-/// Returns the mean of a density over a square about its peak, which a window of that side
-/// measures.
+/// Returns the mean of the density `law` over a square of side `side` about the fovea, which is
+/// what a local window of that side measures.
 fn over_square(law: impl Fn(f64) -> f64, side: f64) -> f64 {
     const N: i32 = 200;
     let at = |i: i32| (f64::from(i) + 0.5) / f64::from(N) * side - side / 2.;
@@ -214,7 +215,7 @@ fn profiles_follow_the_law_of_density() {
 
 #[test]
 fn regions_of_what_is_linear_are_exact() {
-    // For f = x on [0, 10]² the region f ≥ 4 is 6 × 10, and its centroid weights x by x.
+    // For f = x on [0, 10]² the region f ≥ 4.3 is 5.7 × 10, and its centroid is weighted by x.
     let points: Vec<Point> =
         (0..121).map(|i| Point::new(1e5 + f64::from(i % 11), f64::from(i / 11) - 1e5)).collect();
     let window = Window::rectangle(1e5, -1e5, 1e5 + 10., -1e5 + 10.).unwrap();
@@ -312,7 +313,7 @@ fn options_out_of_range_are_refused() {
 proptest! {
     #[test]
     fn any_small_pattern_has_maps(
-        // On a coarse lattice of coordinates points coincide and lie on the border.
+        // Coordinates on a coarse lattice make points coincide and lie on the border.
         raw in prop::collection::vec((0..9u8, 0..9u8), 0..60), torus: bool, by_side: bool, far in -1e6..1e6f64,
     ) {
         let bounds = Rectangle::new(far, 0., far + 8., 8.).unwrap();

@@ -1,6 +1,7 @@
 //! Pair correlation function g(r) of a stationary pattern, with several edge corrections.
 //!
-//! 1. Visit all pairs of points within reach and weigh each for the pairs that the border hides.
+//! 1. Visit all pairs of points up to the largest distance that matters, and weight each pair to
+//!    compensate for pairs that the border hides.
 //! 2. Collect their distances in a fine histogram and smooth it with the kernel (see `smoother`).
 //! 3. Divide by the number expected for independent points of the same density.
 
@@ -20,7 +21,7 @@ pub(super) use smoother::Smoother;
 use std::f64::consts::TAU;
 use strum::{Display, EnumString, VariantArray, VariantNames};
 
-/// Rule for compensating for the pairs that the border hides.
+/// Rule that compensates for pairs of which one point lies beyond the border and is not seen.
 #[derive(
     Clone,
     Copy,
@@ -42,27 +43,29 @@ use strum::{Display, EnumString, VariantArray, VariantNames};
     parse_err_fn = UnknownChoice::among::<EdgeCorrection>
 )]
 pub enum EdgeCorrection {
-    /// Division of the sum at r by the isotropised set covariance.
+    /// Division of the sum over pairs at distance r by the isotropised set covariance of the
+    /// window.
     ///
-    /// In a w × h window this is 1 − 2r(w+h)/(πwh) + r²/(πwh). Beyond the shorter side, where that
-    /// does not hold, translation weights are used. In a polygon the covariance is averaged over
-    /// directions ([`crate::geometry::SetCovariance`]) and taken as at least .01. On a torus this
-    /// means [`EdgeCorrection::Torus`].
+    /// In a w × h rectangle the covariance is 1 − 2r(w+h)/(πwh) + r²/(πwh). At distances beyond the
+    /// shorter side, where this formula does not hold, translation weights are used instead. In a
+    /// polygon the covariance is averaged over directions ([`crate::geometry::SetCovariance`]) and
+    /// taken as at least .01. On a torus, this choice is replaced by [`EdgeCorrection::Torus`].
     #[default]
     SetCovariance,
-    /// Weight of each pair: the area of the window W divided by |W ∩ (W + Δ)|, at most 100.
+    /// Weight of each pair: |W| / |W ∩ (W + Δ)|, at most 100, where |·| is the area, W the window
+    /// and Δ the vector between the two points.
     ///
     /// In a rectangle this is wh/((w−|Δx|)(h−|Δy|)); in a polygon it is within 2 · 10⁻³ of the
     /// exact value. Source: Ohser & Stoyan (1981), <https://doi.org/10.1002/bimj.4710230602>.
     Translation,
-    /// Weight of each pair: the inverse share, within the window, of the circles around either
-    /// point through the other.
+    /// Weight of each pair: the inverse of the share of a circle that lies in the window. The
+    /// circle is centred on one point of the pair and passes through the other.
     ///
-    /// The weight is the mean over both circles, each at most 100. Source: Ripley (1976),
-    /// <https://doi.org/10.2307/3212829>.
+    /// The weight is the mean over both circles of this kind, with an inverse share of at most 100
+    /// each. Source: Ripley (1976), <https://doi.org/10.2307/3212829>.
     Isotropic,
-    /// Pairs with the images of other points on the torus, so that no pair is hidden; for torus
-    /// windows only.
+    /// Pairing of points with the periodic images of other points, so that no pair is hidden. For
+    /// torus windows only.
     Torus,
     /// No correction, so that g falls with r.
     None,
@@ -70,22 +73,22 @@ pub enum EdgeCorrection {
 
 /// Options for estimating the pair correlation function.
 ///
-/// Lengths are in hexagonal spacings s = √(2/(√3 λ)) of the pattern.
+/// Lengths are in hexagonal spacings s = √(2/(√3 λ)) of the pattern, with λ its density.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PcfOptions {
     /// Shape of the smoothing kernel.
     pub kernel: Kernel,
-    /// Standard deviation σ of the kernel, in spacings: .005–1, default .1.
+    /// Standard deviation σ of the kernel, in hexagonal spacings: .005–1, default .1.
     pub bandwidth: f64,
-    /// Left edge of the first bin, in spacings: at least 1.5 σ (nearer to 0 the kernel reaches
-    /// negative distances), default .15.
+    /// Left edge of the first bin, in hexagonal spacings: default .15, at least 1.5 `bandwidth`,
+    /// because nearer to 0 the kernel extends to negative distances.
     pub r_min: f64,
-    /// Right edge of the last bin, in spacings: above `r_min`, at most 50, default 2.5.
+    /// Right edge of the last bin, in hexagonal spacings: above `r_min`, at most 50, default 2.5.
     pub r_max: f64,
-    /// Number of bins, at whose left edges g is taken: 1–2000, default 200.
+    /// Number of bins: 1–2000, default 200. g is evaluated at the left edges of the bins.
     pub bins: usize,
-    /// Compensation for the pairs that the border hides.
+    /// Edge correction: compensation for the pairs that the border hides.
     pub edge: EdgeCorrection,
 }
 
@@ -128,12 +131,12 @@ impl PcfOptions {
         check((1..=2000).contains(&self.bins), "number of PCF bins", self.bins as f64, "1 to 2000")
     }
 
-    /// Returns the left edges of the bins, in spacings.
+    /// Returns the left edges of the bins, in hexagonal spacings.
     pub fn radii(&self) -> Vec<f64> {
         (0..self.bins).map(|b| self.r_min + b as f64 * self.bin_width()).collect()
     }
 
-    /// Returns the width of a bin, in spacings.
+    /// Returns the width of a bin, in hexagonal spacings.
     fn bin_width(&self) -> f64 {
         (self.r_max - self.r_min) / self.bins as f64
     }
@@ -142,32 +145,33 @@ impl PcfOptions {
 /// Pair correlation function, with the options it was estimated with.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pcf {
-    /// Distances, in hexagonal spacings.
+    /// Distances at which g is evaluated, in hexagonal spacings of the pattern.
     pub r: Vec<f64>,
-    /// Values of g at those distances: 1 for independent points.
+    /// Values of g at the distances `r`; 1 for independent points.
     pub g: Vec<f64>,
     /// Hexagonal spacing of the pattern, in the unit of the coordinates.
     pub spacing: f64,
-    /// Options as used: on a torus the default correction has become [`EdgeCorrection::Torus`].
+    /// Options that were used. On a torus, [`EdgeCorrection::SetCovariance`] has been replaced by
+    /// [`EdgeCorrection::Torus`].
     pub options: PcfOptions,
 }
 
 /// Estimates the pair correlation function of a stationary pattern.
 ///
-/// g(r) = A Σ_{i≠j} k_σ(r − |x_i − x_j|) / (n (n−1) · 2πr · c(r)), with k_σ the kernel and c(r) the
-/// edge correction.
+/// g(r) = A Σ_{i≠j} k_σ(r − |x_i − x_j|) / (n (n−1) · 2πr · c(r)), with A the area of the window, n
+/// the number of points x_i, k_σ the kernel and c(r) the edge correction.
 ///
-/// Distances go into a histogram whose bins are σ/24 or finer; each is spread over four bins by
-/// cubic interpolation, and the histogram is then smoothed. The time is linear in n, and the result
-/// is within 10⁻⁷ of the sum over pairs. Large patterns use all threads, with the same result for
-/// any number of them.
+/// With the Gaussian kernel, distances go into a histogram whose bins are σ/24 or finer. Each
+/// distance is spread over four bins by cubic interpolation, and the histogram is then smoothed.
+/// The time is linear in n, and the result is within 10⁻⁷ of the sum over pairs. Large patterns use
+/// all threads, with the same result for any number of them.
 ///
 /// Sources: Öztireli & Gross (2012), <https://doi.org/10.1145/2366145.2366189>; Illian et al.
 /// (2008), <https://doi.org/10.1002/9780470725160>.
 ///
 /// # Errors
 /// Returns [`StatsError`] if an option is out of range, there are fewer than two points, a point is
-/// not inside the window, or the torus correction is requested in a bounded window.
+/// not inside the window, or the torus correction is requested for a window that is no torus.
 ///
 /// # Examples
 /// ```
@@ -188,7 +192,7 @@ pub fn pcf(points: &[Point], window: &Window, options: &PcfOptions) -> Result<Pc
     estimate(points, window, options, true)
 }
 
-/// Estimates the function as [`pcf`] does, but never hands work to another thread.
+/// Estimates the pair correlation function as [`pcf`] does, but never hands work to another thread.
 pub(crate) fn pcf_on_one_thread(
     points: &[Point],
     window: &Window,
@@ -197,13 +201,14 @@ pub(crate) fn pcf_on_one_thread(
     estimate(points, window, options, false)
 }
 
-/// Number of points from which the work is cut into [`CHUNKS`] parts that may run in parallel.
+/// Least number of points for which the work is split into [`CHUNKS`] parts that may run in
+/// parallel.
 const CHUNKED_FROM: usize = 8192;
-/// Number of parts of a large pattern; fixed, so that the result does not depend on the number of
-/// threads.
+/// Number of parts into which a large pattern is split. It is fixed, so that the result does not
+/// depend on the number of threads.
 const CHUNKS: usize = 32;
-/// Largest number of turns round a torus within reach; windows so thin that a disk holds more are
-/// refused.
+/// Largest permitted ratio of the search distance to the shorter side of a torus; thinner windows
+/// are refused.
 const MAX_TURNS: f64 = 1000.;
 
 /// Estimates g, in parallel if `parallel` is set and the pattern is large.
@@ -297,7 +302,7 @@ fn estimate(
                 .iter()
                 .map(|(plain, far)| if beyond { far.as_ref().unwrap_or(plain) } else { plain }[b])
                 .sum();
-            // Interpolation may leave −10⁻⁹ where there is no pair.
+            // Where there is no pair, interpolation may leave values such as −10⁻⁹.
             (area * sum / (pairs * TAU * r * covariance)).max(0.)
         })
         .collect();

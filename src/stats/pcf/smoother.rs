@@ -4,7 +4,8 @@
 //!    interpolation.
 //! 2. Convolve the grid with the kernel, evaluated at the left edges of the bins only.
 //!
-//! The box and the triangle reach less far; for them each distance is added to its bins directly.
+//! The box and triangle kernels are narrower. With them, each distance is added directly to all
+//! bins that the kernel covers.
 
 use super::PcfOptions;
 use crate::choice::UnknownChoice;
@@ -36,7 +37,8 @@ use strum::{Display, EnumString, VariantArray, VariantNames};
     parse_err_fn = UnknownChoice::among::<Kernel>
 )]
 pub enum Kernel {
-    /// Gaussian exp(−t²/2σ²), cut off at 6.5 σ; the numbers of the paper were made with it.
+    /// Gaussian exp(−t²/2σ²), cut off at 6.5 σ; the numbers of Lanaro et al. (2020) were made with
+    /// it.
     #[default]
     Gaussian,
     /// Constant within √3 σ, 0 beyond.
@@ -46,7 +48,7 @@ pub enum Kernel {
 }
 
 impl Kernel {
-    /// Returns the number of bandwidths beyond which a pair does not count.
+    /// Returns the half-width of the kernel in bandwidths; beyond it the kernel is 0.
     pub(in crate::stats) fn reach(self) -> f64 {
         match self {
             Self::Gaussian => 6.5,
@@ -69,23 +71,26 @@ impl Kernel {
     }
 }
 
-/// Sums Σ weight · k(r − d) over pairs, at the left edges r of the bins.
+/// Running sums of weight · k(r − d) over pairs at distances d, one sum per bin with left edge r.
 pub(in crate::stats) struct Smoother {
     kernel: Kernel,
     bins: usize,
     first: f64,
     bin_width: f64,
     bandwidth: f64,
-    /// Weights on fine nodes for the Gaussian, the sums themselves for other kernels.
+    /// Pair weights spread over the nodes of a fine grid (Gaussian), or the sums per bin (other
+    /// kernels).
     ///
-    /// There are `per_bin` nodes per bin; node 0 is `lead` nodes before the first bin.
+    /// With the Gaussian there are `per_bin` nodes per bin, and node 0 is `lead` nodes before the
+    /// first bin.
     nodes: Vec<f64>,
     per_bin: usize,
     lead: usize,
 }
 
 impl Smoother {
-    /// Prepares empty sums for the bins of `options`; `spacing` is in units of the coordinates.
+    /// Prepares empty sums for the bins of `options`; `spacing` is the hexagonal spacing, in units
+    /// of the coordinates.
     pub(in crate::stats) fn new(options: &PcfOptions, spacing: f64) -> Self {
         let bin_width = options.bin_width() * spacing;
         let bandwidth = options.bandwidth * spacing;
@@ -100,10 +105,10 @@ impl Smoother {
             lead: 0,
         };
         if options.kernel == Kernel::Gaussian {
-            // Cubic interpolation has an error of .07 (node distance/σ)⁴ of the kernel's peak:
-            // 2·10⁻⁷ at σ/24, less in a sum over pairs.
+            // The error of cubic interpolation is .07 (node distance/σ)⁴ times the kernel's peak:
+            // 2·10⁻⁷ at a node distance of σ/24, less in a sum over pairs.
             smoother.per_bin = (24. * bin_width / bandwidth).ceil().max(1.) as usize;
-            // Two more nodes serve the interpolation at either end.
+            // Interpolation needs two more nodes at either end.
             smoother.lead = smoother.half_width() + 2;
             smoother.nodes = vec![0.; (options.bins - 1) * smoother.per_bin + 2 * smoother.lead + 1];
         } else {
@@ -112,12 +117,12 @@ impl Smoother {
         smoother
     }
 
-    /// Returns the number of nodes that the Gaussian of a bin reaches on either side.
+    /// Returns the number of nodes that the Gaussian around a bin covers on either side.
     fn half_width(&self) -> usize {
         (self.kernel.reach() * self.bandwidth * self.per_bin as f64 / self.bin_width).ceil() as usize
     }
 
-    /// Adds a pair at distance `d`.
+    /// Adds a pair at distance `d` with the given weight.
     #[inline]
     pub(in crate::stats) fn add(&mut self, d: f64, weight: f64) {
         match self.kernel {
@@ -151,7 +156,7 @@ impl Smoother {
         }
     }
 
-    /// Returns the sums, one per bin.
+    /// Returns the sums, smoothed with the kernel, one per bin.
     pub(in crate::stats) fn sums(self) -> Vec<f64> {
         if self.kernel != Kernel::Gaussian {
             return self.nodes;
@@ -170,7 +175,7 @@ impl Smoother {
     }
 }
 
-/// Computes an inner product in four interleaved sums, whose additions the processor overlaps.
+/// Computes an inner product as four independent sums, whose additions the processor can overlap.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.; 4];
     let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));

@@ -48,8 +48,8 @@ fn direct(points: &[Point], window: &Window, options: &PcfOptions) -> Vec<f64> {
                             }
                             EdgeCorrection::Translation => translated,
                             EdgeCorrection::Isotropic => {
-                                // The arc inside is counted on 20 000 points of the circle around
-                                // p.
+                                // The share of the circle around p that lies inside is found by
+                                // counting 20 000 of its points.
                                 let m = 20_000;
                                 let inside = (0..m).filter(|&a| {
                                     let angle = TAU * (f64::from(a) + 0.5) / f64::from(m);
@@ -202,8 +202,8 @@ fn independent_points_in_an_l_have_g_1_under_every_correction_but_none() {
     };
     for edge in [EdgeCorrection::SetCovariance, EdgeCorrection::Translation, EdgeCorrection::Isotropic] {
         let mean = mean_of(edge);
-        // The number of points varies between patterns, but at this level that biases no
-        // correction.
+        // The number of points varies between patterns, but that does not bias any correction by as
+        // much as the tolerance.
         assert!(mean.iter().all(|g| (g - 1.).abs() < 0.05), "{edge:?}: {mean:.3?}");
         let far = mean[10..].iter().sum::<f64>() / 20.;
         assert!((far - 1.).abs() < 0.01, "{edge:?}: {far}");

@@ -13,15 +13,16 @@ use crate::geometry::{Point, Window};
 pub use modal::{ModalSpacing, modal_spacing};
 use serde::{Deserialize, Serialize};
 
-/// Largest number of waves; more are refused, because they would fill gigabytes.
+/// Largest number of waves in a spectrum; requests for more are refused, because they would fill
+/// gigabytes.
 const MOST_WAVES: f64 = 5e7;
 
-/// Range of a power spectrum.
+/// Options of a power spectrum.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SpectrumOptions {
-    /// Highest frequency in √λ, the square root of the density (√n in the unit square): .1–20,
-    /// default 4.
+    /// Highest frequency: .1–20, default 4, in units of √λ, the square root of the density (√n in
+    /// the unit square).
     pub max_frequency: f64,
 }
 
@@ -32,10 +33,10 @@ impl Default for SpectrumOptions {
 }
 
 impl SpectrumOptions {
-    /// Checks that the frequency is in its range.
+    /// Checks that the highest frequency is in its range.
     ///
     /// # Errors
-    /// Returns [`StatsError::Option`] if it is not.
+    /// Returns [`StatsError::Option`] if the frequency is out of its range.
     pub fn validate(&self) -> Result<(), StatsError> {
         if (0.1..=20.).contains(&self.max_frequency) {
             return Ok(());
@@ -52,20 +53,23 @@ impl SpectrumOptions {
 /// Power spectrum of a point pattern: 1 on average for independent points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PowerSpectrum {
-    /// Frequencies of the annuli, in √λ: those multiples of 1/√n at which there are waves.
+    /// Frequency of each annulus, in units of √λ, the square root of the density.
+    ///
+    /// The frequencies are those multiples of 1/√n, for n points, at which there are waves.
     pub frequency: Vec<f64>,
     /// Mean power of each annulus.
     pub power: Vec<f64>,
-    /// Anisotropy of each annulus, in dB: 10 log₁₀(s²/P²), with P the mean and s² the variance
-    /// (divisor number − 1) of its power.
+    /// Anisotropy of each annulus, in dB: 10 log₁₀(s²/P²), with P the mean and s² the variance of
+    /// the power of its waves (divisor: number of waves − 1).
     ///
-    /// For one pattern without direction it is about 0 dB, for the mean spectrum of m patterns
-    /// −10 log₁₀ m. `None` where there is a single wave or no variance.
+    /// For one pattern without preferred direction it is about 0 dB; for the mean spectrum of m
+    /// such patterns, about −10 log₁₀ m. `None` for an annulus with a single wave or without
+    /// variance.
     ///
     /// Sources: Ulichney (1987); Lagae & Dutré (2008),
     /// <https://doi.org/10.1111/j.1467-8659.2007.01100.x>.
     pub anisotropy_db: Vec<Option<f64>>,
-    /// Highest wave numbers of the plane, along x and y.
+    /// Highest wave numbers in `plane`, along x and along y.
     highest: [usize; 2],
     /// Frequency of the first wave along x and along y, in √λ.
     step: [f64; 2],
@@ -75,16 +79,18 @@ pub struct PowerSpectrum {
 
 /// Computes the power spectrum of a point pattern.
 ///
-/// It is the periodogram P(k) = |Σ_j exp(−2πi k·x_j)|²/n, averaged over annuli ⌊|k|√A⌉ (Ulichney
+/// The spectrum is the periodogram P(k) = |Σ_j exp(−2πi k·x_j)|²/n of n points x_j. It is averaged
+/// over annuli of equal ⌊|k|√A⌉, the nearest integer to |k|√A, in a window of area A (Ulichney
 /// 1987; Lagae & Dutré 2008, <https://doi.org/10.1111/j.1467-8659.2007.01100.x>). The wave vectors
-/// k are those of the window as a torus, (j/w, l/h) with whole j and l, without 0. The same waves
-/// are used in a window with a border: at them the transform of the window is 0, so the mean
-/// density contributes nothing. The time is linear in n; the power is accurate to 10⁻⁶ of P.
+/// k are (j/w, l/h), with integers j and l that are not both 0, as if the w × h window were a
+/// torus. The same waves are used in a window with a border: the transform of the window is 0 at
+/// these waves, so the mean density contributes nothing. The time is linear in n; the error of the
+/// power is at most 10⁻⁶ of P (of .01 where P is smaller).
 ///
 /// # Errors
 /// Returns [`StatsError`] if there is no point, a point is outside, an option is out of its range,
-/// there are more than 5·10⁷ waves, or the window is a polygon (whose own spectrum would hide that
-/// of the points).
+/// there are more than 5·10⁷ waves, or the window is a polygon (whose own spectrum would hide the
+/// spectrum of the points).
 ///
 /// # Examples
 /// ```
@@ -155,7 +161,7 @@ pub fn spectrum(
     })
 }
 
-/// Running mean and sum of squared deviations (Welford 1962,
+/// Running mean and sum of squared deviations of the power in one annulus (Welford 1962,
 /// <https://doi.org/10.1080/00401706.1962.10490022>).
 #[derive(Clone, Copy, Default)]
 struct Annulus {
@@ -181,13 +187,13 @@ impl Annulus {
 }
 
 impl PowerSpectrum {
-    /// Returns the distance between neighbouring waves along x and along y, in √λ (cycles per
-    /// 1/√density).
+    /// Returns the difference in frequency of neighbouring waves along x and along y, in √λ (cycles
+    /// per 1/√density).
     pub const fn wave_step(&self) -> [f64; 2] {
         self.step
     }
 
-    /// Returns the highest wave numbers of the plane along x and y.
+    /// Returns the highest wave numbers, along x and along y, for which [`Self::at`] has a value.
     pub fn highest(&self) -> [usize; 2] {
         self.highest
     }

@@ -9,14 +9,15 @@ use crate::geometry::{Point, Window, lattice_dual};
 use crate::stats::StatsError;
 use serde::{Deserialize, Serialize};
 
-/// Frequencies among which the ring is sought, in √λ; that of the triangular lattice is
-/// √(2/√3) = 1.075.
+/// Lowest and highest frequency at which the ring is sought, in √λ, with λ the density. The ring of
+/// the triangular lattice lies at √(2/√3) = 1.075.
 const RANGE: (f64, f64) = (0.6, 1.6);
 /// Step between the frequencies that are tried, in √λ.
 const STEP: f64 = 0.01;
 /// Standard deviation of the kernel that averages power over frequency, in √λ.
 const SMOOTHING: f64 = 0.05;
-/// Smallest number of points with a ring: with fewer, too few waves are as long as their spacing.
+/// Least number of points for which a ring is sought. With fewer points, too few waves are as long
+/// as the spacing.
 const FEWEST: usize = 20;
 
 /// First ring of the power of a point pattern, and the spacing that belongs to it.
@@ -26,25 +27,28 @@ const FEWEST: usize = 20;
 pub struct ModalSpacing {
     /// Radius f of the ring, in cycles per unit of the coordinates.
     pub frequency: f64,
-    /// Modal spacing 1/f: the distance between rows of a triangular lattice.
+    /// Modal spacing 1/f: the distance between rows of the triangular lattice whose first ring has
+    /// the frequency f.
     pub row_spacing: f64,
-    /// Distance 2/(√3 f) between neighbours of the triangular lattice with that ring.
+    /// Distance 2/(√3 f) between neighbours of the triangular lattice whose first ring has the
+    /// frequency f.
     ///
-    /// That lattice has 2/(√3 spacing²) = (√3/2) f² points per squared unit.
+    /// This lattice has 2/(√3 spacing²) = (√3/2) f² points per squared unit of the coordinates.
     pub spacing: f64,
     /// Averaged power on the ring: 1 for independent points.
     pub power: f64,
 }
 
 impl PowerSpectrum {
-    /// Finds the ring between .6 and 1.6 √λ.
+    /// Finds the first ring of the spectrum, between .6 and 1.6 √λ, with λ the density of the
+    /// points.
     ///
     /// The ring is the maximum of the power, averaged over frequency with a Gaussian of standard
     /// deviation .05 √λ and refined by a parabola. The number of waves grows with frequency; each
     /// has the weight 1/frequency, so that all frequencies count equally.
     ///
-    /// `window` is that of the points. Returns `None` for fewer than 20 points, if there is no
-    /// maximum within the range, and for a spectrum that ends before 1.75 √λ. Independent points
+    /// `window` is the window of the points. Returns `None` for fewer than 20 points, if there is
+    /// no maximum within the range, and for a spectrum that ends before 1.75 √λ. Independent points
     /// have a maximum too, by chance, with a power near 1.
     pub fn modal(&self, window: &Window) -> Option<ModalSpacing> {
         let n = self.at(0, 0)?;
@@ -59,7 +63,7 @@ impl PowerSpectrum {
         }
         let mut fine = vec![[0.; 2]; (end / STEP) as usize];
         for kx in 0..=columns as isize {
-            // A wave and its opposite have the same power, so half of them are counted.
+            // A wave and its opposite have the same power, so only one of them is counted.
             let first = if kx == 0 { 1 } else { -(rows as isize) };
             for ky in first..=rows as isize {
                 let frequency = (kx as f64 * stretch).hypot(ky as f64 / stretch) / root;
@@ -96,7 +100,7 @@ impl PowerSpectrum {
     }
 }
 
-/// Finds the ring of a pattern as [`PowerSpectrum::modal`] does; `None` if it has none.
+/// Finds the ring of a pattern as [`PowerSpectrum::modal`] does; `None` if there is no ring.
 ///
 /// # Errors
 /// Returns the errors of [`spectrum`]: without points, if a point is outside, or in a polygon.

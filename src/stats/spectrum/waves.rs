@@ -1,4 +1,5 @@
-//! Sums Σ_j exp(−2πi (kx x_j + ky y_j)) over whole kx and ky, for points of the unit torus.
+//! Sums Σ_j exp(−2πi (kx x_j + ky y_j)) over points (x_j, y_j) of the unit torus, for integers kx
+//! and ky.
 //!
 //! Few points and waves are summed directly, others by a non-uniform Fourier transform:
 //!
@@ -16,12 +17,13 @@ use std::f64::consts::{PI, TAU};
 const FEW: usize = 500_000;
 /// Number w of grid cells over which a point is spread, along either axis.
 ///
-/// With the oversampling σ below, aliasing is exp(−πw√(1 − 1/σ)) = 3·10⁻⁹ (Barnett, Magland & af
-/// Klinteberg 2019, eq. 4.1, <https://doi.org/10.1137/18M120885X>).
+/// With the oversampling σ of [`OVERSAMPLING`], aliasing is exp(−πw√(1 − 1/σ)) = 3·10⁻⁹ (Barnett,
+/// Magland & af Klinteberg 2019, eq. 4.1, <https://doi.org/10.1137/18M120885X>).
 const WIDTH: usize = 14;
 /// Number σ of grid points per wavelength of the highest wave, divided by two.
 const OVERSAMPLING: f64 = 1.25;
-/// Shape β of the kernel exp(β(√(1 − z²) − 1)), for that width and oversampling.
+/// Shape β of the kernel exp(β(√(1 − z²) − 1)), for the width [`WIDTH`] and the oversampling
+/// [`OVERSAMPLING`].
 const BETA: f64 = 0.97 * PI * WIDTH as f64 * (1. - 0.5 / OVERSAMPLING);
 
 /// Computes the sums for 0 ≤ kx ≤ `columns` and |ky| ≤ `rows`, at index
@@ -35,7 +37,7 @@ pub(super) fn sums(points: &[[f64; 2]], columns: usize, rows: usize) -> Vec<Comp
     }
 }
 
-/// Computes the sums term by term.
+/// Computes the same sums as [`sums`], term by term.
 pub(super) fn direct(points: &[[f64; 2]], columns: usize, rows: usize) -> Vec<Complex64> {
     let height = 2 * rows + 1;
     let mut sums = vec![Complex64::default(); (columns + 1) * height];
@@ -50,7 +52,7 @@ pub(super) fn direct(points: &[[f64; 2]], columns: usize, rows: usize) -> Vec<Co
     sums
 }
 
-/// Computes the sums by a non-uniform Fourier transform.
+/// Computes the same sums as [`sums`], by a non-uniform Fourier transform.
 ///
 /// Sources: Dutt & Rokhlin (1993), <https://doi.org/10.1137/0914081>; kernel of Barnett et al.
 /// (2019), <https://doi.org/10.1137/18M120885X>.

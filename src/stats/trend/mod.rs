@@ -20,27 +20,30 @@ use serde::{Deserialize, Serialize};
 
 /// Significance level: the probability of calling a variation of [`TREND_TOLERANCE`] significant.
 ///
-/// It also applies to either end of the interval of the variation.
+/// Either end of [`Trend::variation_interval`] has the same level.
 pub const TREND_LEVEL: f64 = 0.01;
 
-/// Variation of density, as in [`Trend::variation`], that is tolerated: 10 %.
+/// Largest variation of density that is tolerated, as a share of the mean density: 10 %.
 ///
-/// A gradient of X changes the spacing by X/2 from side to side, with a standard deviation of
-/// X/(2√12) of the spacing, which is 1.4 % at X = 10 %. By calculation, not by measurement, this
-/// lowers the first peak of g(r) by less than 1 % of its height; the peak is at least as wide as
-/// its kernel, 10 % of the spacing. A mosaic relaxed against a straight border varies by 2 % at
-/// n = 80.
+/// The variation is defined in [`Trend::variation`].
+///
+/// If the density changes linearly by a share X from side to side, the spacing changes by X/2. The
+/// standard deviation of the spacing is X/(2√12) of the spacing, which is 1.4 % at X = 10 %. By
+/// calculation, not by measurement, this lowers the first peak of the pair correlation function by
+/// less than 1 % of its height, because the peak is at least as wide as the smoothing kernel, 10 %
+/// of the spacing. In comparison, a mosaic of n = 80 points relaxed against a straight border
+/// varies by 2 %.
 pub const TREND_TOLERANCE: f64 = 0.1;
 
 /// Smallest number of points for which a trend is tested.
 const FEWEST: usize = 20;
-/// Half-periods of the waves along a single axis that measure the scatter of a pattern without
-/// trend.
+/// Numbers of half-periods of the noise waves that run along a single axis. Noise waves measure how
+/// much a pattern scatters without a trend.
 const NOISE_ALONG_AXIS: std::ops::RangeInclusive<usize> = 3..=8;
-/// Number of waves along both axes that measure the same scatter.
+/// Number of noise waves that vary along both axes.
 const NOISE_ACROSS: usize = 12;
-/// Slowest waves, in half-periods along x and y: together they can follow a linear or quadratic
-/// trend.
+/// Waves of the trend, each with its numbers of half-periods along x and y. They are the five
+/// slowest waves; together they can follow a linear or quadratic trend.
 const TREND_WAVES: [(usize, usize); 5] = [(1, 0), (0, 1), (2, 0), (1, 1), (0, 2)];
 
 /// Variation of a pattern's density across its window, and its significance.
@@ -49,7 +52,8 @@ const TREND_WAVES: [(usize, usize); 5] = [(1, 0), (0, 1), (2, 0), (1, 1), (0, 2)
 /// is false.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Trend {
-    /// Probability of a trend this strong in a pattern whose density varies by [`TREND_TOLERANCE`].
+    /// Probability of a trend at least as strong as the observed one in a pattern whose density
+    /// varies by [`TREND_TOLERANCE`].
     pub p_value: Option<f64>,
     /// Size of the slow variation of density as a share of its mean, with the contribution of
     /// chance removed.
@@ -57,17 +61,20 @@ pub struct Trend {
     /// It is √12 times the root mean square of the variation. In a rectangle this is the difference
     /// between opposite edges of an equally strong linear gradient.
     pub variation: Option<f64>,
-    /// Confidence interval (98 %) of the variation.
+    /// Lower and upper end of the 98 % confidence interval of `variation`.
     pub variation_interval: Option<(f64, f64)>,
-    /// Ratio of the greatest to the smallest density in the window by a quadratic fit, at most 100;
-    /// above 1 by chance alone.
+    /// Ratio of the greatest to the smallest density in the window by a quadratic fit, at most 100.
+    ///
+    /// Even without a trend, the ratio is above 1 by chance.
     pub density_ratio: Option<f64>,
-    /// Change of density from the left to the right edge, as a share of its mean (linear part of
-    /// the fit).
+    /// Change of density from the left to the right edge, as a share of the mean density, by the
+    /// linear part of a quadratic fit.
     pub change_x: Option<f64>,
-    /// Change of density from the upper to the lower edge, as a share of its mean.
+    /// Change of density from the upper to the lower edge, as a share of the mean density, by the
+    /// linear part of a quadratic fit.
     pub change_y: Option<f64>,
-    /// Flag of a p-value below [`TREND_LEVEL`]: the variation is more than [`TREND_TOLERANCE`].
+    /// `true` if the variation is significantly above [`TREND_TOLERANCE`]: `p_value` is below
+    /// [`TREND_LEVEL`].
     pub significant: bool,
 }
 
@@ -75,27 +82,27 @@ pub struct Trend {
 ///
 /// A regular pattern scatters far less than a Poisson pattern, so the usual test of quadrat counts
 /// against the Poisson variance detects nothing in it. Here the scatter is estimated from the
-/// pattern itself, as in a regression. Without a trend, the points' sums over cosine waves across
-/// the window have zero mean and nearly the same variance (λ times the structure factor), as long
-/// as the waves are much longer than the spacing. The five slowest waves hold any linear or
-/// quadratic trend; the next 24 measure the noise.
+/// pattern itself, as in a regression. Without a trend, the sums of cosine waves over the points
+/// have zero mean and nearly the same variance (λ times the structure factor), as long as the waves
+/// are much longer than the spacing. The five slowest waves represent any linear or quadratic
+/// trend; the next 24 measure the noise.
 ///
 /// No mosaic has an exactly constant density, and nearly crystalline ones scatter so little that
 /// the smallest variation would be significant. The test is therefore whether density varies by
 /// more than [`TREND_TOLERANCE`].
 ///
-/// The density of this particular pattern is judged. A pattern whose slow waves scatter more than
-/// its faster ones is reported even if it is one of many whose average density is even. Lloyd's
-/// method, for example, smooths variations of density as diffusion does: each step multiplies a
-/// wave of k radians per length by exp(−.15 k²/λ) (fitted by eye to patterns of 80 and 300 points,
-/// 10 and 50 steps). After fewer than n steps, the waves across the window are still largely the
-/// random ones of the starting pattern.
+/// The test judges the density of the given pattern itself. If its slow waves are stronger than its
+/// faster ones, a trend is reported, even if the average density of many patterns of the same kind
+/// is constant. Lloyd's method, for example, smooths variations of density as diffusion does. Each
+/// step multiplies a wave of k radians per length by exp(−.15 k²/λ) (fitted by eye to patterns of
+/// 80 and 300 points, 10 and 50 steps). After fewer than n steps, the variation across the window
+/// is still largely that of the random starting pattern.
 ///
 /// The structure factor of a regular pattern may rise with frequency. Trends are then reported too
 /// rarely, not too often.
 ///
-/// In a polygon the same waves, across its bounds, are made orthonormal over the polygon, slow ones
-/// first.
+/// In a polygon, the same waves run across its bounding box and are made orthonormal over the
+/// polygon, the slowest first.
 ///
 /// The density itself is fitted by a series of Legendre polynomials up to degree 2; in a polygon,
 /// by least squares over its area.
@@ -157,9 +164,10 @@ pub fn trend(points: &[Point], window: &Window) -> Trend {
     }
 }
 
-/// Returns the slowest waves along both axes after those of the trend.
+/// Returns the slowest waves that vary along both axes, without those of the trend.
 ///
-/// `aspect` is height over width of the window; waves are ordered by periods per length.
+/// `aspect` is the height of the window divided by its width. Waves are sorted by frequency
+/// (periods per length), the slowest first.
 fn noise_across(aspect: f64) -> Vec<(usize, usize)> {
     let most = NOISE_ACROSS + 1;
     let mut modes: Vec<(usize, usize)> = (1..=most)
@@ -201,9 +209,10 @@ mod tests {
 
     /// Returns the samplers whose patterns should have no trend.
     ///
-    /// They are those that mosaics are compared with by default (growing a cone model thousands of
-    /// times takes minutes), the other fast ones, and Lloyd's with the 3n steps that it takes to
-    /// even out variations as wide as the window.
+    /// They are the samplers with which mosaics are compared by default, a few other fast ones, and
+    /// Lloyd's method with 3n steps, as many as it needs to even out variations as wide as the
+    /// window. Samplers that grow a cone model are left out, because growing it thousands of times
+    /// takes minutes.
     fn stationary(n: usize) -> impl Iterator<Item = &'static dyn Sampler> {
         let lloyd: &dyn Sampler = Box::leak(Box::new(Lloyd { steps: 3 * n, ..Lloyd::DEFAULT }));
         let others = crate::sample::samplers()

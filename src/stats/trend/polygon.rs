@@ -1,25 +1,26 @@
-//! Waves and polynomials over a polygon: orthonormal sums, and least squares.
+//! Sums of orthonormal waves over the points in a polygon, and least-squares fits of polynomials.
 //!
-//! Over a polygon the cosine waves are not orthogonal. Their mean products are integrated along the
-//! outline (Green's theorem), and a Cholesky decomposition of that Gram matrix makes the waves
-//! orthonormal.
+//! Cosine waves are orthogonal over a rectangle, but not over a polygon. The means of their
+//! products are therefore integrated along the outline of the polygon (Green's theorem), and a
+//! Cholesky decomposition of the resulting Gram matrix makes the waves orthonormal.
 
 use super::waves::waves;
 use crate::geometry::{Point, Polygon};
 use crate::numeric::Cholesky;
 use std::f64::consts::{PI, SQRT_2};
 
-/// Number of pieces of the shorter side of the bounds; on a piece of that length integrands are
-/// smooth.
+/// Integrals along the outline are taken over pieces no longer than the shorter side of the bounds
+/// divided by this number; on such a piece the integrands are smooth.
 const PIECES: f64 = 16.;
-/// Share below which the rest of a wave, after earlier ones are subtracted, carries no information
-/// of its own.
+/// A wave or polynomial counts as dependent on earlier ones if at most this share of its mean
+/// square is left after their parts are subtracted.
 const LEAST_OWN: f64 = 1e-3;
 
-/// Returns, for each group of modes, the mean square of the points' sums over its waves.
+/// Returns one value per group of waves: the mean square of the sums of its waves over the points.
 ///
-/// The waves cos(jπu)·cos(kπv) are made orthonormal over the polygon and orthogonal to 1, in the
-/// order given. `unit` are the points in units of the polygon's bounds.
+/// Each mode (j, k) is the wave cos(jπu)·cos(kπv). The waves are made orthonormal over the polygon
+/// and orthogonal to 1, in the order given. `unit` holds the points in coordinates (u, v) in which
+/// the polygon's bounds are the unit square.
 pub(super) fn mean_squares<const N: usize>(
     polygon: &Polygon,
     unit: &[(f64, f64)],
@@ -49,11 +50,11 @@ pub(super) fn mean_squares<const N: usize>(
     })
 }
 
-/// Returns the coefficients c of the function Σ c·term whose mean products with the terms over the
-/// polygon are `means`.
+/// Returns the coefficients c for which the function Σ c·term has the mean products `means` with
+/// the terms, averaged over the polygon.
 ///
-/// Terms are polynomials of (u, v) in units of the bounds, of degree at most 2 in u. Returns `None`
-/// if the terms are not independent.
+/// Terms are polynomials in (u, v), coordinates in which the polygon's bounds are the unit square,
+/// and have degree at most 2 in u. Returns `None` if the terms are linearly dependent.
 pub(super) fn least_squares<const N: usize>(
     polygon: &Polygon,
     terms: [impl Fn((f64, f64)) -> f64; N],
@@ -82,7 +83,9 @@ pub(super) fn least_squares<const N: usize>(
     (0..N).all(|k| factor.is_own(k)).then_some(solution)
 }
 
-/// Returns places on the outline, in units of the bounds, with their weights along v.
+/// Returns places (u, v) on the outline with their weights for integrals along v.
+///
+/// The polygon's bounds are the unit square in the coordinates (u, v).
 fn rule(polygon: &Polygon) -> impl Iterator<Item = (f64, f64, f64)> {
     let b = polygon.bounds();
     let nodes = polygon.boundary_rule(b.width().min(b.height()) / PIECES);
@@ -93,14 +96,14 @@ fn rule(polygon: &Polygon) -> impl Iterator<Item = (f64, f64, f64)> {
     })
 }
 
-/// Means of cos(aπu)·cos(bπv) over a polygon.
+/// Means of cos(aπu)·cos(bπv) over a polygon, for all integers a and b below `side`.
 struct CosineIntegrals {
     side: usize,
     means: Vec<f64>,
 }
 
 impl CosineIntegrals {
-    /// Integrates all means with frequencies up to `most` along the outline.
+    /// Computes the means for a and b up to `most`, by integration along the outline.
     fn new(polygon: &Polygon, most: usize) -> Self {
         let side = most + 1;
         let mut means = vec![0.; side * side];
@@ -122,8 +125,9 @@ impl CosineIntegrals {
         Self { side, means }
     }
 
-    /// Returns the mean of the product of two waves, each with a factor √2 where its frequency is
-    /// not 0.
+    /// Returns the mean over the polygon of the product of the waves (j, k) and (l, m).
+    ///
+    /// A wave has one factor √2 for each of its two frequencies that is not 0.
     fn product(&self, (j, k): (usize, usize), (l, m): (usize, usize)) -> f64 {
         let norm = |k: usize| if k == 0 { 1. } else { SQRT_2 };
         let mean = |a: usize, b: usize| self.means[a * self.side + b];
@@ -168,8 +172,8 @@ mod tests {
     fn a_plane_is_fitted_exactly() {
         let polygon = l_shape();
         let terms = [|_: (f64, f64)| 1., |(u, _): (f64, f64)| u, |(_, v): (f64, f64)| v];
-        // Mean products of 1 + 2u − v with the terms follow from those of the terms with each
-        // other.
+        // Mean products of 1 + 2u − v with the terms follow from the mean products of the terms
+        // with each other.
         let gram = |a: usize, b: usize| {
             let sums = rule(&polygon).map(|(u, v, w)| {
                 let u_power = i32::from(a == 1) + i32::from(b == 1);

@@ -6,17 +6,20 @@
 use super::{TREND_LEVEL, TREND_WAVES};
 use statrs::distribution::{ContinuousCDF, Normal};
 
-/// Degrees of freedom of the scatter: 2/(2·(4/5)²/12 + 2·(1/5)²/12), rounded down.
+/// Degrees of freedom of the noise, 2/(2·(4/5)²/12 + 2·(1/5)²/12), rounded down.
+///
+/// The noise is 4/5 of the mean square of 12 waves plus 1/5 of the mean square of 12 others.
 ///
 /// Source: Satterthwaite (1946), <https://doi.org/10.2307/3002019>.
 const NOISE_FREEDOM: f64 = 17.;
 
-/// Variation of density from the trend's waves and those of the noise, as shares of the mean
-/// density.
+/// Size of the variation of density, relative to the mean density, from the waves of the trend and
+/// those of the noise.
 pub(super) struct Size {
-    /// Root mean square of the variation shown by the sums over the trend's waves, chance included.
+    /// Root mean square of the variation that the waves of the trend show, including the
+    /// contribution of chance.
     observed: f64,
-    /// Contribution of chance to its square: five times the noise of a single wave.
+    /// Contribution of chance to the square of `observed`: five times the noise of a single wave.
     chance: f64,
 }
 
@@ -24,8 +27,10 @@ impl Size {
     /// Number of waves of the trend.
     const WAVES: f64 = TREND_WAVES.len() as f64;
 
-    /// Computes the variation from the mean squares of the sums of `n` points over the trend's and
-    /// the noise's waves.
+    /// Computes the size from sums of waves over `n` points.
+    ///
+    /// `strength` is the mean square of the sums for the waves of the trend, `scatter` the mean
+    /// square for the waves of the noise.
     pub(super) fn new(strength: f64, scatter: f64, n: usize) -> Self {
         let per_square = Self::WAVES / (n as f64).powi(2);
         Self { observed: (per_square * strength).sqrt(), chance: per_square * scatter }
@@ -36,16 +41,19 @@ impl Size {
         (12. * (self.observed.powi(2) - self.chance)).max(0.).sqrt()
     }
 
-    /// Returns the standard normal deviate of the observation if density varies by `variation`.
+    /// Returns the standard normal deviate of the observed strength of the trend if the density
+    /// varies by `variation`.
     ///
-    /// - The sum of squares over the trend's waves is 5 + λ noises on average, with variance
-    ///   10 + 4λ, where λ measures the variation. It is treated as a gamma variable with the same
-    ///   two moments (Patnaik 1949, <https://doi.org/10.1093/biomet/36.1-2.202>).
-    /// - It is compared with λ, which is known, plus 5 noises, which are estimated. This has
-    ///   17(1 + λ/5)² degrees of freedom (Satterthwaite 1946,
+    /// - Relative to the noise of one wave, the sum of squares over the five waves of the trend has
+    ///   mean 5 + λ and variance 10 + 4λ, where λ is proportional to the square of the variation.
+    ///   The sum is treated as a gamma variable with the same mean and variance (Patnaik 1949,
+    ///   <https://doi.org/10.1093/biomet/36.1-2.202>).
+    /// - The sum is divided by its expectation: λ, which is known, plus 5 times the noise, which is
+    ///   estimated. This expectation has 17(1 + λ/5)² degrees of freedom (Satterthwaite 1946,
     ///   <https://doi.org/10.2307/3002019>).
-    /// - The F of their ratio is made normal by the formula of Paulson (1942,
-    ///   <https://doi.org/10.1214/aoms/1177731608>); at 1 %, F(5, 17) comes out at 1.01 %.
+    /// - The ratio of the two is treated as an F variable. The formula of Paulson (1942,
+    ///   <https://doi.org/10.1214/aoms/1177731608>) converts it to a normal deviate; for the 1 %
+    ///   point of F(5, 17), the formula gives 1.01 %.
     pub(super) fn deviate(&self, variation: f64) -> f64 {
         let square = variation.powi(2) / 12.;
         // A lattice that fits its window leaves no noise except rounding, hence the lower bounds.
@@ -57,16 +65,16 @@ impl Size {
         ((1. - below) * ratio - (1. - above)) / (below * ratio.powi(2) + above).sqrt()
     }
 
-    /// Returns the probability of an observation at least as strong in a pattern whose density
-    /// varies by `variation`.
+    /// Returns the probability of a trend at least as strong as the observed one in a pattern whose
+    /// density varies by `variation`.
     pub(super) fn chance_of_more(&self, variation: f64) -> f64 {
         Normal::standard().sf(self.deviate(variation))
     }
 
-    /// Returns the interval of variations for which the observation is neither too strong nor too
-    /// weak.
+    /// Returns the confidence interval of the variation: the variations for which the observed
+    /// trend is neither too strong nor too weak.
     ///
-    /// Each end is at the level [`TREND_LEVEL`].
+    /// Either end has the level [`TREND_LEVEL`].
     pub(super) fn interval(&self) -> (f64, f64) {
         let limit = -Normal::standard().inverse_cdf(TREND_LEVEL);
         let most = 12f64.sqrt() * (self.observed + 20. * self.chance.sqrt());
@@ -75,7 +83,8 @@ impl Size {
 
     /// Returns the variation, at most `most`, at which the deviate is `value`.
     ///
-    /// The deviate falls with the variation. If it is below `value` everywhere, the result is 0.
+    /// The deviate falls as the variation grows. If the deviate is below `value` everywhere, the
+    /// result is 0.
     fn variation_at(&self, value: f64, most: f64) -> f64 {
         let (mut low, mut high) = (0., most);
         for _ in 0..60 {

@@ -2,10 +2,11 @@
 
 use std::f64::consts::{PI, SQRT_2};
 
-/// Returns the mean square of the points' sums over waves √2cos(jπx) · √2cos(kπy).
+/// Returns the mean square of the sums of waves √2cos(jπx) · √2cos(kπy) over points of the unit
+/// square.
 ///
-/// Each wave along both axes has mean square 1 over the unit square; where j or k is 0, that factor
-/// is 1.
+/// `modes` holds the pairs (j, k). Where j or k is 0, the factor with this number is 1 instead, so
+/// that every wave has mean square 1 over the unit square.
 pub(super) fn mean_square(unit: &[(f64, f64)], modes: &[(usize, usize)]) -> f64 {
     let most = modes.iter().map(|&(j, k)| j.max(k)).max().unwrap_or(0);
     let (mut across, mut down) = (vec![1.; most + 1], vec![1.; most + 1]);
@@ -20,7 +21,8 @@ pub(super) fn mean_square(unit: &[(f64, f64)], modes: &[(usize, usize)]) -> f64 
     sums.iter().map(|s| s * s).sum::<f64>() / modes.len() as f64
 }
 
-/// Fills `values` with 1, √2cos(πu), √2cos(2πu) …, by cos((j+1)t) = 2 cos t cos jt − cos((j−1)t).
+/// Fills `values` with 1, √2cos(πu), √2cos(2πu) …, by the recurrence cos((j+1)t) = 2 cos t cos jt −
+/// cos((j−1)t).
 pub(super) fn waves(u: f64, values: &mut [f64]) {
     let cosine = (PI * u).cos();
     let (mut before, mut now) = (cosine, 1.);
