@@ -32,6 +32,6 @@ static SHAPED: LazyLock<Shaped> =
 /// et al. (1999), <https://doi.org/10.1364/JOSAA.16.001575>.
 pub static GREEN: Noise = Noise {
     name: "green",
-    about: "clusters at a typical distance, a ring of power at 0.62 √n: by optimisation towards the PCF and spectrum of Ahmed et al. (2015); exactly n",
+    about: "green noise: clusters at a typical distance (ring of power at 0.62 √n), fitted to the PCF and spectrum of Ahmed et al. (2015); exactly n",
     shaped: &SHAPED,
 };
