@@ -48,7 +48,7 @@ impl std::error::Error for ReadError {
 #[derive(Debug, Error)]
 pub enum ReadFault {
     /// The operating system refuses.
-    #[error("cannot be read ({0}): check the path and that it may be read")]
+    #[error("cannot be read ({0}): check that it exists and may be read")]
     Io(io::Error),
     /// More than a coordinate file can sensibly hold.
     #[error("is larger than {limit_mib} MiB, too large for coordinates: give a file of point coordinates")]
@@ -93,15 +93,15 @@ pub enum ReadFault {
     },
     /// A single column.
     #[error(
-        "expected two columns, x and y, separated by comma, semicolon, tab or blanks, found one: {found}; \
-         export both"
+        "expected two columns, x and y, separated by comma, semicolon, tab or blanks, found only one in \
+         {found}: export both"
     )]
     OneColumn {
         /// The line, shortened.
         found: String,
     },
     /// A row with more or fewer cells than the first one.
-    #[error("expected {expected} cells as in the first row, found {found} in {line}: mend the row")]
+    #[error("expected {expected} cells as in the first row, found {found} in {line}: correct the row")]
     Ragged {
         /// Cells of the first row.
         expected: usize,
@@ -111,7 +111,7 @@ pub enum ReadFault {
         line: String,
     },
     /// A quotation mark that opens and does not close on its line.
-    #[error("expected a closing quotation mark on the same line, found none in {line}: mend the row")]
+    #[error("expected a closing quotation mark on the same line, found none in {line}: correct the row")]
     OpenQuote {
         /// The line, shortened.
         line: String,
@@ -127,7 +127,7 @@ pub enum ReadFault {
         found: String,
     },
     /// Two columns of equal rights.
-    #[error("expected one column named {column}, found two of them in {header}: keep the one that is meant")]
+    #[error("expected one column named {column}, found two in {header}: keep only the right one")]
     TwoColumns {
         /// The column.
         column: String,
@@ -136,14 +136,15 @@ pub enum ReadFault {
     },
     /// JSON that is broken, or not a project.
     #[error(
-        "expected a WebPlotDigitizer project (version 3 or 4), found other or broken JSON ({detail}): save the project again"
+        "expected a WebPlotDigitizer project (version 3 or 4), found JSON that is damaged or of another \
+         kind ({detail}): save the project again"
     )]
     Json {
         /// Why.
         detail: String,
     },
     /// An archive that is broken.
-    #[error("expected {expected}, found a broken archive ({detail}): save it again")]
+    #[error("expected {expected}, found a damaged archive ({detail}): save it again")]
     Archive {
         /// What it should be.
         expected: &'static str,
@@ -201,7 +202,7 @@ pub enum ReadFault {
     #[error("{0}")]
     Outline(crate::geometry::PolygonError),
     /// A dataset asked for that is not in the file.
-    #[error("expected a dataset named {wanted}, found {found}: choose one of these")]
+    #[error("expected a dataset named {wanted}, found only {found}: choose one of these")]
     NoSuchDataset {
         /// The name asked for.
         wanted: String,
@@ -210,7 +211,8 @@ pub enum ReadFault {
     },
     /// A pixel origin for coordinates that are not pixels.
     #[error(
-        "expected pixels, since the origin is {origin}, found coordinates in {unit}: leave out the origin"
+        "expected coordinates in px, since the origin is {origin}, found coordinates in \
+         {unit}: leave out the origin"
     )]
     OriginWithoutPixels {
         /// The origin asked for.
@@ -219,7 +221,7 @@ pub enum ReadFault {
         unit: &'static str,
     },
     /// An option out of its range.
-    #[error("the option {option} is {found}: it must be {expected}")]
+    #[error("{option} is {found}: expected {expected}")]
     Option {
         /// The option.
         option: &'static str,
@@ -229,11 +231,11 @@ pub enum ReadFault {
         expected: &'static str,
     },
     /// A scale that is not a positive number.
-    #[error("{0}: mend the row")]
+    #[error("{0}: correct the row")]
     Scale(#[from] crate::mosaic::ScaleError),
     /// The same identifier with two scales.
     #[error(
-        "expected one scale for {identifier}, found another one on line {first_line}: keep the right one"
+        "expected one scale for {identifier}, found another on line {first_line}: keep only the right one"
     )]
     TwoScales {
         /// The identifier, shortened.
@@ -242,7 +244,7 @@ pub enum ReadFault {
         first_line: usize,
     },
     /// The same name with two groups.
-    #[error("expected one group for {name}, found another one on line {first_line}: keep the right one")]
+    #[error("expected one group for {name}, found another on line {first_line}: keep only the right one")]
     TwoGroups {
         /// The name, shortened.
         name: String,
@@ -256,7 +258,7 @@ pub enum ReadFault {
         line: String,
     },
     /// The same identifier with two rows of a manifest.
-    #[error("expected one row for {identifier}, found another one on line {first_line}: keep the right one")]
+    #[error("expected one row for {identifier}, found another on line {first_line}: keep only the right one")]
     TwoRows {
         /// The identifier, shortened.
         identifier: String,
@@ -265,7 +267,8 @@ pub enum ReadFault {
     },
     /// A distance from the fovea that is none.
     #[error(
-        "expected {column} to be a distance, 0 or more, found {value}: give its size, and the direction as meridian"
+        "expected a distance of 0 or more in column {column}, found {value}: give the distance without a \
+         sign, and the direction in the column meridian"
     )]
     Eccentricity {
         /// The column.
@@ -275,22 +278,21 @@ pub enum ReadFault {
     },
     /// A direction from the fovea that is none.
     #[error(
-        "expected the meridian nasal, temporal, superior or inferior (of the retina), found {found}: name one, or leave it empty"
+        "expected the meridian nasal, temporal, superior or inferior (of the retina), found {found}: name \
+         one of these, or leave the cell empty"
     )]
     Meridian {
         /// What it says, shortened.
         found: String,
     },
     /// A box without area.
-    #[error("expected a box with an area (x0 < x1 and y0 < y1), found {line}: mend the row")]
+    #[error("expected a box with an area (x0 < x1 and y0 < y1), found {line}: correct the row")]
     NoBox {
         /// The row, shortened.
         line: String,
     },
     /// The same name for two boxes.
-    #[error(
-        "expected one box named {name} a file, found another one on line {first_line}: rename one of them"
-    )]
+    #[error("expected one box named {name} per file, found another on line {first_line}: rename one of them")]
     TwoBoxes {
         /// The name, shortened.
         name: String,
@@ -298,9 +300,7 @@ pub enum ReadFault {
         first_line: usize,
     },
     /// A row of a scale table without identifier.
-    #[error(
-        "expected an identifier in the first column, found none in {line}: give the start of the file name"
-    )]
+    #[error("expected an identifier in the first column, found none in {line}: give a part of the file name")]
     NoIdentifier {
         /// The row, shortened.
         line: String,
@@ -339,7 +339,10 @@ impl From<ReadFault> for Located {
 #[derive(Debug, Error)]
 pub enum WriteError {
     /// The operating system refuses.
-    #[error("{} cannot be written ({source}): check that the folder exists, may be written and has room", .file.display())]
+    #[error(
+        "{} cannot be written ({source}): check that its folder exists, may be written to and has room",
+        .file.display()
+    )]
     Io {
         /// The file.
         file: PathBuf,
@@ -347,7 +350,11 @@ pub enum WriteError {
         source: io::Error,
     },
     /// A coordinate or score that no reader would take.
-    #[error("{}: point {index} has a coordinate or score that is not a finite number", .file.display())]
+    #[error(
+        "{}: point {index} (counted from 0) has a coordinate or score that is not a finite number: leave \
+         it out",
+        .file.display()
+    )]
     NotFinite {
         /// The file.
         file: PathBuf,
@@ -355,7 +362,7 @@ pub enum WriteError {
         index: usize,
     },
     /// Not one score a point.
-    #[error("{}: {points} points but {scores} scores: give one score a point", .file.display())]
+    #[error("{}: there are {points} points but {scores} scores: give one score per point", .file.display())]
     Scores {
         /// The file.
         file: PathBuf,
