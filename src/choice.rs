@@ -13,7 +13,7 @@ use thiserror::Error;
 
 /// Word that is not among the names of an enum's variants.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[error("“{given}” is none of {}", .choices.join(", "))]
+#[error("“{given}” is not one of {}", .choices.join(", "))]
 pub struct UnknownChoice {
     given: String,
     choices: &'static [&'static str],
@@ -38,7 +38,7 @@ mod tests {
     #[test]
     fn the_error_names_every_choice() {
         let error = "infrared".parse::<Modality>().unwrap_err();
-        assert_eq!(error.to_string(), "“infrared” is none of confocal, split, histology");
+        assert_eq!(error.to_string(), "“infrared” is not one of confocal, split, histology");
         assert_eq!(error.choices(), ["confocal", "split", "histology"]);
     }
 }

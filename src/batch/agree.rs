@@ -60,13 +60,14 @@ impl AgreementOutcome {
         let Some(first) = self.columns.first() else { return String::new() };
         let (images, groups) = (first.agreement.agreement.n, first.agreement.clusters);
         if !self.grouped {
-            return "Intervals take images as independent: if subjects have several, say which belong together."
+            return "Intervals treat images as independent, and are too narrow if a subject has several images: group the images by subject."
                 .to_owned();
         }
         format!(
-            "{images} images of {groups} groups: bias and limits of agreement respect that images of a group err alike \
-             (Bland & Altman 2007; intervals of the limits: Zou 2013). Intervals of intraclass correlations are left out: \
-             they would take images as independent."
+            "{images} images of {groups} groups: bias and limits of agreement allow for correlated errors \
+             of images of the same group (Bland & Altman 2007; intervals of the limits: Zou 2013). \
+             Intervals of intraclass correlations are left out, since they would treat images as \
+             independent."
         )
     }
 }
@@ -95,9 +96,7 @@ pub fn agree_files(
     out: &Path,
 ) -> Result<AgreementOutcome, BatchError> {
     if files.len() < 2 {
-        return Err(BatchError::Tables(
-            "agreement needs two tables or more: give those of each grader".into(),
-        ));
+        return Err(BatchError::Tables("agreement needs at least two tables: give one per grader".into()));
     }
     let mut readings: Vec<Readings> = files.iter().map(|f| Readings::read(f)).collect::<Result<_, _>>()?;
     for k in 0..readings.len() {
@@ -156,7 +155,8 @@ pub fn agree_files(
     if found.is_empty() {
         let labels: Vec<&str> = readings.iter().map(|r| r.label.as_str()).collect();
         return Err(BatchError::Tables(format!(
-            "no image has numbers in the tables of {}: images are paired by file name without folder and extension",
+            "the tables of {} have no numbers for the same image: images are paired by file name without \
+             folder and extension, so make the names agree",
             labels.join(" and ")
         )));
     }
@@ -258,7 +258,7 @@ fn figure(outcome: &AgreementOutcome) -> String {
     let graders = format!("{} − {}", first.graders[0], first.graders[1]);
     let title = if outcome.grouped {
         let clusters = first.agreement.clusters;
-        format!("{graders}; limits of agreement by {clusters} groups of images")
+        format!("{graders}; limits of agreement from {clusters} groups of images")
     } else {
         graders
     };

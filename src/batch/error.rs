@@ -14,7 +14,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum BatchError {
     /// A path that does not exist or cannot be listed.
-    #[error("{path}: {source}: give an existing file or folder", path = path.display())]
+    #[error("{path}: cannot be read ({source}): give an existing file or folder", path = path.display())]
     Unreadable {
         /// Path as it was given.
         path: PathBuf,
@@ -32,7 +32,7 @@ pub enum BatchError {
         expected: Cow<'static, str>,
     },
     /// A result that cannot be written.
-    #[error("cannot write to {path}: {source}: choose another folder for the results", path = path.display())]
+    #[error("cannot write to {path} ({source}): choose another folder for the results", path = path.display())]
     Output {
         /// File or folder that was to be written.
         path: PathBuf,
@@ -41,14 +41,19 @@ pub enum BatchError {
     },
     /// Coordinates whose image is missing, although their window was to be taken from the image.
     #[error(
-        "{file}: no image of that name beside it to take the window from: give the folder of the images, or the window itself: its size WxH, its edges X0,Y0,X1,Y1, the unit square or a file of corners"
+        "{file}: the window is taken from the image of the same name, but there is none: give the folder \
+         of the images, or the window itself: its size WxH, its edges X0,Y0,X1,Y1, the unit square or a \
+         file of corners"
     )]
     NoImage {
         /// Path of the coordinate file.
         file: PathBuf,
     },
     /// A window or crop that leaves nothing of the image.
-    #[error("{file}: the {window} leaves nothing of the image of {width} × {height} px: choose a part of it")]
+    #[error(
+        "{file}: the {window} does not overlap the imaged part of the image ({width} × {height} px): give one \
+         that does"
+    )]
     Nowhere {
         /// Path of the image.
         file: PathBuf,
@@ -60,7 +65,7 @@ pub enum BatchError {
         height: usize,
     },
     /// A crop that leaves nothing of the window of a coordinate file.
-    #[error("{file}: the crop {crop} leaves nothing of the window: choose a part of it")]
+    #[error("{file}: the crop {crop} does not overlap the window: give one that does")]
     NothingCropped {
         /// Path of the coordinate file.
         file: PathBuf,
@@ -69,7 +74,7 @@ pub enum BatchError {
     },
     /// A crop in px or µm for coordinates in the unit square.
     #[error(
-        "{file}: the crop {crop} names a unit, but the coordinates are in the unit square: give it without"
+        "{file}: the crop {crop} has a unit, but the coordinates are in the unit square: leave out px or um"
     )]
     CropUnit {
         /// Path of the coordinate file.
@@ -80,7 +85,8 @@ pub enum BatchError {
     /// A torus that was asked for although the window is a polygon, which has no opposite edges to
     /// join.
     #[error(
-        "{file}: opposite edges can be the same place in a rectangle only, and its window is a polygon: give a window WxH, or do without"
+        "{file}: a torus needs a rectangular window, but this one is a polygon: give a window WxH, or do \
+         not ask for a torus"
     )]
     NoTorus {
         /// Path of the coordinate file.
@@ -96,13 +102,19 @@ pub enum BatchError {
     },
     /// A shrinkage of tissue for a file whose scale is not known. The shrinkage corrects the scale,
     /// so it needs one.
-    #[error("{file}: shrinkage changes micrometres, but no scale is known: give one", file = file.display())]
+    #[error(
+        "{file}: a shrinkage was given, which corrects lengths in µm, but no scale is known: give one",
+        file = file.display()
+    )]
     ShrinkageWithoutScale {
         /// Path of the file that has no scale.
         file: PathBuf,
     },
     /// An input file that lies in the folder of results and could be overwritten.
-    #[error("{file} lies in {folder}, which results are written to: choose another folder for the results", folder = folder.display())]
+    #[error(
+        "{file} lies in {folder}, where results would overwrite it: choose another folder for the results",
+        folder = folder.display()
+    )]
     Overlap {
         /// Path of the input: an image or the table of regions.
         file: PathBuf,
@@ -111,8 +123,8 @@ pub enum BatchError {
     },
     /// A file of coordinates that a person made or corrected and that detections would overwrite.
     #[error(
-        "{path}: holds coordinates that a person has made or corrected: give up the corrections explicitly, or choose \
-         another folder for the results",
+        "{path}: holds coordinates that a person has made or corrected, and they would be replaced: allow \
+         corrections to be replaced (a copy is kept), or choose another folder for the results",
         path = path.display()
     )]
     Foreign {
@@ -122,7 +134,8 @@ pub enum BatchError {
     /// A folder that was to be replaced by results, but holds a file that this program did not
     /// write.
     #[error(
-        "{path}: holds {file}, which is no result of this program: move it away, or choose another folder for the results",
+        "{path}: holds {file}, which is not a result of this program: move it away, or choose another \
+         folder for the results",
         path = path.display()
     )]
     ForeignFolder {
@@ -132,7 +145,7 @@ pub enum BatchError {
         file: String,
     },
     /// An image that failed in this run, while its results from an earlier run stay in place.
-    #[error("{source}; its earlier results stay in {folder}")]
+    #[error("{source}; the results of an earlier run stay in {folder}")]
     Outdated {
         /// The reason why the image failed in this run.
         source: Box<BatchError>,
@@ -140,15 +153,19 @@ pub enum BatchError {
         folder: String,
     },
     /// A result folder into which another command is writing.
-    #[error("{path}: another run is writing into this folder: wait for its end, or choose another folder", path = path.display())]
+    #[error(
+        "{path}: another command is writing into this folder: wait until it has finished, or choose \
+         another folder",
+        path = path.display()
+    )]
     Busy {
         /// Path of the result folder.
         path: PathBuf,
     },
     /// A file of cones that a person has corrected and that a run from the start would replace.
     #[error(
-        "{path}: a person has corrected these cones, and a run from the start would replace them: go on with the earlier run, give \
-         up the corrections explicitly, or choose another folder for the results",
+        "{path}: a person has corrected these cones, and this run would replace them: continue the earlier \
+         run, allow corrections to be replaced (a copy is kept), or choose another folder for the results",
         path = path.display()
     )]
     Corrected {
@@ -157,14 +174,14 @@ pub enum BatchError {
     },
     /// An image whose results would have the name of the list of failures, `failures.csv`.
     #[error(
-        "{file}: its results would be failures.csv, which lists the images that failed: rename the image"
+        "{file}: its results would be written to failures.csv, the list of images that failed: rename the image"
     )]
     Reserved {
         /// Path of the image.
         file: PathBuf,
     },
     /// Coordinates in another unit than pixels, although pixels are needed.
-    #[error("{file}: the coordinates are in {unit}, expected px", unit = unit.symbol())]
+    #[error("{file}: the coordinates are in {unit}, expected px: convert them to px", unit = unit.symbol())]
     NotPixels {
         /// Path of the coordinate file.
         file: PathBuf,
@@ -250,6 +267,6 @@ pub enum BatchError {
     #[error(transparent)]
     Report(#[from] ReportError),
     /// A record that cannot be written as JSON.
-    #[error("cannot write JSON: {0}")]
+    #[error("the results cannot be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
 }

@@ -222,7 +222,8 @@ fn write(all: &Everything, results: &PaperResults, out: &OutputFolder) -> Result
     let figure = figure(all, results)?;
     out.write("figure1.svg", figure.as_bytes())?;
     let made = format!(
-        "Made by conemosaic {} paper, seed {}, {} a sampler and number of points. The same seed makes the same page.",
+        "Made by conemosaic {} paper, seed {}, {} per sampler and number of points. The same seed makes \
+         the same page.",
         env!("CARGO_PKG_VERSION"),
         results.seed,
         counted(results.patterns, "pattern"),

@@ -102,7 +102,7 @@ const HOPELESS: f64 = 0.1;
 #[derive(Debug, Error, PartialEq)]
 pub enum DetectError {
     /// The image is too small.
-    #[error("the image is {width} × {height} px: both sides must be at least {MIN_SIDE} px")]
+    #[error("the image is {width} × {height} px: expected at least {MIN_SIDE} × {MIN_SIDE} px")]
     TooSmall {
         /// Width of the image in px.
         width: usize,
@@ -111,7 +111,8 @@ pub enum DetectError {
     },
     /// The part of the image that is not a black margin is too small.
     #[error(
-        "only {imaged_width} × {imaged_height} px of the {width} × {height} px of the image are not black: at least {MIN_SIDE} × {MIN_SIDE} px must be imaged"
+        "only {imaged_width} × {imaged_height} px of the image ({width} × {height} px) are not black: \
+         expected an imaged area of at least {MIN_SIDE} × {MIN_SIDE} px"
     )]
     TooLittleImaged {
         /// Width of the image in px.
@@ -124,13 +125,15 @@ pub enum DetectError {
         imaged_height: usize,
     },
     /// All pixels have the same value.
-    #[error("every pixel of the image is {value}: there is nothing to find")]
+    #[error(
+        "every pixel of the image has the value {value}, so no cones can be found: export the image again"
+    )]
     Constant {
         /// Value of every pixel.
         value: f32,
     },
     /// A pixel is infinite or not a number.
-    #[error("pixel ({x}, {y}) is {value}: pixels must be finite numbers")]
+    #[error("pixel ({x}, {y}) is {value}: expected finite numbers only")]
     NotFinite {
         /// Column of the pixel, from 0.
         x: usize,
@@ -140,19 +143,26 @@ pub enum DetectError {
         value: f32,
     },
     /// The given cone spacing, in px, is outside the range 4–160 px.
-    #[error("a spacing of {0} px is outside {low}–{high} px", low = SPACING_RANGE.0, high = WIDEST_SPACING)]
+    #[error("the spacing is {0} px: expected {low} to {high} px", low = SPACING_RANGE.0, high = WIDEST_SPACING)]
     Spacing(f64),
     /// The given side of the tiles of a spacing map, in spacings, is outside the range 6–60.
-    #[error("tiles of {0} spacings cannot be mapped: give a side of 6 to 60 spacings")]
+    #[error("the side of the tiles is {0} spacings: expected 6 to 60 spacings")]
     TileSide(f64),
     /// The spectrum of the image has no ring between 4 and 40 px, so it shows no regular mosaic.
-    #[error("the spectrum of the image has no ring between {low} and {high} px: it shows no regular mosaic", low = SPACING_RANGE.0, high = SPACING_RANGE.1)]
+    #[error(
+        "the spectrum of the image has no ring at spacings of {low} to {high} px, so no regular mosaic can \
+         be seen: choose a part of the image in which cones are visible",
+        low = SPACING_RANGE.0, high = SPACING_RANGE.1
+    )]
     NoRing,
     /// A model is given together with the classical detector, which uses no model.
-    #[error("the classical detector uses no model: leave out the one or the other")]
+    #[error("the classical detector uses no model: leave out the model, or choose another detector")]
     Unused,
     /// A model is given that was made for images of another modality.
-    #[error("{name} is a model of {own} images: it is not used on {given} ones")]
+    #[error(
+        "{name} is a model for {own} images and cannot be used on {given} images: leave out the model, or \
+         give the right modality"
+    )]
     OtherModality {
         /// Name of the model, as it was given.
         name: String,
@@ -170,7 +180,7 @@ pub enum DetectError {
         source: WeightsError,
     },
     /// The weights compiled into the program are damaged.
-    #[error("the learned detector of {modality} images cannot be read: {source}")]
+    #[error("the built-in network for {modality} images is damaged ({source}): install the program again")]
     Weights {
         /// Modality whose weights are damaged.
         modality: Modality,

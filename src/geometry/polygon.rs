@@ -8,10 +8,10 @@ use std::sync::{Arc, OnceLock};
 #[derive(Clone, Debug, thiserror::Error, PartialEq)]
 pub enum PolygonError {
     /// The rings enclose no area.
-    #[error("the polygon has no area: give at least three corners that do not lie on a line")]
+    #[error("the polygon has no area: give at least three corners that do not lie on one line")]
     NoArea,
     /// A corner has a coordinate that is not finite.
-    #[error("a corner of the polygon is ({x}, {y}): coordinates must be finite numbers")]
+    #[error("a corner of the polygon is ({x}, {y}): expected finite coordinates")]
     NotFinite {
         /// Horizontal coordinate of the corner.
         x: f64,

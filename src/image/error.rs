@@ -39,7 +39,7 @@ pub enum ImageError {
         found: &'static str,
     },
     /// The file begins as it should, but is damaged or cut short further on.
-    #[error("{name}: damaged or cut short {format} ({reason}): copy or export the image again")]
+    #[error("{name}: the {format} file is damaged or incomplete ({reason}): copy or export the image again")]
     Damaged {
         /// Name of the file.
         name: String,
@@ -50,7 +50,8 @@ pub enum ImageError {
     },
     /// The file is sound, but of a kind that is not read.
     #[error(
-        "{name}: {format} of a kind that is not read ({reason}): save it as 8 or 16 bit grey {formats}",
+        "{name}: this kind of {format} image is not supported ({reason}): save it as 8-bit or 16-bit grey \
+         {formats}",
         formats = formats_in_words()
     )]
     Unsupported {
@@ -62,7 +63,7 @@ pub enum ImageError {
         reason: String,
     },
     /// The image has no width or no height.
-    #[error("{name}: {width} × {height} px hold no picture: export the image again")]
+    #[error("{name}: an image of {width} × {height} px has no pixels: export the image again")]
     NoPixels {
         /// Name of the file.
         name: String,
@@ -72,7 +73,7 @@ pub enum ImageError {
         height: u32,
     },
     /// The image needs more memory than is reasonable.
-    #[error("{name}: {size} is too large, at most {limit} can be read: cut the image into parts")]
+    #[error("{name}: {size} is too large, since at most {limit} can be read: cut the image into parts")]
     TooLarge {
         /// Name of the file.
         name: String,
@@ -83,7 +84,8 @@ pub enum ImageError {
     },
     /// The file holds several images.
     #[error(
-        "{name}: holds {pages} pages, expected one image: save the page to be measured (or the average) by itself"
+        "{name}: holds {pages} pages, expected one image: save the page to be measured (or the average of \
+         all) as a file of its own"
     )]
     SeveralPages {
         /// Name of the file.
@@ -93,7 +95,8 @@ pub enum ImageError {
     },
     /// A pixel is infinite or not a number.
     #[error(
-        "{name}: pixel ({x}, {y}) is {value}: every pixel must be a finite number; fill or crop what was not imaged"
+        "{name}: pixel ({x}, {y}) is {value}, expected finite numbers only: fill or crop the parts that \
+         were not imaged"
     )]
     NotFinite {
         /// Name of the file.
@@ -106,7 +109,7 @@ pub enum ImageError {
         value: f32,
     },
     /// The name of the file to be written does not tell its format.
-    #[error("{name}: expected a name that ends in {}", extensions_in_words())]
+    #[error("{name}: the name does not say in which format to write: end it in {}", extensions_in_words())]
     UnknownExtension {
         /// Name of the file.
         name: String,

@@ -106,5 +106,5 @@ fn looks_like(bytes: &[u8]) -> &'static str {
     }
     let start = &bytes[..bytes.len().min(512)];
     let text = start.iter().all(|&b| b >= 0x20 || matches!(b, b'\t' | b'\n' | b'\r'));
-    if text { "text" } else { "something else" }
+    if text { "text" } else { "data of an unknown kind" }
 }

@@ -68,7 +68,7 @@ impl LengthUnit {
 #[derive(Debug, Error, PartialEq)]
 pub enum MosaicError {
     /// A coordinate is infinite or not a number.
-    #[error("point {index} is ({x}, {y}): coordinates must be finite numbers")]
+    #[error("point {index} (counted from 0) is ({x}, {y}): expected finite coordinates")]
     NotFinite {
         /// 0-based index of the point.
         index: usize,

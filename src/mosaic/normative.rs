@@ -224,7 +224,9 @@ impl FromStr for Meridian {
         let text = text.trim().to_lowercase();
         let fits = |m: &Self| text == m.name() || text == m.name()[..1];
         Self::VARIANTS.iter().copied().find(fits).ok_or_else(|| {
-            format!("“{text}” is no meridian: expected nasal, temporal, superior or inferior (of the retina)")
+            format!(
+                "“{text}” is not a meridian: expected nasal, temporal, superior or inferior (of the retina)"
+            )
         })
     }
 }

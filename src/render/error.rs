@@ -19,7 +19,10 @@ pub enum RenderError {
         unit: &'static str,
     },
     /// The image would have more pixels than are allowed.
-    #[error("{width} × {height} px is too large: at most {limit} pixels; make width or height smaller")]
+    #[error(
+        "an image of {width} × {height} px is too large: expected at most {limit} pixels, so make the \
+         width or height smaller"
+    )]
     TooLarge {
         /// Width of the image, in px.
         width: usize,
@@ -29,7 +32,7 @@ pub enum RenderError {
         limit: usize,
     },
     /// A coordinate is infinite or not a number.
-    #[error("point {index} is ({x}, {y}): coordinates must be finite numbers")]
+    #[error("point {index} (counted from 0) is ({x}, {y}): expected finite coordinates")]
     NotFinite {
         /// Index of the point, from 0.
         index: usize,
@@ -51,7 +54,8 @@ pub enum RenderError {
     Window(#[from] WindowError),
     /// There are too few points to tell how large a cone is.
     #[error(
-        "the size of a cone follows from its neighbours, and {found} points are too few: give at least 4, or the spacing"
+        "the size of the cones follows from the distances between the points, and {found} points are too \
+         few: give at least 4 points, or the spacing"
     )]
     SpacingUnknown {
         /// Number of points given.

@@ -96,8 +96,13 @@ impl MosaicOptions {
     pub fn validate(&self) -> Result<(), RenderError> {
         validate_size(self.width, self.height)?;
         check("spacing", self.spacing, (2., 1000.), "px")?;
-        check("gradient", self.gradient, (0.05, 20.), "(density left over right, or middle over surround)")?;
-        check("anisotropy", self.anisotropy, (0.5, 2.), "(spacing along y over spacing along x)")?;
+        check(
+            "gradient",
+            self.gradient,
+            (0.05, 20.),
+            "(density at the left divided by that at the right, or in the middle divided by that around it)",
+        )?;
+        check("anisotropy", self.anisotropy, (0.5, 2.), "(spacing along y divided by spacing along x)")?;
         check("jitter", self.jitter, (0., 0.5), "spacings")
     }
 }

@@ -28,28 +28,40 @@ impl Preset {
 pub const PRESETS: [Preset; 8] = [
     Preset {
         name: "fovea",
-        about: "confocal, foveal centre: 5 px in the middle, density falling 3:1",
+        about: "confocal, foveal centre: spacing 5 px in the middle, density falling to a third",
         make: fovea,
     },
     Preset {
         name: "parafovea",
-        about: "confocal, 9 px, with multimodal, dim and missing cones",
+        about: "confocal, spacing 9 px, with multimodal, dim and missing cones",
         make: parafovea,
     },
-    Preset { name: "periphery", about: "confocal, 20 px: wide multimodal cones among rods", make: periphery },
-    Preset { name: "split", about: "split detector, 14 px, without rods", make: split },
+    Preset {
+        name: "periphery",
+        about: "confocal, spacing 20 px: wide multimodal cones among rods",
+        make: periphery,
+    },
+    Preset { name: "split", about: "split detector, spacing 14 px, without rods", make: split },
     Preset {
         name: "split-periphery",
-        about: "split detector, 24 px: cones among rods",
+        about: "split detector, spacing 24 px: cones among rods",
         make: split_periphery,
     },
-    Preset { name: "histology", about: "bright discs with a thin outline, of varying size", make: histology },
+    Preset {
+        name: "histology",
+        about: "histology: bright discs of varying size with a thin outline",
+        make: histology,
+    },
     Preset {
         name: "nomarski",
-        about: "discs in interference contrast, lit from a side, among rods",
+        about: "histology in interference contrast: discs lit from one side, among rods",
         make: nomarski,
     },
-    Preset { name: "electron", about: "dark membranes around grainy cells, sharp", make: electron },
+    Preset {
+        name: "electron",
+        about: "electron microscopy: grainy cells with sharp, dark membranes",
+        make: electron,
+    },
 ];
 
 fn of(modality: Modality, side: usize) -> RenderOptions {

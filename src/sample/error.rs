@@ -5,7 +5,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SampleError {
     /// No sampler has the name asked for.
-    #[error("there is no sampler “{name}”{hint}: there are {names}")]
+    #[error("there is no sampler “{name}”{hint}: choose from {names}")]
     Unknown {
         /// Name that was asked for.
         name: String,
@@ -27,7 +27,7 @@ pub enum SampleError {
         known: String,
     },
     /// A parameter cannot have the value asked for.
-    #[error("{sampler}: {parameter}={value} is not possible: expected a number, {expected}")]
+    #[error("{sampler}: {parameter}={value} is not allowed: expected a number ({expected})")]
     Value {
         /// Name of the sampler.
         sampler: &'static str,
@@ -40,7 +40,8 @@ pub enum SampleError {
     },
     /// The power cells could not be given equal masses.
     #[error(
-        "{sampler}: the masses of {n} cells stay {error:.1e} (relative) apart: use another n or seed, or a smoother density"
+        "{sampler}: the {n} cells could not be given equal masses (they still differ by {error:.1e} of a \
+         mass): use another n or seed, or a smoother density"
     )]
     Unequal {
         /// Name of the sampler.
@@ -51,7 +52,7 @@ pub enum SampleError {
         error: f64,
     },
     /// More points were asked for than fit into memory.
-    #[error("{n} points were asked for: at most {max} can be made")]
+    #[error("{n} points were asked for, but at most {max} can be made: ask for fewer")]
     TooMany {
         /// Number of points asked for.
         n: usize,
@@ -59,7 +60,10 @@ pub enum SampleError {
         max: usize,
     },
     /// The window is so long and thin that a pattern in it has no meaning.
-    #[error("the window is {aspect:.3e} times as long as wide: at most {max:.0e} is possible")]
+    #[error(
+        "the window is {aspect:.3e} times as long as wide, but at most {max:.0e} is possible: use a wider \
+         window"
+    )]
     TooThin {
         /// Ratio of the longer side to the shorter one.
         aspect: f64,
@@ -104,7 +108,7 @@ impl SampleError {
         let names: Vec<&str> = parameters.iter().map(|p| p.name).collect();
         let known = match names.is_empty() {
             true => "it has no parameters".to_owned(),
-            false => format!("it has {}", names.join(", ")),
+            false => format!("choose from {}", names.join(", ")),
         };
         Self::UnknownParameter { sampler, name: name.to_owned(), hint: hint(name, &names), known }
     }

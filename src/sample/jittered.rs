@@ -18,7 +18,7 @@ impl Sampler for Jittered {
     }
 
     fn about(&self) -> &'static str {
-        "one uniform point in each of n near-square cells of equal area (Cook 1986); exactly n"
+        "one uniform point in each of n nearly square cells of equal area; exactly n (Cook 1986)"
     }
 
     fn exact(&self) -> bool {

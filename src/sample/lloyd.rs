@@ -90,7 +90,7 @@ impl Settable for Lloyd {
         range: (0., 1_000_000.),
         whole: true,
         unset: "",
-        meaning: "moves of all points to the centroids of their Voronoi cells; 0 leaves them uniform",
+        meaning: "number of moves of all points to the centroids of their Voronoi cells; 0 leaves them uniform",
         get: |s| Some(s.steps as f64),
         set: |s, v| s.steps = v as usize,
     }];

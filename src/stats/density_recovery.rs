@@ -153,7 +153,7 @@ pub fn density_recovery(
     let weights = EdgeWeights::new(window);
     let wanted = (options.r_max * spacing / width).ceil();
     if wanted > MOST_BINS {
-        let range = "at most 1e5: choose a larger width";
+        let range = "at most 1e5, so choose a larger bin width";
         let option = "number of bins of the density recovery";
         return Err(StatsError::Option { option, value: wanted, range });
     }

@@ -5,7 +5,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum StatsError {
     /// An option is out of its range.
-    #[error("{option} is {value}: {range}")]
+    #[error("{option} is {value}: expected {range}")]
     Option {
         /// Name of the option.
         option: &'static str,
@@ -15,7 +15,7 @@ pub enum StatsError {
         range: &'static str,
     },
     /// There are too few points.
-    #[error("{statistic} needs at least {needed} points, there are {found}")]
+    #[error("{statistic} needs at least {needed} points, found {found}: use a larger window")]
     TooFewPoints {
         /// Name of the statistic.
         statistic: &'static str,
@@ -26,7 +26,8 @@ pub enum StatsError {
     },
     /// A point is not finite or lies outside the window.
     #[error(
-        "point {index} is ({x}, {y}), which is not inside the window: leave it out or give the window it was seen in"
+        "point {index} (counted from 0) is at ({x}, {y}), outside the window: leave it out, or give the \
+         window in which it was seen"
     )]
     Outside {
         /// 0-based index of the point.
@@ -46,7 +47,7 @@ pub enum StatsError {
     },
     /// The torus correction was requested for a window with a border.
     #[error(
-        "the torus correction needs a torus window, this one has a border: choose another edge correction"
+        "the torus correction needs a torus, but this window has a border: choose another edge correction"
     )]
     NotATorus,
 }

@@ -132,7 +132,7 @@ pub fn sliding(bounds: &Rectangle, side: f64, step: f64) -> Result<Vec<([usize; 
     let along = |length: f64| ((length - side) / step + 1e-9).floor() + 1.;
     let (columns, rows) = (along(bounds.width()).max(0.), along(bounds.height()).max(0.));
     if columns * rows > MOST {
-        let range = "at most 100000: take a larger step";
+        let range = "at most 100000, so choose a larger step";
         return Err(StatsError::Option { option: "number of regions", value: columns * rows, range });
     }
     let mut boxes = Vec::with_capacity((columns * rows) as usize);

@@ -114,7 +114,7 @@ fn images_of_one_subject_do_not_count_as_independent() {
     place.write("one.csv", FIRST);
     place.write("two.csv", SECOND);
     let alone = place.ok(&["agree", "one.csv", "two.csv", "--out", "alone"]);
-    assert!(alone.stdout.contains("take images as independent"), "{}", alone.stdout);
+    assert!(alone.stdout.contains("treat images as independent"), "{}", alone.stdout);
     let grouped = place.ok(&["agree", "one.csv", "two.csv", "--group-by", "prefix:1", "--out", "grouped"]);
     assert!(grouped.stdout.contains("9 images of 3 groups"), "{}", grouped.stdout);
     let [alone, grouped] =

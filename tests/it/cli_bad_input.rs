@@ -82,7 +82,7 @@ fn the_reasons_say_what_is_wrong() {
     says("pages", "3 pages");
     says("text", "found text");
     says("three", "3 × 3 px");
-    says("truncated", "cut short");
+    says("truncated", "damaged or incomplete");
 }
 
 #[test]
@@ -134,7 +134,11 @@ fn nothing_to_do_is_said_and_nothing_written() {
     place.image("a.png", 1);
     for command in ["run", "detect"] {
         assert!(place.refused(&[command, "empty", "--out", "out"]).contains("no images in empty"));
-        assert!(place.refused(&[command, "gone.png", "--out", "out"]).contains("gone.png: No such file"));
+        assert!(
+            place
+                .refused(&[command, "gone.png", "--out", "out"])
+                .contains("gone.png: cannot be read (No such file")
+        );
         assert!(place.refused(&[command, "a.png", "--out", "file"]).contains("cannot write to file"));
         assert!(place.refused(&[command, "a.png", "--out", "file/sub"]).contains("choose another --out"));
         #[cfg(target_os = "linux")]
@@ -233,7 +237,13 @@ fn windows_that_are_none_are_refused() {
     }
     let outcome = place.run(&["measure", "a.csv", "--out", "out"]);
     assert_eq!(outcome.code, 2);
-    assert!(outcome.stderr.contains("a.csv: no image of that name beside it"), "{}", outcome.stderr);
+    assert!(
+        outcome
+            .stderr
+            .contains("a.csv: the window is taken from the image of the same name, but there is none"),
+        "{}",
+        outcome.stderr
+    );
 }
 
 #[test]

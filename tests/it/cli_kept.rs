@@ -43,7 +43,7 @@ fn notes_that_are_lost_make_all_files_a_persons() {
     place.write("out/.conemosaic/files.sha256", b"\xff\xfe no list");
     let outcome = run(&place, &["--fresh"]);
     assert_eq!(outcome.code, 2);
-    assert!(outcome.stderr.contains("which is no result of this program"), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("which is not a result of this program"), "{}", outcome.stderr);
     let after = place.results("out");
     assert!(before.iter().filter(|(n, _)| n.starts_with("images/")).all(|(n, b)| after.get(n) == Some(b)));
 }

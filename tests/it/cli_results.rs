@@ -39,11 +39,15 @@ fn an_image_that_fails_now_keeps_its_results_and_says_so_beside_them() {
     {
         let outcome = place.run(&arguments);
         assert_eq!(outcome.code, 2, "{}", outcome.stderr);
-        assert!(outcome.stderr.contains("its earlier results stay in images/1"), "{}", outcome.stderr);
+        assert!(
+            outcome.stderr.contains("the results of an earlier run stay in images/1"),
+            "{}",
+            outcome.stderr
+        );
         for (file, bytes) in before.iter().filter(|(file, _)| file.starts_with("images/")) {
             assert_eq!(&place.read_bytes(&format!("out/{file}")), bytes, "{file}");
         }
-        assert!(place.read("out/images/2/FAILED.txt").contains("not part of summary.csv"));
+        assert!(place.read("out/images/2/FAILED.txt").contains("missing from summary.csv"));
         assert!(place.table("out/summary.csv").is_empty());
     }
     place.write("in/1.png", &damaged[..200]);
@@ -183,7 +187,7 @@ fn marks_from_anywhere_get_what_detections_get() {
     let rows = place.table("by_hand/summary.csv");
     assert_eq!((rows[0]["n"].as_str(), rows[1]["n"].as_str()), ("4", "3"));
     assert_eq!((rows[0]["cones_from"].as_str(), rows[0]["detector"].as_str()), ("given", ""));
-    assert!(rows[0]["warnings"].contains("1 point outside the window"), "{}", rows[0]["warnings"]);
+    assert!(rows[0]["warnings"].contains("1 point lies outside the window"), "{}", rows[0]["warnings"]);
     assert_eq!(place.table("by_hand/images/2/points.csv")[1]["x_px"], "12");
     for file in ["figure.svg", "overlay.png", "pcf.csv", "metrics.json"] {
         assert!(place.path(&format!("by_hand/images/1/{file}")).is_file(), "{file}");
@@ -196,14 +200,10 @@ fn marks_from_anywhere_get_what_detections_get() {
     }
     fs::remove_file(place.path("marks/2.csv")).unwrap();
     let outcome = place.run(&["run", "in", "--cones", "marks", "--samplers", "none", "--out", "fewer"]);
-    assert!(
-        outcome.code == 2 && outcome.stderr.contains("no file of cones for it in marks"),
-        "{}",
-        outcome.stderr
-    );
+    assert!(outcome.code == 2 && outcome.stderr.contains("its cones are not in marks"), "{}", outcome.stderr);
     place.write("marks/1.csv", "x,y\n1,1\n");
     let outcome = place.run(&["run", "in/1.png", "--cones", "marks", "--samplers", "none", "--out", "two"]);
-    assert!(outcome.code == 2 && outcome.stderr.contains("are called like it"), "{}", outcome.stderr);
+    assert!(outcome.code == 2 && outcome.stderr.contains("have its name"), "{}", outcome.stderr);
 }
 
 #[test]
@@ -317,7 +317,7 @@ mod unix {
         let place = many();
         let mut child = begun(&place);
         let complaint = place.refused(&RUN);
-        assert!(complaint.contains("another run is writing into this folder"), "{complaint}");
+        assert!(complaint.contains("another command is writing into this folder"), "{complaint}");
         child.kill().unwrap();
         child.wait().unwrap();
         place.ok(&RUN);

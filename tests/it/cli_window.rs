@@ -113,7 +113,11 @@ fn measure_takes_the_same_windows() {
     ]);
     assert!(number(&place.table("4/l_infinity.csv")[0], "jittered") > 0.);
     let torus = place.run(&["measure", "montage.csv", "--window", "hole.csv", "--torus", "--out", "5"]);
-    assert!(torus.code == 2 && torus.stderr.contains("--torus needs a rectangle"), "{}", torus.stderr);
+    assert!(
+        torus.code == 2 && torus.stderr.contains("--torus needs a rectangular window"),
+        "{}",
+        torus.stderr
+    );
 }
 
 #[test]
@@ -125,14 +129,14 @@ fn windows_that_cannot_be_say_why() {
     place.write("far.csv", "500,500\n600,500\n600,600\n");
     place.write("um.csv", "x_um,y_um\n0,0\n50,0\n50,50\n");
     for (file, words) in
-        [("bow.csv", "crosses itself at (25"), ("word.csv", "line 3"), ("none.csv", "is no window")]
+        [("bow.csv", "crosses itself at (25"), ("word.csv", "line 3"), ("none.csv", "is neither a window")]
     {
         let error = place.refused(&["run", "montage.png", "--window", file, "--out", "out"]);
         assert!(error.contains(file) && error.contains(words), "{error}");
     }
     let error = place.refused(&["run", "montage.png", "--window", "50x50um", "--out", "out"]);
     assert!(error.contains("--um-per-px"), "{error}");
-    for (file, words) in [("far.csv", "leaves nothing"), ("um.csv", "--um-per-px")] {
+    for (file, words) in [("far.csv", "does not overlap"), ("um.csv", "--um-per-px")] {
         let outcome = place.run(&["run", "montage.png", "--window", file, "--out", "out"]);
         assert!(outcome.code == 2 && outcome.stderr.contains(words), "{}", outcome.stderr);
     }

@@ -246,7 +246,7 @@ fn imagej_roi_sets_are_opened() {
     let file = read(&set).unwrap();
     assert_eq!(file.points, [[10., 20.], [7., 8.], [9., 10.]].map(Point::from));
     assert_eq!(file.series[1], Series { name: "cones".into(), len: 2 });
-    assert!(failure(&set[..set.len() / 2]).contains("broken archive"));
+    assert!(failure(&set[..set.len() / 2]).contains("damaged archive"));
     assert!(failure(zip(&[])).contains("found none"));
     assert!(failure(zip(&[("xl/workbook.xml", b"<workbook/>")])).contains("save it as CSV"));
     let mut polygon = first.clone();
@@ -283,7 +283,7 @@ fn every_failure_says_where_and_what_to_do() {
     for (text, parts) in [
         ("", &["expected two columns", "empty file", "export it again"][..]),
         ("# only\n\n  \n,,\n", &["empty file"]),
-        ("x,y\n1,2\n3,four\n", &["line 3", "number for y", "“four”", "mend"]),
+        ("x,y\n1,2\n3,four\n", &["line 3", "number for y", "“four”", "correct or delete the row"]),
         ("1,2\n\n# note\nnan,4\n", &["line 4", "finite number for x", "“nan”"]),
         ("x,y\n1,inf\n", &["line 2", "finite", "“inf”"]),
         ("1e999,2\n", &["line 1", "finite"]),

@@ -53,45 +53,54 @@ pub(super) fn warnings_of(
     if let Some(found) = found {
         if found.modality_confidence < CONFIDENT {
             warnings.push(format!(
-                "it is uncertain how the image was taken (confidence {:.2} that it is {}), and with it the detections: give the modality",
-                found.modality_confidence, found.modality
+                "the modality is uncertain ({}, with confidence {:.2}). If it is wrong, so may be the detections \
+                 and every number: give the modality",
+                found.modality, found.modality_confidence
             ));
         }
         let confidence = found.spacing_confidence;
         if confidence < CONFIDENT {
             warnings.push(format!(
-                "the cone spacing is uncertain (confidence {confidence:.2}), and with it the detections: {:.1} px by Yellott's ring, {:.1} px by the density of the cones found; give the spacing if you know it",
+                "the cone spacing is uncertain (confidence {confidence:.2}): {:.1} px from Yellott's ring, \
+                 {:.1} px from the density of the cones found. If it is wrong, cones may be missed or \
+                 counted twice: compare the overlay with the image, and give the spacing if you know it",
                 found.ring_spacing, found.spacing
             ));
         }
     }
     if found.is_none() && whole_numbers(points) {
         warnings.push(
-            "all coordinates are whole numbers: rounding lowers the regularity index (by 6 to 20 % at spacings of 5 to 10 \
-             px) and can change which sampler is closest; export them with decimals if there are any"
+            "all coordinates are whole numbers. Rounding lowers the regularity index (by 6 to 20 % at \
+             spacings of 5 to 10 px) and can change which sampler is closest: export the coordinates with \
+             decimals if you can"
                 .into(),
         );
     }
     if record.n < FEW {
-        warnings.push(format!("only {}: every statistic is uncertain", counted(record.n, "point")));
+        warnings.push(format!(
+            "only {}, so every statistic is uncertain (the regularity index of {FEW} points scatters by \
+             about 15 %): use a larger window if you can",
+            counted(record.n, "point")
+        ));
     }
     let trend = &record.stats.trend;
     if trend.significant {
         let percent = |share: f64| format!("{:.0}", 100. * share);
         let size = trend.variation.zip(trend.variation_interval).map(|(size, (low, high))| {
-            format!(" by about {} % (at least {}, at most {})", percent(size), percent(low), percent(high))
+            format!(" by about {} % (98 % interval {} to {} %)", percent(size), percent(low), percent(high))
         });
         let remedy = match measures.inhomogeneous {
-            Some(_) => "; g_inhomogeneous and g_locally_scaled beside it allow for that",
-            None => "",
+            Some(_) => "compare it with g_inhomogeneous and g_locally_scaled, which allow for the variation",
+            None => "use a smaller window, in which the density is more even",
         };
         warnings.push(format!(
-            "density varies{} across the window: g(r) assumes that it does not{remedy}",
+            "density varies{} across the window, but g(r) and the distances to the samplers assume that it \
+             is constant: {remedy}",
             size.unwrap_or_default()
         ));
     }
     if let Err(error) = &measures.pcf {
-        warnings.push(format!("no pair correlation function: {error}"));
+        warnings.push(format!("no pair correlation function, and so no distances to the samplers: {error}"));
     }
     warnings
 }

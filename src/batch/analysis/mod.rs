@@ -103,11 +103,15 @@ pub(super) fn analyse(
 
     let mut warnings = warnings_of(specimen.found, &record, &measures, mosaic.points());
     if specimen.outside > 0 {
-        let (points, are) = match specimen.outside {
-            1 => ("1 point".to_owned(), "is"),
-            n => (counted(n, "point"), "are"),
+        let [lie, are, they] = match specimen.outside {
+            1 => ["lies", "is", "it is a cone"],
+            _ => ["lie", "are", "they are cones"],
         };
-        warnings.push(format!("{points} outside the window {are} left out"));
+        warnings.push(format!(
+            "{} {lie} outside the window and {are} left out of every number ({} inside): enlarge the window if {they}",
+            counted(specimen.outside, "point"),
+            mosaic.len()
+        ));
     }
     warnings.extend(not_compared(&curves));
     warnings.extend(no_verdicts);
@@ -120,7 +124,7 @@ pub(super) fn analyse(
         .transpose()?;
     let spectrum = plan.spectrum.as_ref().and_then(|(options, _)| {
         spectrum(mosaic.points(), mosaic.window(), options)
-            .inspect_err(|missing| warnings.push(format!("no spectrum: {missing}")))
+            .inspect_err(|missing| warnings.push(format!("no spectrum is written: {missing}")))
             .ok()
     });
     let maps = plan

@@ -50,7 +50,7 @@ impl RoiRequest {
             Some(n) if !(1..=100_000).contains(&n) => Err(crate::stats::StatsError::Option {
                 option: "number of cells of the regions",
                 value: n as f64,
-                range: "it must be 1 to 100000",
+                range: "1 to 100000",
             }
             .into()),
             _ => Ok(()),
@@ -109,7 +109,13 @@ impl RoiRequest {
 /// Returns the factor that converts lengths from the unit of a table to the unit of a mosaic; 1 if
 /// either is in the unit square or the table has no unit.
 fn factor(table: &RoiTable, mosaic: &Mosaic, file: &Path) -> Result<f64, BatchError> {
-    let no_scale = || BatchError::NoScale { what: "one of regions and coordinates", file: file.to_owned() };
+    let no_scale = || BatchError::NoScale {
+        what: match mosaic.unit() {
+            LengthUnit::Micrometre => "the file of coordinates, unlike the table of regions,",
+            LengthUnit::Pixel | LengthUnit::Unit => "the table of regions, unlike the coordinates,",
+        },
+        file: file.to_owned(),
+    };
     match (table.unit(), mosaic.unit()) {
         (None | Some(LengthUnit::Unit), _) | (_, LengthUnit::Unit) => Ok(1.),
         (Some(given), unit) => given.factor_to(unit, mosaic.scale()).ok_or_else(no_scale),

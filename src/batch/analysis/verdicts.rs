@@ -27,7 +27,9 @@ pub(super) fn verdicts_on(
     for sampler in samplers {
         match verdict(pcf, mosaic.len(), mosaic.window(), *sampler, &pcf.options, options, seed) {
             Ok(found) => verdicts.push(found),
-            Err(error) => warnings.push(format!("no verdict: {error}")),
+            Err(error) => {
+                warnings.push(format!("no verdict on {} (no row in verdicts.csv): {error}", sampler.name()));
+            }
         }
     }
     (verdicts, warnings)

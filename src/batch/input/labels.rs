@@ -37,7 +37,7 @@ impl FromStr for GroupBy {
         let names: Vec<String> =
             names.split(',').map(|n| n.trim().to_owned()).filter(|n| !n.is_empty()).collect();
         if names.is_empty() {
-            Err(format!("“{text}”: expected column:NAME"))
+            Err(format!("“{text}” does not name a column: expected column:NAME"))
         } else {
             Ok(Self::Columns(names))
         }
@@ -90,7 +90,8 @@ impl Label {
         let ratio = record.density_per_mm2().zip(record.expected_cones_per_mm2()).map(|(d, e)| d / e);
         if let Some(ratio) = ratio.filter(|r| !(1. / UNLIKELY..=UNLIKELY).contains(r)) {
             warnings.push(format!(
-                "its density is {} times that of the average eye at its eccentricity: check scale, eccentricity and detections",
+                "the density is {} times that of the average eye at this eccentricity: check the scale, \
+                 the eccentricity and the detections",
                 significant(ratio, 2)
             ));
         }
@@ -123,8 +124,8 @@ impl Labels {
                 labels: vec![String::new(); manifest.columns().len()],
                 place: None,
                 warning: Some(format!(
-                    "no row of {} has an identifier that is part of this file's name, so its columns are empty \
-                     here: add a row",
+                    "no row of {} matches the name of this image, so its labels, eccentricity and expected \
+                     density stay empty: add a row for it",
                     manifest.file()
                 )),
             },
@@ -137,9 +138,9 @@ impl Labels {
         let has = self.columns();
         match (names.iter().find(|n| !has.contains(n)), &self.manifest) {
             (None, Some(_)) => Ok(()),
-            (_, None) => Err(BatchError::Group("groups by column need a manifest: give one".into())),
+            (_, None) => Err(BatchError::Group("grouping by column needs a manifest: give one".into())),
             (Some(unknown), Some(manifest)) => Err(BatchError::Group(format!(
-                "{} has no column {unknown} to group by: it has {}",
+                "{} has no column {unknown} to group by: choose from {}",
                 manifest.file(),
                 has.join(", ")
             ))),

@@ -35,13 +35,13 @@ impl Readings {
         let file = if path.is_dir() { &inside } else { path };
         let fail = |problem: String| BatchError::Tables(format!("{}: {problem}", file.display()));
         let bytes = std::fs::read(file).map_err(|e| {
-            fail(format!("cannot be read ({e}): give a summary.csv, or a folder that holds one"))
+            fail(format!("cannot be read ({e}): give a summary.csv, or a folder that contains one"))
         })?;
         let mut reader =
             csv::ReaderBuilder::new().from_reader(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes));
         let header: Vec<String> = reader
             .headers()
-            .map_err(|e| fail(format!("is no CSV: {e}")))?
+            .map_err(|e| fail(format!("is not a CSV file ({e}): save the table as CSV")))?
             .iter()
             .map(|h| h.trim().to_owned())
             .collect();
@@ -49,7 +49,8 @@ impl Readings {
             ["name", "file", "image", "identifier"].iter().find_map(|n| header.iter().position(|h| h == n));
         let Some(key) = key else {
             return Err(fail(
-                "expected a column name or file that names the images, found none: add it to the header"
+                "expected a column with the names of the images (name, file, image or identifier), found \
+                 none: add one"
                     .into(),
             ));
         };
@@ -58,7 +59,7 @@ impl Readings {
         let mut items: BTreeMap<String, Vec<Option<f64>>> = BTreeMap::new();
         for (k, row) in reader.records().enumerate() {
             let line = k + 2;
-            let row = row.map_err(|e| fail(format!("line {line} cannot be read: {e}")))?;
+            let row = row.map_err(|e| fail(format!("line {line}: cannot be read ({e}): correct the row")))?;
             let name = row.get(key).unwrap_or_default().trim();
             let base = name.rsplit(['/', '\\']).next().unwrap_or(name);
             let known = ["csv", "txt", "json", "roi", "zip", "tsv", "tar"].into_iter().chain(extensions());
@@ -67,13 +68,18 @@ impl Readings {
             let ending = known.into_iter().find(|e| ending(e)).map_or(0, |e| e.len() + 1);
             let item = base[..base.len() - ending].trim_end_matches("_coords").to_owned();
             if item.is_empty() {
-                return Err(fail(format!("line {line} names no image: fill column {}", header[key])));
+                return Err(fail(format!(
+                    "line {line}: expected the name of an image in column {}, found an empty cell: fill it \
+                     in",
+                    header[key]
+                )));
             }
             units.extend(unit_column.and_then(|u| row.get(u)).map(|u| u.trim().to_owned()));
             let values = row.iter().map(|c| c.trim().parse().ok().filter(|v: &f64| v.is_finite())).collect();
             if items.insert(item.clone(), values).is_some() {
                 return Err(fail(format!(
-                    "line {line}: {item} stands in the table twice: keep one row per image"
+                    "line {line}: expected one row per image, found a second one for {item}: keep only the \
+                     right one"
                 )));
             }
         }
@@ -172,12 +178,12 @@ fn resolved(readings: &[Readings], asked: &str) -> Result<Chosen, BatchError> {
     let lacks = |r: &&Readings| !candidates.iter().any(|names| r.name_of(names).is_some());
     match readings.iter().find(|r| !has(r) && lacks(r)) {
         Some(r) => Err(BatchError::Tables(format!(
-            "{} has no column {asked}: it has {}",
+            "{} has no column {asked}: choose from {}",
             r.label,
             r.columns.join(", ")
         ))),
         None => Err(BatchError::Tables(format!(
-            "the tables have {asked} in no common unit: measure all of them in px, or give every one a scale"
+            "the tables give {asked} in different units: measure all mosaics in px, or all with a scale"
         ))),
     }
 }

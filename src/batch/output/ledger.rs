@@ -35,9 +35,9 @@ const VOLATILE: &str = "run.json";
 
 /// Content of the file [`MARKER`], for a person who opens the folder too early.
 const MARKER_TEXT: &str = "\
-conemosaic is writing results into this folder, or was cut off while it did.
-Until this file is gone, tables here may belong to an earlier run.
-To finish, run the same command again: what is done is kept.
+conemosaic is writing results into this folder, or was interrupted while it did so.
+As long as this file is here, some tables may belong to an earlier run.
+To finish, run the same command again: results that are complete are kept.
 ";
 
 /// Files in a result folder that do not belong to the run that has just ended.

@@ -38,7 +38,10 @@ impl ResultFolder {
             Err(TryLockError::WouldBlock) => return Err(BatchError::Busy { path: path.to_owned() }),
             // some network drives have no locks: results without a lock are better than none
             Err(TryLockError::Error(error)) => {
-                tracing::warn!("no lock on {}: {error}", path.display());
+                tracing::warn!(
+                    "{} cannot be locked ({error}): make sure that no other command writes into it",
+                    path.display()
+                );
             }
         }
         probe(path).map_err(refused)?;

@@ -47,7 +47,7 @@ impl GivenCones {
             Some([first, second, ..]) => Err(BatchError::Pairing {
                 file: input.path.clone(),
                 problem: format!(
-                    "both {} and {} are called like it: leave one of them",
+                    "both {} and {} have its name: keep only one of them",
                     first.display(),
                     second.display()
                 ),
@@ -55,7 +55,8 @@ impl GivenCones {
             _ => Err(BatchError::Pairing {
                 file: input.path.clone(),
                 problem: format!(
-                    "no file of cones for it in {}: expected {stem}.csv, {stem}_coords.csv or {stem}/{POINTS}",
+                    "its cones are not in {}: expected {stem}.csv, {stem}_coords.csv or {stem}/{POINTS} \
+                     there",
                     self.place.display()
                 ),
             }),

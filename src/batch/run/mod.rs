@@ -150,8 +150,8 @@ impl Job<'_> {
         }
         self.out.keep(&format!("{IMAGES}/{name}/"));
         let note = format!(
-            "The results in this folder are of an earlier run. In the latest one the image failed:\n{}\n\
-             They are not part of summary.csv and the page.\n",
+            "The results in this folder come from an earlier run. In the latest run the image \
+             failed:\n{}\nThese results are missing from summary.csv and index.html.\n",
             progress.words(&error)
         );
         // the failure is reported whether or not the note can be written

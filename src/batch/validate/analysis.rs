@@ -126,13 +126,15 @@ impl Analysis {
             && x * y > 0.
         {
             notes.push(format!(
-                "detections lie {x:+.2} px in x and {y:+.2} px in y from their marks on average: if one of the two \
-                 counts pixels from elsewhere, state the origin of the marks or of the detections"
+                "on average, detections lie {x:+.2} px in x and {y:+.2} px in y from their marks, which \
+                 adds to the localisation error and can lose hits: if the two use different pixel origins, \
+                 state the origin of the marks or of the detections"
             ));
         }
         if self.groups.is_empty() {
             notes.push(
-                "intervals take images as independent: if subjects have several, group them by subject"
+                "intervals treat images as independent, and are too narrow if a subject has several \
+                 images: group them by subject"
                     .into(),
             );
         }
@@ -140,21 +142,23 @@ impl Analysis {
         if let Some(least) = least.filter(|p| *p > 0.05 && *p < 1.) {
             let few = if self.groups.is_empty() { "images" } else { "groups" };
             notes.push(format!(
-                "p of the comparison cannot fall below {least:.4}, however much the two differ: the sign-flip test has too \
-                 few {few}. Of six that differ it can be .03; until then read the intervals"
+                "with so few {few}, the p-value of the comparison cannot fall below {least:.4}, however \
+                 much the two differ: use the intervals instead, or at least six {few} that differ, with \
+                 which p can reach 0.03"
             ));
         }
         let unscored = rows.iter().filter(|r| r.judged.is_none()).count();
         if unscored > 0 && unscored < rows.len() {
             notes.push(format!(
-                "detections of {unscored} of {} images have no scores: no FROC curve, no reliability",
+                "detections of {unscored} of {} images have no scores, so neither the FROC curve nor the \
+                 reliability is computed: give scores for all images",
                 rows.len()
             ));
         }
         if self.froc.is_some() && self.reliability.is_none() {
             notes.push(
-                "scores are not all between 0 and 1, so no probabilities: no reliability, and the FROC curve takes them \
-                 to be comparable between images"
+                "scores are not all between 0 and 1, so they are not probabilities: no reliability is \
+                 computed, and the FROC curve assumes that scores are comparable between images"
                     .into(),
             );
         }
@@ -201,9 +205,10 @@ fn counted(images: &[JudgedImage]) -> Vec<(f64, bool)> {
 fn method(groups: &[GroupSummary], resamples: usize) -> String {
     if groups.is_empty() {
         format!(
-            "95 % intervals: BCa bootstrap, {resamples} resamples of images; of bias and limits, from t (Bland & Altman 1999)"
+            "95 % intervals: BCa bootstrap with {resamples} resamples of the images; those of bias and \
+             limits of agreement from the t distribution (Bland & Altman 1999)"
         )
     } else {
-        format!("95 % intervals: BCa bootstrap, {resamples} resamples of the {} groups", groups.len())
+        format!("95 % intervals: BCa bootstrap with {resamples} resamples of the {} groups", groups.len())
     }
 }

@@ -25,7 +25,7 @@ pub(super) fn write(
     out.write_json("validation.json", &analysis.map(|a| record(a, options)))?;
 
     let mut figures: Vec<(&str, String)> = Vec::new();
-    let mut files = vec![("validation.csv", "a row an image"), ("validation.json", "everything")];
+    let mut files = vec![("validation.csv", "one row per image"), ("validation.json", "all results")];
     let mut made = |name: &'static str, words: &'static str| files.push((name, words));
     if let Some(analysis) = analysis {
         let pairs: Vec<(Score, Score)> =
@@ -45,13 +45,13 @@ pub(super) fn write(
     }
     if let Some(analysis) = analysis.filter(|a| !a.groups.is_empty()) {
         out.write(SUBJECT_GROUPS.file, &SUBJECT_GROUPS.csv(&analysis.groups)?)?;
-        made("groups.csv", "a row a group");
+        made("groups.csv", "one row per group");
     }
     if let Some((analysis, froc)) = analysis.and_then(|a| Some((a, a.froc.as_ref()?))) {
         out.write(FROC.file, &froc_csv(froc)?)?;
         out.write("froc.svg", froc_svg(froc, &analysis.summary, analysis.comparison.as_ref()).as_bytes())?;
         figures.push(("froc.svg", "FROC and precision–recall curves over the threshold of the score".into()));
-        made("froc.csv", "the curve over the score");
+        made("froc.csv", "the FROC curve by threshold of the score");
     }
     if let Some(reliability) = analysis.and_then(|a| a.reliability.as_ref()) {
         out.write(RELIABILITY.file, &RELIABILITY.csv(&reliability.bins)?)?;
@@ -62,10 +62,9 @@ pub(super) fn write(
         out.write("reliability.svg", drawn.as_bytes())?;
         figures.push((
             "reliability.svg",
-            "Reliability: whether scores are the probabilities of a hit; false alarms expected and observed"
-                .into(),
+            "Reliability: the share of hits at each score; false alarms expected and observed".into(),
         ));
-        made("reliability.csv", "hits by bins of the score");
+        made("reliability.csv", "share of hits by bin of the score");
     }
     if let Some(comparison) = analysis.and_then(|a| a.comparison.as_ref()) {
         out.write(COMPARISON.file, &COMPARISON.csv(&comparison.differences)?)?;
@@ -162,8 +161,9 @@ fn page(
     let lead = analysis.map_or_else(String::new, |a| {
         let rates = &a.summary.pooled;
         format!(
-            "{}: {} hits, {} misses, {} false alarms (assignment: {}; a mark reaches {} × the median \
-             nearest-neighbour distance of the marks; {} px along the border do not count). {}.",
+            "{}: {} hits, {} misses, {} false alarms (assignment: {}; a detection lies at most {} × the \
+             median nearest-neighbour distance of the marks from its mark; {} px along the border are not \
+             counted). {}.",
             counted(a.summary.images, "image"),
             rates.tp,
             rates.fn_,
@@ -187,8 +187,8 @@ fn page(
             "false alarms expected",
             "sensitivity",
             "FDR",
-            "localisation px",
-            "density / marks'",
+            "localisation error, px",
+            "density ratio",
         ],
         images: &images,
         failures: &failures.iter().map(|f| (f.file.as_str(), f.reason.as_str())).collect::<Vec<_>>(),

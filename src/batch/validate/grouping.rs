@@ -23,7 +23,7 @@ impl FromStr for Grouping {
         if let Some(count) = text.strip_prefix("prefix:") {
             return match count.parse() {
                 Ok(parts) if parts > 0 => Ok(Self::Prefix(parts)),
-                _ => Err(format!("“{text}”: expected prefix:N, N being 1 or more")),
+                _ => Err(format!("“{text}” is not a valid prefix: expected prefix:N, where N is 1 or more")),
             };
         }
         let pattern = Regex::new(text)
@@ -44,13 +44,19 @@ impl Grouping {
                 let found = pattern.captures(name);
                 let group = found.as_ref().and_then(|c| c.get(1).or_else(|| c.get(0)));
                 group.map(|g| g.as_str().to_owned()).filter(|g| !g.is_empty()).ok_or_else(|| {
-                    format!("“{name}” has no match for {pattern}: give a rule that fits every name, or a manifest with a column of that name")
+                    format!(
+                        "the image “{name}” has no group, because its name does not match “{pattern}”: give \
+                         a rule that fits every name, or a manifest with a column {pattern}"
+                    )
                 })
             }
-            Self::Table(table) => table
-                .group_of(name)
-                .map(str::to_owned)
-                .ok_or_else(|| format!("no row of {} is how “{name}” begins: add it", table.file())),
+            Self::Table(table) => table.group_of(name).map(str::to_owned).ok_or_else(|| {
+                format!(
+                    "the image “{name}” has no group, because no name in {} is the beginning of its name: \
+                     add a row for it",
+                    table.file()
+                )
+            }),
         }
     }
 }

@@ -123,14 +123,16 @@ fn expected(scores: &[f64], matching: &Matching) -> Option<f64> {
 /// the image is needed, which changes the error message.
 fn picture(input: &Input, pairs: &Pairs, pixels_matter: bool) -> Result<Plane, BatchError> {
     let name = image_name(&input.path);
-    let missing = || {
-        match (&pairs.options.images, pixels_matter) {
+    let missing = || match (&pairs.options.images, pixels_matter) {
         (Some(given), _) => nothing_in(given, &format!("image {name}.png or {name}.tif")),
-        (None, true) => format!("no image {name}.png or {name}.tif beside it: give the folder of the images"),
-        (None, false) => {
-            "no image of that name beside it to take the size from: give their size, or the folder of the images".into()
+        (None, true) => {
+            format!("no image {name}.png or {name}.tif lies beside it: give the folder of the images")
         }
-    }
+        (None, false) => {
+            "the size of its image is not known, since no image of its name lies beside it: give the size \
+             of the images, or their folder"
+                .into()
+        }
     };
     let path = pairs
         .image(&input.path)
@@ -143,9 +145,11 @@ fn picture(input: &Input, pairs: &Pairs, pixels_matter: bool) -> Result<Plane, B
 fn nothing_in(given: &Path, sought: &str) -> String {
     let given_as = given.display();
     if given.is_file() {
-        format!("{given_as} is not called like it")
+        format!(
+            "{given_as} has another name, so it does not belong to these marks: give a folder, or the {sought}"
+        )
     } else {
-        format!("no {sought} in {given_as}")
+        format!("no {sought} in {given_as}: add the file, or give another folder")
     }
 }
 

@@ -27,7 +27,8 @@ impl FromStr for Crop {
     fn from_str(text: &str) -> Result<Self, String> {
         let bad = || {
             format!(
-                "“{text}” is no crop: expected WxH (centred) or X0,Y0,X1,Y1, with px or um behind it to name the unit"
+                "“{text}” is not a crop: expected WxH (centred) or X0,Y0,X1,Y1, with px or um at the end \
+                 for the unit"
             )
         };
         let suffixes =

@@ -24,7 +24,8 @@ impl FromStr for Length {
         match body.trim().parse::<f64>() {
             Ok(value) if value.is_finite() && value > 0. => Ok(Self { value, micrometres }),
             _ => Err(format!(
-                "“{text}” is no length: expected a positive number, in the unit of the coordinates, or in µm with um behind it"
+                "“{text}” is not a length: expected a positive number such as 5 (in the unit of the \
+                 coordinates) or 5um (in µm)"
             )),
         }
     }

@@ -46,7 +46,8 @@ impl FromStr for Region {
             (_, _, Some(&[x0, y0, x1, y1])) if x0 < x1 && y0 < y1 => Ok(Self::Edges([x0, y0, x1, y1])),
             _ if Path::new(text).is_file() => Ok(Self::File(text.into())),
             _ => Err(format!(
-                "“{text}” is no window, nor a file: expected auto, image, unit, WxH, X0,Y0,X1,Y1 or a file of corners"
+                "“{text}” is neither a window nor an existing file: expected auto, image, unit, WxH, \
+                 X0,Y0,X1,Y1 or a file of corners"
             )),
         }
     }
@@ -143,7 +144,13 @@ impl<'a> Regions<'a> {
                 scales.scale_of(file, width.round().max(1.) as usize)?
             }
         };
-        let missing = || BatchError::NoScale { what: "one of window and coordinates", file: file.to_owned() };
+        let missing = || BatchError::NoScale {
+            what: match unit {
+                LengthUnit::Micrometre => "the file of coordinates, unlike its window,",
+                LengthUnit::Pixel | LengthUnit::Unit => "the window, unlike the coordinates,",
+            },
+            file: file.to_owned(),
+        };
         let window = match (given, unit) {
             // the tissue shrank: `load` expands the coordinates by the same factor
             (LengthUnit::Micrometre, LengthUnit::Micrometre) if scales.expansion() != 1. => {

@@ -33,8 +33,8 @@ impl FromStr for ImageWindow {
                 Ok(rectangle) => Ok(Self::Rectangle(rectangle)),
                 Err(_) if Path::new(text).is_file() => Ok(Self::File(text.into())),
                 Err(_) => Err(format!(
-                    "“{text}” is no window, nor a file: expected auto, image, WxH (centred), X0,Y0,X1,Y1 (px, or µm with \
-                     um behind it) or a file of corners"
+                    "“{text}” is neither a window nor an existing file: expected auto, image, WxH \
+                     (centred), X0,Y0,X1,Y1 (in px, or in µm with um at the end) or a file of corners"
                 )),
             },
         }
@@ -150,7 +150,7 @@ mod tests {
     #[test]
     fn what_is_no_window_says_what_one_is() {
         let error = "nowhere.csv".parse::<ImageWindow>().unwrap_err();
-        assert!(error.contains("nor a file") && error.contains("auto"), "{error}");
+        assert!(error.contains("nor an existing file") && error.contains("auto"), "{error}");
         for text in ["auto", "image", "40x20px", "1,2,3,4um"] {
             assert_eq!(text.parse::<ImageWindow>().unwrap().to_string(), text);
         }

@@ -101,13 +101,15 @@ const LARGEST: f64 = 1e9;
 #[derive(Debug, Error, PartialEq)]
 pub enum MatchError {
     /// Border width that is negative or not finite.
-    #[error("the border is {0} px: it must be 0 or more")]
+    #[error("the border is {0} px: expected 0 or more")]
     Border(f64),
     /// Option `fraction` that is not a positive number.
-    #[error("the reach is {0} × the nearest-neighbour distance: it must be more than 0")]
+    #[error("the reach is {0} × the nearest-neighbour distance: expected more than 0")]
     Fraction(f64),
     /// Point with a coordinate that is not finite or larger than 10⁹ px.
-    #[error("{what} {index} is ({x}, {y}): expected pixels between −1e9 and 1e9")]
+    #[error(
+        "{what} {index} (counted from 0) is at ({x}, {y}): expected coordinates in px between −1e9 and 1e9"
+    )]
     Coordinate {
         /// Kind of point, “mark” or “detection”.
         what: &'static str,

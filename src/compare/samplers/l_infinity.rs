@@ -18,7 +18,7 @@ pub enum CompareError {
         second: String,
     },
     /// Too few points to compare.
-    #[error("a comparison needs at least 2 points, there are {found}")]
+    #[error("a comparison needs at least 2 points, found {found}: use a larger window")]
     TooFewPoints {
         /// Number of points found.
         found: usize,
@@ -41,7 +41,7 @@ pub enum CompareError {
         source: StatsError,
     },
     /// Sampler that made fewer than 2 points in every pattern, as the window is too narrow for it.
-    #[error("sampler {sampler} made fewer than 2 of {n} points: the window is too narrow for it")]
+    #[error("sampler {sampler} placed fewer than 2 of {n} points: the window is too narrow for it")]
     NoPattern {
         /// Name of the sampler.
         sampler: String,
@@ -49,7 +49,10 @@ pub enum CompareError {
         n: usize,
     },
     /// Too few or too many simulations, or a level out of its range.
-    #[error("a verdict of {found} simulations: it needs 39 to 9999, and a level between 0 and 0.5")]
+    #[error(
+        "a verdict from {found} simulations was asked for: expected 39 to 9999 simulations, and a level \
+         between 0 and 0.5"
+    )]
     Simulations {
         /// Number of simulations asked for.
         found: usize,

@@ -51,12 +51,12 @@ impl fmt::Display for NotCompared {
     /// Writes “not compared with”, the name of the sampler and the reason, without naming the
     /// sampler a second time.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "not compared with {}: ", self.sampler)?;
+        write!(f, "not compared with {} (its l-infinity stays empty): ", self.sampler)?;
         match &self.reason {
             CompareError::Sample { source, .. } => source.fmt(f),
             CompareError::Stats { source, .. } => source.fmt(f),
             CompareError::NoPattern { n, .. } => {
-                write!(f, "it made fewer than 2 of {n} points: the window is too narrow for it")
+                write!(f, "it placed fewer than 2 of {n} points, since the window is too narrow for it")
             }
             other => other.fmt(f),
         }
@@ -356,10 +356,14 @@ mod tests {
             found.missing[0].to_string()
         };
         let few = reason(&references(&["uniform"], 1), 1, &square);
-        assert_eq!(few, "not compared with uniform: a comparison needs at least 2 points, there are 1");
+        assert_eq!(
+            few,
+            "not compared with uniform (its l-infinity stays empty): a comparison needs at least 2 points, found 1: \
+             use a larger window"
+        );
         let thread = Window::rectangle(0., 0., 1e9, 1.).unwrap();
         let thin = reason(&references(&["uniform"], 1), 100, &thread);
-        assert!(thin.starts_with("not compared with uniform: the window is"), "{thin}");
+        assert!(thin.contains("with uniform (its l-infinity stays empty): the window is"), "{thin}");
         let options = PcfOptions { bandwidth: -1., ..PcfOptions::default() };
         let bad = References::new(vec![sampler("uniform").unwrap()], options, 1);
         assert!(reason(&bad, 100, &square).contains("bandwidth"));

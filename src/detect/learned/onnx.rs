@@ -94,7 +94,7 @@ impl Onnx {
             let one = |d: &Dimension| !matches!(d, Dimension::Fixed(n) if *n != 1);
             let free = |d: &Dimension| matches!(d, Dimension::Symbolic(_));
             if !matches!(&shape[..], [n, c, h, w] if one(n) && one(c) && free(h) && free(w)) {
-                let found = format!("its input is {shape:?}, expected 1×1×H×W with H and W left open");
+                let found = format!("its input is {shape:?}, expected 1×1×H×W for any H and W");
                 return Err(WeightsError::Onnx(found));
             }
         }
@@ -134,13 +134,17 @@ impl Onnx {
         }
         let mut out = Plane::from_shape_vec((h, w), values).map_err(|e| refused(&e))?;
         if let Some(value) = out.iter().find(|v| !v.is_finite()) {
-            return Err(WeightsError::Onnx(format!("its output has the value {value}")));
+            return Err(WeightsError::Onnx(format!(
+                "its output contains {value}, expected finite numbers only"
+            )));
         }
         if self.probability {
             if let Some(value) = out.iter().find(|v| !(0. ..=1.).contains(*v)) {
-                let remedy =
-                    "if it gives logits, set its metadata output=logit (onnx.helper.set_model_props)";
-                return Err(WeightsError::Onnx(format!("its output {value} is no probability: {remedy}")));
+                let remedy = "if the model returns logits, set output=logit in its metadata \
+                     (onnx.helper.set_model_props)";
+                return Err(WeightsError::Onnx(format!(
+                    "its output contains {value}, which is not a probability: {remedy}"
+                )));
             }
             out.mapv_inplace(|p| {
                 let p = p.clamp(SURE, 1. - SURE);

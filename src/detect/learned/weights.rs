@@ -11,16 +11,16 @@ pub enum WeightsError {
     #[error("not a safetensors file: {0}")]
     Format(&'static str),
     /// The file has neither of the formats that a model can have.
-    #[error("neither a safetensors file of scripts/train-detector nor an ONNX model")]
+    #[error("neither a safetensors file from scripts/train-detector nor an ONNX model: give one of these")]
     Kind,
     /// The file is an ONNX model, which this build of the program cannot run.
-    #[error("ONNX models need a program built with them: cargo install --path . --features onnx")]
+    #[error("this build cannot run ONNX models: build one that can (cargo install --path . --features onnx)")]
     NoOnnx,
     /// The ONNX model cannot be run, or its output cannot be used.
     #[error("the ONNX model cannot be used: {0}")]
     Onnx(String),
     /// A value in the metadata is out of range.
-    #[error("its metadata {key} is “{value}”: expected {expected}")]
+    #[error("{key} in its metadata is “{value}”: expected {expected}")]
     Value {
         /// Key of the metadata.
         key: &'static str,
@@ -30,7 +30,7 @@ pub enum WeightsError {
         expected: &'static str,
     },
     /// A value in the metadata is missing or cannot be understood.
-    #[error("the header's “{0}” is missing or cannot be read")]
+    #[error("“{0}” is missing from its header or cannot be read")]
     Metadata(String),
     /// The network has an architecture that this program cannot run.
     #[error("unknown architecture “{0}”: expected unet")]

@@ -5,7 +5,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum RasterError {
     /// The number of values is not columns × rows.
-    #[error("a density of {columns} × {rows} cells needs as many values, and has {values}")]
+    #[error("a density of {columns} × {rows} cells was given {values} values: expected one value per cell")]
     Shape {
         /// Number of cells along x.
         columns: usize,
@@ -15,7 +15,10 @@ pub enum RasterError {
         values: usize,
     },
     /// A value is negative or not finite.
-    #[error("the density at column {column}, row {row} is {value}: it must be finite and not negative")]
+    #[error(
+        "the density at column {column}, row {row} (counted from 0) is {value}: expected a finite number, \
+         0 or more"
+    )]
     Value {
         /// Column of the value, from 0.
         column: usize,
@@ -25,7 +28,9 @@ pub enum RasterError {
         value: f64,
     },
     /// The density is 0 everywhere.
-    #[error("the density is 0 everywhere: there is no place for a point")]
+    #[error(
+        "the density is 0 everywhere, so no point can be placed: give a density that is above 0 somewhere"
+    )]
     Empty,
 }
 

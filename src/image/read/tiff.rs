@@ -123,7 +123,7 @@ fn samples_to_grey(decoder: &mut Source, colour: bool, place: &Place) -> Result<
         DecodingResult::F16(v) => layout.grey(&v, f32::from),
         DecodingResult::F32(v) => layout.grey(&v, |v| v),
         DecodingResult::F64(v) => layout.grey(&v, |v| v as f32),
-        _ => return Err(place.unsupported(format!("{bits} bits a sample"))),
+        _ => return Err(place.unsupported(format!("{bits} bits per sample"))),
     };
     grey.ok_or_else(|| place.too_few())
 }
@@ -161,7 +161,9 @@ fn palette_to_grey(bytes: &[u8], decoder: &mut Source, place: &Place) -> Result<
     let (width, height) = decoder.dimensions().map_err(|e| place.failed(e))?;
     let bits = first(decoder, Tag::BitsPerSample).unwrap_or(1);
     if bits > 16 || tag::<u16>(decoder, Tag::SamplesPerPixel).unwrap_or(1) != 1 {
-        return Err(place.unsupported("a palette of more than 16 bits or with further channels".to_owned()));
+        return Err(
+            place.unsupported("a palette of more than 16 bits or with additional channels".to_owned())
+        );
     }
     let colours = decoder.get_tag_u16_vec(Tag::ColorMap).map_err(|e| place.failed(e))?;
     let entries = 1usize << bits;
@@ -262,7 +264,7 @@ impl Place<'_> {
             TiffError::UnsupportedError(e) => self.unsupported(one_line(e)),
             TiffError::LimitsExceeded => ImageError::TooLarge {
                 name: self.name.to_owned(),
-                size: "what its header asks for".to_owned(),
+                size: "the size given in its header".to_owned(),
                 limit: format!("{MAX_PIXELS} pixels"),
             },
             other => self.damaged(one_line(other)),

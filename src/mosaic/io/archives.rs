@@ -74,7 +74,7 @@ pub(super) fn read_tar(bytes: &[u8]) -> Result<RawFile, Located> {
         // keeps such a claim from filling the memory.
         entry.take(bytes.len() as u64).read_to_end(&mut json).map_err(broken)?;
         if json.len() as u64 != size {
-            let detail = format!("wpd.json should have {size} bytes, {} are there", json.len());
+            let detail = format!("wpd.json should have {size} bytes, but has {}", json.len());
             return Err(ReadFault::Archive { expected: "a WebPlotDigitizer project (.tar)", detail }.into());
         }
         let text = decode(&json).map_err(|fault| Located::member(&path, fault))?;

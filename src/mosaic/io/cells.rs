@@ -147,9 +147,10 @@ impl<'a> Table<'a> {
                 column: column.into(),
                 found: if cell.is_empty() { "an empty cell".into() } else { shortened(cell) },
                 remedy: if self.may_be_decimal_comma(cell) {
-                    "write decimal points, or separate columns by semicolons"
+                    "write decimal points, or separate the columns by semicolons"
                 } else {
-                    "mend or leave out the row, and name the columns in a header if there are others than x and y"
+                    "correct or delete the row; if there are columns other than x and y, name all columns \
+                     in a header"
                 },
             },
         };

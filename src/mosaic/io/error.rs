@@ -50,7 +50,7 @@ impl std::error::Error for ReadError {
 #[derive(Debug, Error)]
 pub enum ReadFault {
     /// The operating system refuses to read the file.
-    #[error("cannot be read ({0}): check the path and that it may be read")]
+    #[error("cannot be read ({0}): check that it exists and may be read")]
     Io(io::Error),
     /// The file is larger than a coordinate file can sensibly be.
     #[error("is larger than {limit_mib} MiB, too large for coordinates: give a file of point coordinates")]
@@ -95,15 +95,15 @@ pub enum ReadFault {
     },
     /// The file has a single column.
     #[error(
-        "expected two columns, x and y, separated by comma, semicolon, tab or blanks, found one: {found}; \
-         export both"
+        "expected two columns, x and y, separated by comma, semicolon, tab or blanks, found only one in \
+         {found}: export both"
     )]
     OneColumn {
         /// Text of the first line, shortened.
         found: String,
     },
     /// A row has more or fewer cells than the first one.
-    #[error("expected {expected} cells as in the first row, found {found} in {line}: mend the row")]
+    #[error("expected {expected} cells as in the first row, found {found} in {line}: correct the row")]
     Ragged {
         /// Number of cells in the first row.
         expected: usize,
@@ -113,7 +113,7 @@ pub enum ReadFault {
         line: String,
     },
     /// A quotation mark is not closed on its line.
-    #[error("expected a closing quotation mark on the same line, found none in {line}: mend the row")]
+    #[error("expected a closing quotation mark on the same line, found none in {line}: correct the row")]
     OpenQuote {
         /// Text of the line, shortened.
         line: String,
@@ -129,7 +129,7 @@ pub enum ReadFault {
         found: String,
     },
     /// Two columns have the same name.
-    #[error("expected one column named {column}, found two of them in {header}: keep the one that is meant")]
+    #[error("expected one column named {column}, found two in {header}: keep only the right one")]
     TwoColumns {
         /// Name of the column.
         column: String,
@@ -138,14 +138,15 @@ pub enum ReadFault {
     },
     /// The JSON is broken, or not a WebPlotDigitizer project.
     #[error(
-        "expected a WebPlotDigitizer project (version 3 or 4), found other or broken JSON ({detail}): save the project again"
+        "expected a WebPlotDigitizer project (version 3 or 4), found JSON that is damaged or of another \
+         kind ({detail}): save the project again"
     )]
     Json {
         /// Message of the JSON parser.
         detail: String,
     },
     /// The archive is broken.
-    #[error("expected {expected}, found a broken archive ({detail}): save it again")]
+    #[error("expected {expected}, found a damaged archive ({detail}): save it again")]
     Archive {
         /// Kind of archive that was expected.
         expected: &'static str,
@@ -203,7 +204,7 @@ pub enum ReadFault {
     #[error("{0}")]
     Outline(crate::geometry::PolygonError),
     /// The file lacks the dataset that was asked for.
-    #[error("expected a dataset named {wanted}, found {found}: choose one of these")]
+    #[error("expected a dataset named {wanted}, found only {found}: choose one of these")]
     NoSuchDataset {
         /// Name that was asked for.
         wanted: String,
@@ -212,7 +213,8 @@ pub enum ReadFault {
     },
     /// The options give a pixel origin for coordinates that are not pixels.
     #[error(
-        "expected pixels, since the origin is {origin}, found coordinates in {unit}: leave out the origin"
+        "expected coordinates in px, since the origin is {origin}, found coordinates in \
+         {unit}: leave out the origin"
     )]
     OriginWithoutPixels {
         /// Origin that was asked for.
@@ -221,7 +223,7 @@ pub enum ReadFault {
         unit: &'static str,
     },
     /// An option is out of its range.
-    #[error("the option {option} is {found}: it must be {expected}")]
+    #[error("{option} is {found}: expected {expected}")]
     Option {
         /// Name of the option.
         option: &'static str,
@@ -231,11 +233,11 @@ pub enum ReadFault {
         expected: &'static str,
     },
     /// The scale is not a positive number.
-    #[error("{0}: mend the row")]
+    #[error("{0}: correct the row")]
     Scale(#[from] crate::mosaic::ScaleError),
     /// Two rows give the same identifier different scales.
     #[error(
-        "expected one scale for {identifier}, found another one on line {first_line}: keep the right one"
+        "expected one scale for {identifier}, found another on line {first_line}: keep only the right one"
     )]
     TwoScales {
         /// Identifier of both rows, shortened.
@@ -244,7 +246,7 @@ pub enum ReadFault {
         first_line: usize,
     },
     /// Two rows give the same name different groups.
-    #[error("expected one group for {name}, found another one on line {first_line}: keep the right one")]
+    #[error("expected one group for {name}, found another on line {first_line}: keep only the right one")]
     TwoGroups {
         /// Name that occurs twice, shortened.
         name: String,
@@ -258,7 +260,7 @@ pub enum ReadFault {
         line: String,
     },
     /// Two different rows of a manifest have the same identifier.
-    #[error("expected one row for {identifier}, found another one on line {first_line}: keep the right one")]
+    #[error("expected one row for {identifier}, found another on line {first_line}: keep only the right one")]
     TwoRows {
         /// Identifier of both rows, shortened.
         identifier: String,
@@ -267,7 +269,8 @@ pub enum ReadFault {
     },
     /// The distance from the fovea is negative.
     #[error(
-        "expected {column} to be a distance, 0 or more, found {value}: give its size, and the direction as meridian"
+        "expected a distance of 0 or more in column {column}, found {value}: give the distance without a \
+         sign, and the direction in the column meridian"
     )]
     Eccentricity {
         /// Name of the column.
@@ -277,22 +280,21 @@ pub enum ReadFault {
     },
     /// The direction from the fovea is not one of the four meridians.
     #[error(
-        "expected the meridian nasal, temporal, superior or inferior (of the retina), found {found}: name one, or leave it empty"
+        "expected the meridian nasal, temporal, superior or inferior (of the retina), found {found}: name \
+         one of these, or leave the cell empty"
     )]
     Meridian {
         /// Text of the cell, shortened.
         found: String,
     },
     /// The box has no area.
-    #[error("expected a box with an area (x0 < x1 and y0 < y1), found {line}: mend the row")]
+    #[error("expected a box with an area (x0 < x1 and y0 < y1), found {line}: correct the row")]
     NoBox {
         /// Text of the row, shortened.
         line: String,
     },
     /// Two boxes of one file have the same name.
-    #[error(
-        "expected one box named {name} a file, found another one on line {first_line}: rename one of them"
-    )]
+    #[error("expected one box named {name} per file, found another on line {first_line}: rename one of them")]
     TwoBoxes {
         /// Name that occurs twice, shortened.
         name: String,
@@ -300,9 +302,7 @@ pub enum ReadFault {
         first_line: usize,
     },
     /// A row of a table of scales or of a manifest has no identifier.
-    #[error(
-        "expected an identifier in the first column, found none in {line}: give the start of the file name"
-    )]
+    #[error("expected an identifier in the first column, found none in {line}: give a part of the file name")]
     NoIdentifier {
         /// Text of the row, shortened.
         line: String,
@@ -346,7 +346,10 @@ impl From<ReadFault> for Located {
 #[derive(Debug, Error)]
 pub enum WriteError {
     /// The operating system refuses to write the file.
-    #[error("{} cannot be written ({source}): check that the folder exists, may be written and has room", .file.display())]
+    #[error(
+        "{} cannot be written ({source}): check that its folder exists, may be written to and has room",
+        .file.display()
+    )]
     Io {
         /// Path of the file.
         file: PathBuf,
@@ -354,7 +357,11 @@ pub enum WriteError {
         source: io::Error,
     },
     /// A coordinate or score is not finite, so that no reader would accept it.
-    #[error("{}: point {index} has a coordinate or score that is not a finite number", .file.display())]
+    #[error(
+        "{}: point {index} (counted from 0) has a coordinate or score that is not a finite number: leave \
+         it out",
+        .file.display()
+    )]
     NotFinite {
         /// Path of the file.
         file: PathBuf,
@@ -362,7 +369,7 @@ pub enum WriteError {
         index: usize,
     },
     /// The scores are not one per point.
-    #[error("{}: {points} points but {scores} scores: give one score a point", .file.display())]
+    #[error("{}: there are {points} points but {scores} scores: give one score per point", .file.display())]
     Scores {
         /// Path of the file.
         file: PathBuf,

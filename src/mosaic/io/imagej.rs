@@ -154,6 +154,6 @@ fn kind_name(kind: u8, composite: bool) -> String {
         _ if composite => "a composite ROI".into(),
         _ if kind == POINT => "points".into(),
         Some(&name) => name.into(),
-        None => format!("kind {kind}"),
+        None => format!("an ROI of kind {kind}"),
     }
 }

@@ -40,7 +40,8 @@ enum Eccentricity {
 /// Error for an image that several rows of a manifest fit equally well.
 #[derive(Debug, Error, PartialEq)]
 #[error(
-    "{manifest}: expected one row for {file_name}, found several that fit equally well ({candidates}): give one a longer identifier"
+    "{manifest}: expected one row for {file_name}, found several that match its name equally well \
+     ({candidates}): give one of them a longer identifier"
 )]
 pub struct AmbiguousRow {
     manifest: String,
@@ -117,7 +118,7 @@ struct Meanings {
 }
 
 fn parse(bytes: &[u8]) -> Result<(Vec<String>, Vec<ManifestRow>), Located> {
-    const EXPECTED: &str = "a header identifier,COLUMN,… and a row an image";
+    const EXPECTED: &str = "a header identifier,COLUMN,… and one row per image";
     let text = text::decode(bytes)?;
     let table = Table::new(&text, EXPECTED)?;
     let Some((header, rows)) = table.rows.split_first() else {

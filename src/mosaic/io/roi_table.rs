@@ -11,16 +11,16 @@ use std::path::Path;
 use thiserror::Error;
 
 /// Columns that a header should name, for messages.
-const EXPECTED: &str = "columns x0, y0, x1, y1 or x, y, width, height (with or without _px or _um; name and file as well if \
-    there are such)";
+const EXPECTED: &str = "columns x0, y0, x1, y1 or x, y, width, height (all may end in _px or _um; columns name and \
+    file are optional)";
 
 /// Error for boxes that cannot be looked up in a table.
 #[derive(Debug, Error)]
 pub enum RoiTableError {
     /// No row of the table is for the file.
     #[error(
-        "{table}: expected rows whose column file is part of {file_name}, found none among {candidates}: add rows, or \
-         leave the cell empty for boxes of every file"
+        "{table}: expected rows for {file_name}, with a part of its name in the column file, found none \
+         among {candidates}: add such rows, or leave that cell empty for boxes of every file"
     )]
     Missing {
         /// Path of the table.
@@ -32,8 +32,8 @@ pub enum RoiTableError {
     },
     /// Several identifiers fit equally well.
     #[error(
-        "{table}: expected rows of one file for {file_name}, found several that fit equally well ({candidates}): give one \
-         a longer name"
+        "{table}: expected one name in the column file for {file_name}, found several that match equally \
+         well ({candidates}): make one of them longer"
     )]
     Ambiguous {
         /// Path of the table.

@@ -29,8 +29,8 @@ pub enum ScaleTableError {
     },
     /// Several identifiers fit equally well.
     #[error(
-        "{table}: expected one row for {file_name}, found several that fit equally well ({candidates}): give one a \
-         longer identifier"
+        "{table}: expected one row for {file_name}, found several that match its name equally well \
+         ({candidates}): give one of them a longer identifier"
     )]
     Ambiguous {
         /// Path of the table.

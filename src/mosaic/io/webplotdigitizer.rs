@@ -40,7 +40,7 @@ pub(super) fn read_json(text: &str) -> Result<RawFile, Located> {
     let broken = |e: serde_json::Error| ReadFault::Json { detail: clipped(&e.to_string(), 120) };
     let project: Project = serde_json::from_str(text.trim()).map_err(broken)?;
     let series = project.version4.or_else(|| project.wpd.map(|v3| v3.series)).ok_or_else(|| {
-        ReadFault::Json { detail: "neither datasetColl nor wpd.dataSeries at the top".into() }
+        ReadFault::Json { detail: "neither datasetColl nor wpd.dataSeries at its top level".into() }
     })?;
     let datasets = series.into_iter().map(|s| Dataset {
         name: s.name,

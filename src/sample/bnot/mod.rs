@@ -75,7 +75,8 @@ impl Sampler for Bnot {
     }
 
     fn about(&self) -> &'static str {
-        "blue noise through optimal transport: equal power cells with points at their centroids; exactly n (de Goes et al. 2012)"
+        "blue noise through optimal transport: power cells of equal area, each with its point at the \
+         centroid; exactly n (de Goes et al. 2012)"
     }
 
     fn exact(&self) -> bool {
@@ -130,8 +131,8 @@ impl Settable for Bnot {
             unit: "",
             range: (0., 100_000.),
             whole: true,
-            unset: "until points rest",
-            meaning: "moves to the centroids of equal cells; 20 reproduce the published tables, and are what run and compare use",
+            unset: "until the points rest",
+            meaning: "number of moves of all points to the centroids of equal cells; 20 reproduce the published tables and are used by run and compare",
             get: |s| s.steps.map(|steps| steps as f64),
             set: |s, v| s.steps = Some(v as usize),
         },
@@ -141,7 +142,7 @@ impl Settable for Bnot {
             range: (1e-9, 1.),
             whole: false,
             unset: "",
-            meaning: "points rest when they are this near to the centroids (root mean square); at most 1000 steps",
+            meaning: "distance to the centroids (root mean square) below which the points rest; after 1000 steps they rest in any case",
             get: |s| Some(s.tolerance),
             set: |s, v| s.tolerance = v,
         },
@@ -151,7 +152,7 @@ impl Settable for Bnot {
             range: (0., 100.),
             whole: true,
             unset: "",
-            meaning: "how often hexagonal crystals are shaken, with 20 steps after each (de Goes et al. 2012)",
+            meaning: "number of times that hexagonal crystals are broken up, with 20 steps after each (de Goes et al. 2012)",
             get: |s| Some(s.breaks as f64),
             set: |s, v| s.breaks = v as usize,
         },

@@ -35,7 +35,8 @@ impl Sampler for Bridson {
     }
 
     fn about(&self) -> &'static str {
-        "Poisson disks, k = 30, r = 0.7306 spacings, torus distance, about n points (Bridson 2007)"
+        "Poisson disks grown around earlier points (30 candidates each), at least 0.7306 spacings apart on \
+         the torus; about n points (Bridson 2007)"
     }
 
     fn by_default(&self) -> bool {

@@ -31,7 +31,8 @@ impl Sampler for DartThrowing {
     }
 
     fn about(&self) -> &'static str {
-        "uniform darts kept when none is nearer than r = 0.75 spacings, torus distance, no relaxation (Cook 1986); exactly n"
+        "uniform darts, kept if at least 0.75 spacings from all earlier ones on the torus, not relaxed; \
+         exactly n (Cook 1986)"
     }
 
     fn exact(&self) -> bool {

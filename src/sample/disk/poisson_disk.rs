@@ -41,7 +41,8 @@ impl Sampler for PoissonDisk {
     }
 
     fn about(&self) -> &'static str {
-        "maximal Poisson disks: darts until no place is left, r = 0.777 spacings, torus distance, about n points (Ebeida et al. 2011)"
+        "maximal Poisson disks: darts at least 0.777 spacings apart on the torus, until no place is left; \
+         about n points (Ebeida et al. 2011)"
     }
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {

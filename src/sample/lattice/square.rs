@@ -21,7 +21,7 @@ impl Sampler for Square {
     }
 
     fn about(&self) -> &'static str {
-        "square lattice at a random offset, jitter if asked for; as near n as the lattice allows"
+        "square lattice at a random offset, with optional jitter; as near n as the lattice allows"
     }
 
     fn in_rows(&self) -> bool {

@@ -25,7 +25,8 @@ impl Sampler for Triangular {
     }
 
     fn about(&self) -> &'static str {
-        "triangular lattice at a random offset, jitter if asked for; as near n as the lattice allows, stretched to close on a torus"
+        "triangular lattice at a random offset, with optional jitter; as near n as the lattice allows, and \
+         stretched to close on a torus"
     }
 
     fn in_rows(&self) -> bool {

@@ -76,7 +76,8 @@ impl Sampler for Ahumada {
     }
 
     fn about(&self) -> &'static str {
-        "discs of random radius packed outward from the centre, then jitter; exactly n; no torus (Ahumada & Poirson 1987)"
+        "discs of random radius packed outward from the centre, then displaced; exactly n; no torus \
+         (Ahumada & Poirson 1987)"
     }
 
     fn exact(&self) -> bool {
@@ -110,7 +111,7 @@ impl Settable for Ahumada {
             range: (0., 0.3),
             whole: false,
             unset: "",
-            meaning: "standard deviation of the discs' radii (our choice)",
+            meaning: "standard deviation of the discs' radii (chosen here)",
             get: |s| Some(s.radius_sd),
             set: |s, v| s.radius_sd = v,
         },
@@ -120,7 +121,7 @@ impl Settable for Ahumada {
             range: (0., 0.5),
             whole: false,
             unset: "",
-            meaning: "standard deviation of each cone's displacement in x and y after packing (our choice)",
+            meaning: "standard deviation of each cone's displacement in x and y after packing (chosen here)",
             get: |s| Some(s.jitter),
             set: |s, v| s.jitter = v,
         },

@@ -54,7 +54,8 @@ impl Sampler for CurcioSloan {
     }
 
     fn about(&self) -> &'static str {
-        "square array compressed along a diagonal, with jitter; as near n as the array allows (Curcio & Sloan 1992)"
+        "square lattice compressed along one diagonal, with jitter; as near n as the lattice allows \
+         (Curcio & Sloan 1992)"
     }
 
     fn in_rows(&self) -> bool {
@@ -82,7 +83,7 @@ impl Settable for CurcioSloan {
             range: (0.5, 1.),
             whole: false,
             unset: "",
-            meaning: "length of one diagonal of the square cell over its length before (0.760: triangular lattice; our choice)",
+            meaning: "length of the compressed diagonal as a share of its length before (chosen here; 0.760 gives the triangular lattice)",
             get: |s| Some(s.compression),
             set: |s, v| s.compression = v,
         },
@@ -92,7 +93,7 @@ impl Settable for CurcioSloan {
             range: (0., 0.5),
             whole: false,
             unset: "",
-            meaning: "standard deviation of each point's displacement in x and y (our choice)",
+            meaning: "standard deviation of each point's displacement in x and y (chosen here)",
             get: |s| Some(s.jitter),
             set: |s, v| s.jitter = v,
         },

@@ -91,7 +91,8 @@ impl Sampler for Deering {
     }
 
     fn about(&self) -> &'static str {
-        "rings of cells of random size that attract and repel each other; exactly n; no torus (Deering 2005)"
+        "rings of cells of random size that push and pull each other into place; exactly n; no torus \
+         (Deering 2005)"
     }
 
     fn exact(&self) -> bool {
@@ -123,7 +124,7 @@ impl Settable for Deering {
             range: (0., 0.3),
             whole: false,
             unset: "",
-            meaning: "standard deviation of the cells' radii (our choice)",
+            meaning: "standard deviation of the cells' radii (chosen here)",
             get: |s| Some(s.radius_sd),
             set: |s, v| s.radius_sd = v,
         },
@@ -133,7 +134,7 @@ impl Settable for Deering {
             range: (0., 100.),
             whole: true,
             unset: "",
-            meaning: "rounds of pushing and pulling after each ring (our choice)",
+            meaning: "rounds of pushing and pulling after each ring (chosen here)",
             get: |s| Some(s.rounds as f64),
             set: |s, v| s.rounds = v as usize,
         },

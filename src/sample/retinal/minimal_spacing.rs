@@ -71,7 +71,8 @@ impl Sampler for MinimalSpacing {
     }
 
     fn about(&self) -> &'static str {
-        "random places refused within a normal minimal distance, torus distance; exactly n (Wässle & Riemann 1978, Galli-Resta et al. 1999)"
+        "random places, refused if an earlier cell is nearer than a normally distributed minimum on the \
+         torus; exactly n (Wässle & Riemann 1978, Galli-Resta et al. 1999)"
     }
 
     fn exact(&self) -> bool {
@@ -115,8 +116,8 @@ impl Settable for MinimalSpacing {
             unit: "mm",
             range: (0., FARTHEST),
             whole: false,
-            unset: "none: the mean holds",
-            meaning: "distance from the fovea: the mean is 7 µm there (Curcio & Sloan 1992), at most 0.7 spacings, unless it is set",
+            unset: "not used: `mean` applies",
+            meaning: "distance from the fovea; unless `mean` is set, it becomes 7 µm there (Curcio & Sloan 1992), but at most 0.7 spacings",
             get: |_| None,
             set: |s, v| s.mean = Self::mean_at(v),
         },
@@ -126,7 +127,7 @@ impl Settable for MinimalSpacing {
             range: (0., 0.9),
             whole: false,
             unset: "",
-            meaning: "mean of the minimal distance (our choice)",
+            meaning: "mean of the minimal distance (chosen here)",
             get: |s| Some(s.mean),
             set: |s, v| s.mean = v,
         },
@@ -136,7 +137,7 @@ impl Settable for MinimalSpacing {
             range: (0., 0.3),
             whole: false,
             unset: "",
-            meaning: "standard deviation of the minimal distance (our choice: a tenth of the mean)",
+            meaning: "standard deviation of the minimal distance (chosen here: a tenth of the mean)",
             get: |s| Some(s.sd),
             set: |s, v| s.sd = v,
         },

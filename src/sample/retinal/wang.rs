@@ -56,7 +56,8 @@ impl Sampler for Wang {
     }
 
     fn about(&self) -> &'static str {
-        "polar array around the centre, jitter, minimal spacing; exactly n; no torus (Wang et al. 2001)"
+        "rings of points around the centre, jittered, with a minimal spacing; exactly n; no torus (Wang et \
+         al. 2001)"
     }
 
     fn exact(&self) -> bool {
@@ -84,7 +85,7 @@ impl Settable for Wang {
             range: (0., 0.5),
             whole: false,
             unset: "",
-            meaning: "standard deviation of each cone's displacement in x and y (our choice)",
+            meaning: "standard deviation of each cone's displacement in x and y (chosen here)",
             get: |s| Some(s.jitter),
             set: |s, v| s.jitter = v,
         },
@@ -94,7 +95,7 @@ impl Settable for Wang {
             range: (0., 0.8),
             whole: false,
             unset: "",
-            meaning: "no two cones are nearer (our choice)",
+            meaning: "smallest distance between two cones (chosen here)",
             get: |s| Some(s.minimum),
             set: |s, v| s.minimum = v,
         },

@@ -156,20 +156,26 @@ fn check(
 ) -> Result<(), SampleError> {
     let refuse = |problem: String| Err(SampleError::Target { what, problem });
     if rows.len() < 2 {
-        return refuse(format!("needs at least two rows of {x} and {y}, it has {}", rows.len()));
+        return refuse(format!("needs at least two rows of {x} and {y}, but has {}", rows.len()));
     }
     for (row, &[a, b]) in rows.iter().enumerate() {
         let before = if row == 0 { f64::NEG_INFINITY } else { rows[row - 1][0] };
         if !(a.is_finite() && a >= 0. && a > before) {
-            return refuse(format!("must have {x} rise from 0 or more: row {} has {a}", row + 1));
+            return refuse(format!(
+                "must list {x} in ascending order from 0 or more, but row {} has {a}",
+                row + 1
+            ));
         }
         if !(b.is_finite() && b >= 0.) {
-            return refuse(format!("must have {y} finite and not negative: row {} has {b}", row + 1));
+            return refuse(format!(
+                "must have finite values of {y} of 0 or more, but row {} has {b}",
+                row + 1
+            ));
         }
     }
     let end = rows[rows.len() - 1][0];
     if end < least_end {
-        return refuse(format!("must reach {x} = {least_end} or more, it ends at {end}"));
+        return refuse(format!("must reach {x} = {least_end} or more, but ends at {end}"));
     }
     Ok(())
 }

@@ -33,6 +33,6 @@ static SHAPED: LazyLock<Shaped> =
 /// term is that of Lau, Arce & Gallagher (1998, “Green-noise digital halftoning”).
 pub static GREEN: Noise = Noise {
     name: "green",
-    about: "clusters at a typical distance, a ring of power at 0.62 √n: by optimisation towards the PCF and spectrum of Ahmed et al. (2015); exactly n",
+    about: "green noise: clusters at a typical distance (ring of power at 0.62 √n), fitted to the PCF and spectrum of Ahmed et al. (2015); exactly n",
     shaped: &SHAPED,
 };

@@ -61,7 +61,7 @@ impl Sampler for Shaped {
     }
 
     fn about(&self) -> &'static str {
-        "uniform points moved until their pair correlation function is a given one; exactly n"
+        "uniform points moved until they have a given pair correlation function; exactly n"
     }
 
     fn exact(&self) -> bool {

@@ -32,6 +32,6 @@ static SHAPED: LazyLock<Shaped> =
 /// The points are made by [`Shaped`] with the curves of the patterns of Ahmed et al. (2015).
 pub static PINK: Noise = Noise {
     name: "pink",
-    about: "clouds, power that falls up to 0.65 √n: by optimisation towards the PCF and spectrum of Ahmed et al. (2015); exactly n",
+    about: "pink noise: clouds of points (power falls up to 0.65 √n), fitted to the PCF and spectrum of Ahmed et al. (2015); exactly n",
     shaped: &SHAPED,
 };

@@ -36,7 +36,8 @@ impl Sampler for Step {
     }
 
     fn about(&self) -> &'static str {
-        "step blue noise: power 0 below a frequency, 1 above, by optimisation of the PCF (Heck et al. 2013); exactly n"
+        "step blue noise: power 0 below a frequency and 1 above, reached by optimising the PCF; exactly n \
+         (Heck et al. 2013)"
     }
 
     fn exact(&self) -> bool {
@@ -69,7 +70,7 @@ impl Settable for Step {
         range: (0.05, HIGHEST),
         whole: false,
         unset: "",
-        meaning: "where the step is; 1/√π is the highest at which such points exist (Heck et al. 2013)",
+        meaning: "frequency of the step; 1/√π is the highest at which such points exist (Heck et al. 2013)",
         get: |s| Some(s.frequency),
         set: |s, v| s.frequency = v,
     }];

@@ -65,7 +65,7 @@ impl FunctionOptions {
         let step = positive("r_step", self.r_step.unwrap_or(r_max / DEFAULT_ROWS))?;
         let rows = (r_max / step * (1. + 1e-12)).floor() + 1.;
         if rows > MAX_ROWS {
-            let range = "at most 100000: take a larger step";
+            let range = "at most 100000, so choose a larger step";
             return Err(StatsError::Option { option: "number of rows of the functions", value: rows, range });
         }
         Ok((0..rows as usize).map(|k| k as f64 * step).collect())

@@ -52,15 +52,15 @@ impl MapOptions {
         match self.window {
             LocalWindow::Cells(n) => {
                 let ok = (3..=100_000).contains(&n);
-                check("number of cells of the local windows", n as f64, ok, "it must be 3 to 100000")?;
+                check("number of cells of the local windows", n as f64, ok, "3 to 100000")?;
             }
             LocalWindow::Side(side) => {
-                check("side of the local windows", side, positive(side), "it must be a positive length")?;
+                check("side of the local windows", side, positive(side), "a positive length")?;
             }
         }
         let share = self.isodensity;
-        check("isodensity", share, (0.01..=0.99).contains(&share), "it must be a share, 0.01 to 0.99")?;
+        check("isodensity", share, (0.01..=0.99).contains(&share), "a share of 0.01 to 0.99")?;
         let step = self.profile_step.unwrap_or(1.);
-        check("step of the profiles", step, positive(step), "it must be a positive length")
+        check("step of the profiles", step, positive(step), "a positive length")
     }
 }

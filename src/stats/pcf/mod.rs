@@ -241,8 +241,8 @@ fn estimate(
     let reach = spacing * (options.r_max + options.kernel.reach() * options.bandwidth);
     let turns = reach / w.min(h);
     if torus && turns > MAX_TURNS {
-        let range = "at most 1000: the window is too thin for its few points";
-        return Err(StatsError::Option { option: "r_max in turns round the torus", value: turns, range });
+        let range = "at most 1000, so the window is too thin for its few points";
+        return Err(StatsError::Option { option: "r_max in turns around the torus", value: turns, range });
     }
 
     let weights = EdgeWeights::new(window);

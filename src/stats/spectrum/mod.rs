@@ -41,9 +41,9 @@ impl SpectrumOptions {
         if (0.1..=20.).contains(&self.max_frequency) {
             return Ok(());
         }
-        let range = "0.1 to 20 √density";
+        let range = "0.1 to 20 times √density";
         Err(StatsError::Option {
-            option: "highest frequency of the spectrum",
+            option: "maximum frequency of the spectrum",
             value: self.max_frequency,
             range,
         })
@@ -128,7 +128,7 @@ pub fn spectrum(
     let highest = [(annuli + 0.5) / stretch, (annuli + 0.5) * stretch];
     let waves = (highest[0] + 1.) * (2. * highest[1] + 1.);
     if waves > MOST_WAVES {
-        let range = "at most 5e7: use a lower highest frequency";
+        let range = "at most 5e7, so choose a lower maximum frequency";
         return Err(StatsError::Option { option: "number of waves of the spectrum", value: waves, range });
     }
     let highest = highest.map(|v| v.floor() as usize);
