@@ -2,8 +2,8 @@
 
 use crate::image::{Plane, gaussian, values};
 
-/// Least local contrast that a plane is divided by, as a fraction of the largest local contrast in
-/// the plane.
+/// Smallest local contrast that a plane is divided by, as a fraction of the largest local contrast
+/// in the plane.
 ///
 /// Without this floor, the noise of empty margins would be blown up.
 const FLOOR: f32 = 1e-3;

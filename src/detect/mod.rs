@@ -67,7 +67,7 @@ use strum::VariantArray;
 use thiserror::Error;
 use view::View;
 
-/// Least width and height, in px, of an image in which cones are looked for.
+/// Smallest width and height, in px, of an image in which cones are looked for.
 ///
 /// Smaller images are refused: they have no room for even a handful of cones at the closest
 /// spacing.
@@ -92,7 +92,7 @@ pub fn weights() -> [&'static [u8]; FILES] {
 /// An image is rescaled if its largest absolute grey value is outside about 2^−20 to 2^20.
 const USUAL_EXPONENT: f64 = 20.;
 
-/// Least confidence (0–1) at which a spacing is accepted; below it, wider spacings are tried as
+/// Smallest confidence (0–1) at which a spacing is accepted; below it, wider spacings are tried as
 /// well.
 const SURE: f64 = 0.9;
 /// Confidence (0–1) below which a spacing is given up for any wider spacing of higher confidence.

@@ -13,7 +13,7 @@ use crate::geometry::Point;
 const EVEN: f64 = 1.15;
 /// Longest side of a tile in px; longer areas are always cut, to bound the memory.
 const LONGEST: usize = 1024;
-/// Least side, in spacings, of the halves of an area that is cut because its spacing varies.
+/// Smallest side, in spacings, of the halves of an area that is cut because its spacing varies.
 const SHORTEST: f64 = 10.;
 /// Width, in spacings, of the margin around a tile that is searched with it.
 ///

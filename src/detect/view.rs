@@ -13,8 +13,8 @@ use std::borrow::Cow;
 const BLOCKS: [usize; 2] = [2, 4];
 /// Widest cone spacing that can be found, in px: 160.
 pub const WIDEST_SPACING: f64 = BLOCKS[BLOCKS.len() - 1] as f64 * SPACING_RANGE.1;
-/// Least length, in coarse pixels, of the shorter side of an image that is also searched in coarse
-/// pixels.
+/// Smallest length, in coarse pixels, of the shorter side of an image that is also searched in
+/// coarse pixels.
 ///
 /// Coarse pixels are for spacings too wide for the next finer resolution, which are more than 20
 /// coarse pixels. A shorter side holds fewer than five of their periods, too few to measure a ring.

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use std::num::NonZero;
 
-/// Least number of points for which the search runs on all threads.
+/// Smallest number of points for which the search runs on all threads.
 const SPREAD_FROM: usize = 8192;
 
 /// Nearest neighbour of every point, in the order of the points.

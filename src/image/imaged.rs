@@ -6,7 +6,7 @@
 
 use super::Plane;
 
-/// Least size of a black region that can count as not imaged, as a fraction of the image.
+/// Smallest size of a black region that can count as not imaged, as a fraction of the image.
 ///
 /// Smaller regions are dark places.
 const SMALLEST: f64 = 0.005;
@@ -16,11 +16,11 @@ const SMALLEST: f64 = 0.005;
 ///
 /// A region that fades to black is a dark place in a picture of few grey levels.
 const SMALL: f64 = 0.05;
-/// Least brightness around a black region that ends abruptly, as a fraction of the mean brightness
-/// of all pixels that are not black.
+/// Smallest brightness around a black region that ends abruptly, as a fraction of the mean
+/// brightness of all pixels that are not black.
 const ABRUPT: f64 = 0.5;
 
-/// Least number of runs per row of a porous region, such as the ground between cones.
+/// Smallest number of runs per row of a porous region, such as the ground between cones.
 ///
 /// A run is an unbroken stretch of black pixels in a row.
 const POROUS_RUNS: usize = 4;

@@ -18,12 +18,12 @@ use imageproc::morphology::erode_mut;
 /// At ragged edges, registration has mixed pixels with black. Nothing is removed if the imaged area
 /// is an upright rectangle.
 const MARGIN: u8 = 1;
-/// Least area of an island of imaged pixels that is kept, as a fraction of the image.
+/// Smallest area of an island of imaged pixels that is kept, as a fraction of the image.
 ///
 /// Smaller islands are specks and letters rather than parts of a mosaic. They are kept only if no
 /// island is larger.
 const SMALLEST_ISLAND: f64 = 0.001;
-/// Least length, in px, of a straight run of pixel edges that stays an edge of the outline.
+/// Smallest length, in px, of a straight run of pixel edges that stays an edge of the outline.
 ///
 /// Shorter runs may be steps of an oblique line.
 const LONG_RUN: f64 = 16.;

@@ -2,7 +2,7 @@ use super::Plane;
 use rayon::prelude::*;
 use std::borrow::Cow;
 
-/// Least number of pixels of an image that a filter spreads over all cores.
+/// Smallest number of pixels of an image that a filter spreads over all cores.
 ///
 /// Smaller images are each filtered by one core, several of them side by side.
 pub(crate) const PARALLEL_PIXELS: usize = 1 << 18;

@@ -191,7 +191,7 @@ impl Meridian {
         }
     }
 
-    /// Returns the greatest eccentricity, in mm, at which the density on this meridian is known.
+    /// Returns the largest eccentricity, in mm, at which the density on this meridian is known.
     pub fn farthest(self) -> f64 {
         self.densities().last().map_or(0., |(at, _)| *at)
     }

@@ -6,7 +6,8 @@ use crate::image::Plane;
 use rand::Rng;
 use rand_distr::{Distribution, Poisson};
 
-/// Least mean number of photons for which a normal distribution replaces the Poisson distribution.
+/// Smallest mean number of photons for which a normal distribution replaces the Poisson
+/// distribution.
 const MANY_PHOTONS: f64 = 100.;
 
 /// Adds photon and detector noise, smoothed as registration smooths it.

@@ -10,8 +10,8 @@ use std::f64::consts::TAU;
 
 /// Area of a cone's cell, in squared spacings: √3/2.
 const CELL: f64 = 0.866_025_403_784_438_6;
-/// Least distance between two rods, as a share of the spacing of a triangular lattice of the same
-/// density.
+/// Smallest distance between two rods, as a share of the spacing of a triangular lattice of the
+/// same density.
 ///
 /// Random placing without overlap stops at about this distance.
 const CLOSEST: f64 = 0.75;
@@ -20,7 +20,7 @@ const CLOSEST: f64 = 0.75;
 /// Random sequential adsorption in the plane (Rényi's car parking) covers .547 of the area; the
 /// limited number of tries achieves only a part of it.
 const PARKED: f64 = 0.6;
-/// Least room that the cones are assumed to leave to rods, in squared spacings per cone.
+/// Smallest room that the cones are assumed to leave to rods, in squared spacings per cone.
 const LEAST_ROOM: f64 = 0.1;
 /// Number of places tried per rod asked for.
 const TRIES: f64 = 6.;

@@ -8,7 +8,7 @@ use std::num::NonZero;
 /// Ratio of the hexagonal spacing to the mean distance of the three nearest neighbours in a cone
 /// mosaic.
 const SPACING_PER_NEIGHBOUR_DISTANCE: f64 = 1.09;
-/// Least spacing that is assigned to a cone, in px; cones in tight clusters get it.
+/// Smallest spacing that is assigned to a cone, in px; cones in tight clusters get it.
 const MIN_SPACING: f64 = 1.;
 /// Largest spacing that is assigned to a cone, in px; cones far from all others get it.
 const MAX_SPACING: f64 = 1000.;

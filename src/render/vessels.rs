@@ -14,7 +14,7 @@ const STEP: f64 = 0.25;
 const WINDING: f64 = 0.12;
 /// Mean length between two branchings, in widths of the vessel.
 const BRANCHING: f64 = 14.;
-/// Least width of a branch, in spacings; narrower branches are not drawn.
+/// Smallest width of a branch, in spacings; narrower branches are not drawn.
 const NARROWEST: f64 = 0.4;
 /// Widths of the two branches, relative to their stem: the cubes add up to about 1 (0.8³ + 0.79³).
 ///

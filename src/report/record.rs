@@ -50,7 +50,7 @@ pub struct MosaicRecord {
 pub struct SamplerDistance {
     /// Name of the sampler.
     pub sampler: String,
-    /// Greatest difference of the two functions, max |g₁ − g₂|.
+    /// Largest difference of the two functions, max |g₁ − g₂|.
     pub l_infinity: f64,
 }
 

@@ -2,7 +2,7 @@ use crate::geometry::power::{Domain, Raster, RasterError};
 use crate::geometry::{Point, Polygon};
 use std::sync::Arc;
 
-/// Lower limit of the density, as a share of its greatest value; smaller values are raised to it.
+/// Lower limit of the density, as a share of its largest value; smaller values are raised to it.
 ///
 /// A region of density 0 would separate the cells on its two sides.
 const LEAST: f64 = 1e-3;
@@ -10,7 +10,7 @@ const LEAST: f64 = 1e-3;
 /// Relative density of points over the bounds of a window.
 ///
 /// The density is a raster, constant within each cell; the first cell is the upper left one. Values
-/// below 1/1000 of the greatest value are raised to that limit.
+/// below 1/1000 of the largest value are raised to that limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Density {
     columns: usize,

@@ -48,7 +48,7 @@ pub enum SampleError {
         sampler: &'static str,
         /// Number of points, each of which has one cell.
         n: usize,
-        /// Greatest relative deviation of a cell's mass from the common mass.
+        /// Largest relative deviation of a cell's mass from the common mass.
         error: f64,
     },
     /// More points were asked for than fit into memory.

@@ -194,8 +194,8 @@ mod tests {
         assert!(samplers().iter().all(|s| message.contains(s.name())), "{message}");
     }
 
-    /// Conditions of METHODS §3: n = 1024 in the unit square, 12 seeds, all points, population
-    /// deviation, plain distance.
+    /// The conditions of Table 1 of Lanaro et al. (2020): n = 1024 in the unit square, all points,
+    /// population standard deviation, Euclidean (not toroidal) distance; the mean of 12 seeds.
     #[test]
     fn regularity_index_of_random_samplers_is_the_published_one() {
         for (name, expected, tolerance) in [

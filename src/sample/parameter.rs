@@ -7,7 +7,7 @@ pub struct Parameter {
     pub name: &'static str,
     /// Unit of the value, or the name of the things counted; empty for a plain number.
     pub unit: &'static str,
-    /// Least and greatest value; both are allowed.
+    /// Smallest and largest value; both are allowed.
     pub range: (f64, f64),
     /// `true` if only integers are allowed.
     pub whole: bool,
@@ -64,7 +64,7 @@ pub struct Setting<S> {
     pub unset: &'static str,
     /// Effect of the parameter, see [`Parameter::meaning`].
     pub meaning: &'static str,
-    /// Getter that returns the present value, or `None` if it is not a number.
+    /// Getter that returns the current value, or `None` if it is not a number.
     pub get: fn(&S) -> Option<f64>,
     /// Setter of the value, which must lie within the range.
     pub set: fn(&mut S, f64),

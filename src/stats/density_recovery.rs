@@ -18,7 +18,7 @@ use std::f64::consts::PI;
 
 /// Requests for more annuli than this are refused, because each would hold almost no points.
 const MOST_BINS: f64 = 100_000.;
-/// Least number of points for which the rows of the search grid are processed in parallel.
+/// Smallest number of points for which the rows of the search grid are processed in parallel.
 const PARALLEL_FROM: usize = 8192;
 
 /// Rule for the width of the annuli of a density recovery profile.

@@ -36,7 +36,7 @@ pub struct Inhomogeneous {
     pub spacing: f64,
     /// Standard deviation of the kernel that estimated the intensity, in units of the coordinates.
     pub bandwidth: f64,
-    /// Smallest and greatest intensity at a point, per squared unit of the coordinates.
+    /// Smallest and largest intensity at a point, per squared unit of the coordinates.
     pub intensity: (f64, f64),
 }
 

@@ -223,8 +223,8 @@ mod tests {
         sampler("uniform").unwrap().sample(n, window, &mut ChaCha8Rng::seed_from_u64(4)).unwrap()
     }
 
-    /// Sums every pair with the exact kernel; the share of the kernel in the window is found by
-    /// counting places.
+    /// Estimates the intensity by summing the exact kernel over every pair; the share of the kernel
+    /// within the window is integrated numerically on a grid.
     fn direct(points: &[Point], window: &Window, bandwidth: f64) -> Vec<f64> {
         let bounds = window.bounds();
         let kernel = |a: Point, b: Point| {

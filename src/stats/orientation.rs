@@ -17,8 +17,8 @@ use serde::{Deserialize, Serialize};
 pub const AXIS_BIN: f64 = 10.;
 /// Number of bins that cover 180°.
 const AXIS_BINS: usize = 18;
-/// Least number of groups of linked points for which a p-value is given. With fewer groups it would
-/// not be distributed like a p-value.
+/// Smallest number of groups of linked points for which a p-value is given. With fewer groups it
+/// would not be distributed like a p-value.
 const FEWEST_GROUPS: usize = 10;
 /// Differences and sums of directions count as 0 below this relative size, because they are only
 /// rounding error.

@@ -18,7 +18,7 @@ use spade::{Point2, Triangulation};
 /// Voronoi vertices that are closer than this share of the hexagonal spacing are merged, because a
 /// side without length is no side.
 const SAME_VERTEX: f64 = 1e-7;
-/// Least number of points for which cells are computed on all threads.
+/// Smallest number of points for which cells are computed on all threads.
 const SPREAD_FROM: usize = 8192;
 /// Width of the margin around a torus, in hexagonal spacings, in which the pattern is first
 /// repeated.
@@ -204,7 +204,7 @@ pub fn voronoi(points: &[Point], window: &Window) -> Voronoi {
     Voronoi { cells: repeated_to(f64::INFINITY).0 }
 }
 
-/// Returns the cells of the first `n` points and the greatest distance from a point to a vertex of
+/// Returns the cells of the first `n` points and the largest distance from a point to a vertex of
 /// its cell.
 ///
 /// The distance is infinite if one of the cells is infinite.

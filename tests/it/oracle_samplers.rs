@@ -64,7 +64,7 @@ fn regularity_index_of_the_oracle_point_sets_is_that_of_all_pairs() {
     }
 }
 
-/// The indices of green and pink noise in the paper are computed from all distances (METHODS §3).
+/// The indices of green and pink noise in the paper are computed from all distances.
 #[test]
 fn regularity_index_of_green_and_pink_is_the_published_one() {
     let mut found = Vec::new();
@@ -143,9 +143,9 @@ fn mean_curves_of_samplers_agree_with_those_of_another_program() {
     }
 }
 
-/// METHODS §4 gives .007 at n = 300, and −.18 at the first peak without correction, for a pattern
-/// it does not name. Dart throwing gives .0076 and .0078 (40 seeds), hence the bar of .01 here; its
-/// peak is lower, and 6.7 % of it is .107.
+/// An independent implementation gave .007 at n = 300, and −.18 at the first peak without
+/// correction, for a pattern that is not named. Dart throwing gives .0076 and .0078 (40 seeds),
+/// hence the bar of .01 here; its peak is lower, and 6.7 % of it is .107.
 #[test]
 fn edge_corrections_agree_on_average_and_none_is_low_at_the_peak() {
     let window = Window::unit_square();
@@ -193,7 +193,7 @@ fn nearest_neighbours_and_inner_cells_agree_with_spatstat() {
     }
 }
 
-/// The numbers are those of Metricks for jittered points, strictly inside [0, 150]² (METHODS §6).
+/// The numbers are those of Metricks for jittered points, strictly inside [0, 150]².
 #[test]
 fn bound_cells_agree_with_metricks() {
     struct Expected {

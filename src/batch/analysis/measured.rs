@@ -5,13 +5,13 @@ use crate::geometry::Point;
 use crate::report::{MosaicRecord, SamplerDistance, counted};
 use crate::stats::Measures;
 
-/// Least number of cones for which statistics are given without a warning that they are uncertain:
-/// the regularity index of 30 points scatters by about 15 %.
+/// Smallest number of cones for which statistics are given without a warning that they are
+/// uncertain: the regularity index of 30 points scatters by about 15 %.
 const FEW: usize = 30;
-/// Least number of points for which coordinates are reported as rounded if all are integers. Fewer
-/// points may have integer coordinates by chance, or in an example.
+/// Smallest number of points for which coordinates are reported as rounded if all are integers.
+/// Fewer points may have integer coordinates by chance, or in an example.
 const ROUNDED: usize = 10;
-/// Least confidence in the modality or the spacing that is accepted without a warning.
+/// Smallest confidence in the modality or the spacing that is accepted without a warning.
 pub(in crate::batch) const CONFIDENT: f64 = 0.8;
 
 /// Returns the l-infinity distance between the mosaic and each reference curve; empty if the mosaic

@@ -129,7 +129,7 @@ pub(in crate::batch) struct Chosen {
 ///
 /// A column may have a different name in each table. `density` is found as `density_per_px2`, or in
 /// any other unit that all tables have. A name that a column had in an earlier version of the
-/// program finds the column under its present name.
+/// program finds the column under its current name.
 ///
 /// # Errors
 /// Fails if a column asked for is missing from a table, or if the tables have it in no common unit.

@@ -25,7 +25,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 pub(super) const OWN: &str = ".conemosaic";
 /// Name of the list of files, inside [`OWN`].
 const LIST: &str = "files.sha256";
-/// Folder inside [`OWN`] for results of earlier runs that the present run has not written again.
+/// Folder inside [`OWN`] for results of earlier runs that the current run has not written again.
 const EARLIER: &str = "earlier";
 /// File that exists while results are being written, or after a run that was cut off. The tables in
 /// the folder may then be of different runs.
@@ -74,7 +74,7 @@ pub(super) struct Ledger {
     now: Mutex<Now>,
 }
 
-/// State of the ledger in the present run.
+/// State of the ledger in the current run.
 #[derive(Default)]
 struct Now {
     journal: Option<File>,
@@ -104,7 +104,7 @@ impl Ledger {
         Ok(Self { root: root.to_owned(), earlier, now: Mutex::default() })
     }
 
-    /// Locks and returns the state of the present run, even after a panic in another thread.
+    /// Locks and returns the state of the current run, even after a panic in another thread.
     fn now(&self) -> MutexGuard<'_, Now> {
         self.now.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -151,7 +151,7 @@ impl Ledger {
         self.now().kept.insert(prefix.to_owned());
     }
 
-    /// Returns the SHA-256 of the present content of the file `name`; `None` if the file cannot be
+    /// Returns the SHA-256 of the current content of the file `name`; `None` if the file cannot be
     /// read.
     fn current(&self, name: &str) -> Option<String> {
         fs::read(self.root.join(name)).ok().map(|bytes| hex(&Sha256::digest(bytes)))
@@ -257,7 +257,7 @@ impl Ledger {
             let now = self.now();
             (now.written.clone(), now.kept.clone())
         };
-        // no prefix in `kept` is the beginning of another one, so only the greatest prefix up to
+        // no prefix in `kept` is the beginning of another one, so only the largest prefix up to
         // `name` can be a prefix of `name`
         let below = |name: &str| kept.range::<str, _>((Bound::Unbounded, Bound::Included(name))).next_back();
         let holds = |name: &str| below(name).is_some_and(|prefix| name.starts_with(prefix.as_str()));

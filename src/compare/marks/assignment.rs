@@ -222,8 +222,8 @@ impl Search {
     }
 }
 
-/// Column in the queue. The nearest column compares as the greatest, as `BinaryHeap` takes the
-/// greatest first; ties go to the lower index.
+/// Column in the queue. The nearest column compares as the largest, as `BinaryHeap` takes the
+/// largest first; ties go to the lower index.
 struct Waiting {
     distance: f64,
     column: usize,

@@ -28,9 +28,9 @@ pub struct Difference {
     pub interval: Option<Interval>,
     /// p-value of the paired sign-flip permutation test that the mean difference is zero.
     pub p: Option<f64>,
-    /// Least p-value that the sign-flip test could give with these groups, whatever the size of the
-    /// differences. Only groups in which the two detectors differ count; an image without a group
-    /// is a group of its own.
+    /// Smallest p-value that the sign-flip test could give with these groups, whatever the size of
+    /// the differences. Only groups in which the two detectors differ count; an image without a
+    /// group is a group of its own.
     pub least_p: f64,
 }
 
@@ -49,8 +49,8 @@ const PER_MM2: Measure = ("density_per_mm2", |s| density(s, s.area_mm2()));
 /// Measure used if the scale of some image is unknown: density in cones per px².
 const PER_PX2: Measure = ("density_per_px2", |s| density(s, Some(s.area_px)));
 
-/// Returns the number of detections outside the border per unit of `area`; `None` if the area is
-/// unknown or zero.
+/// Returns the number of detections outside the border strip per unit of `area`; `None` if the area
+/// is unknown or zero.
 fn density(score: &Score, area: Option<f64>) -> Option<f64> {
     area.filter(|a| *a > 0.).map(|a| score.detections_inside as f64 / a)
 }

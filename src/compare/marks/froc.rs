@@ -14,15 +14,15 @@ use serde::Serialize;
 /// Outcome of a detection that was compared with the marks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// Detection that has a mark of its own; both lie outside the border of the image.
+    /// Detection that has a mark of its own; both lie outside the border strip of the image.
     Hit,
-    /// Detection outside the border of the image that has no mark.
+    /// Detection outside the border strip of the image that has no mark.
     FalseAlarm,
-    /// Detection in the border of the image whose mark lies outside the border. The detection is
-    /// neither hit nor false alarm, and the mark is no miss.
+    /// Detection in the border strip of the image whose mark lies outside the border strip. The
+    /// detection is neither hit nor false alarm, and the mark is no miss.
     Excuse,
-    /// Detection that changes no count: it lies in the border of the image and has no mark, or its
-    /// mark lies in the border.
+    /// Detection that changes no count: it lies in the border strip of the image and has no mark,
+    /// or its mark lies in the border strip.
     Nothing,
 }
 
@@ -40,7 +40,7 @@ pub struct Judged {
 pub struct JudgedImage {
     /// Judged detections, from the highest score to the lowest.
     pub judged: Vec<Judged>,
-    /// Number of marks outside the border of the image.
+    /// Number of marks outside the border strip of the image.
     pub marks: usize,
     /// Area of the image without its border, in mm²; `None` if the scale is unknown. [`judge`]
     /// leaves the field `None`; the caller may set it.

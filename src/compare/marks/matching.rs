@@ -144,15 +144,15 @@ pub struct Pair {
 pub struct Matching {
     /// All pairs, sorted by index of the mark.
     pub pairs: Vec<Pair>,
-    /// Indices of the marks outside the border of the image that have no detection, in ascending
-    /// order.
+    /// Indices of the marks outside the border strip of the image that have no detection, in
+    /// ascending order.
     pub misses: Vec<usize>,
-    /// Indices of the detections outside the border of the image that have no mark, in ascending
-    /// order.
+    /// Indices of the detections outside the border strip of the image that have no mark, in
+    /// ascending order.
     pub false_alarms: Vec<usize>,
-    /// One flag per mark: `true` if the mark lies in the border of the image.
+    /// One flag per mark: `true` if the mark lies in the border strip of the image.
     pub marks_in_border: Vec<bool>,
-    /// One flag per detection: `true` if the detection lies in the border of the image.
+    /// One flag per detection: `true` if the detection lies in the border strip of the image.
     pub detections_in_border: Vec<bool>,
     /// Largest distance allowed in a pair, in px.
     pub limit: f64,
@@ -161,18 +161,20 @@ pub struct Matching {
 }
 
 impl Matching {
-    /// Returns the number of hits: pairs with mark and detection outside the border of the image.
+    /// Returns the number of hits: pairs with mark and detection outside the border strip of the
+    /// image.
     pub fn true_positives(&self) -> usize {
         self.pairs.iter().filter(|p| p.counted).count()
     }
 
-    /// Returns the number of misses: marks outside the border of the image that have no detection.
+    /// Returns the number of misses: marks outside the border strip of the image that have no
+    /// detection.
     pub fn false_negatives(&self) -> usize {
         self.misses.len()
     }
 
-    /// Returns the number of false alarms: detections outside the border of the image that have no
-    /// mark.
+    /// Returns the number of false alarms: detections outside the border strip of the image that
+    /// have no mark.
     pub fn false_positives(&self) -> usize {
         self.false_alarms.len()
     }
@@ -185,9 +187,10 @@ impl Matching {
 /// the marks apart. With fewer than two marks, the nearest-neighbour distance of the detections is
 /// used instead; with fewer than two detections as well, the limit is `border` px.
 ///
-/// A pair of which mark or detection lies in the border is neither a hit nor an error, and an
-/// unpaired point in the border is no error. A point is in the border if it is at most `border` − ½
-/// px from the centre of an outermost row or column, so the border is `border` pixels wide.
+/// A pair of which mark or detection lies in the border strip is neither a hit nor an error, and an
+/// unpaired point in the border strip is no error. A point is in the border strip if it is at most
+/// `border` − ½ px from the centre of an outermost row or column, so the border is `border` pixels
+/// wide.
 ///
 /// # Errors
 /// Fails if an option is out of its range, a coordinate is not finite or beyond ±10⁹ px, or there
@@ -265,7 +268,7 @@ impl Field {
         Self { width: width as f64, height: height as f64, border }
     }
 
-    /// Returns whether a point lies in the border of the image.
+    /// Returns whether a point lies in the border strip of the image.
     pub(super) fn is_border(&self, p: &Point) -> bool {
         let Self { width: w, height: h, border: b } = *self;
         p.x <= b - 0.5 || p.x >= w - b - 0.5 || p.y <= b - 0.5 || p.y >= h - b - 0.5

@@ -36,7 +36,7 @@ pub struct Summary {
     /// Rates computed from the hits, misses and false alarms of all images added up.
     pub pooled: Rates,
     /// Bias and limits of agreement of the counts, in cones per image: detections − marks, both
-    /// outside the border of the image.
+    /// outside the border strip of the image.
     pub count: Option<Agreement>,
     /// Bias and limits of agreement of the densities. The difference of an image is given in per
     /// cent of the mean of both densities: 100 (detections − marks) / ½ (detections + marks).

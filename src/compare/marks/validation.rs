@@ -7,12 +7,12 @@ use serde::Serialize;
 /// 0 / 0 are set to 0, as in the published evaluations.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Rates {
-    /// Number of hits: pairs of a mark and a detection, both outside the border of the image.
+    /// Number of hits: pairs of a mark and a detection, both outside the border strip of the image.
     pub tp: usize,
-    /// Number of misses: marks outside the border of the image that have no detection.
+    /// Number of misses: marks outside the border strip of the image that have no detection.
     #[serde(rename = "fn")]
     pub fn_: usize,
-    /// Number of false alarms: detections outside the border of the image that have no mark.
+    /// Number of false alarms: detections outside the border strip of the image that have no mark.
     pub fp: usize,
     /// Recall, tp / (tp + fn); 0 without marks.
     pub sensitivity: f64,
@@ -48,31 +48,31 @@ pub struct Score {
     #[serde(flatten)]
     pub rates: Rates,
     /// Localisation error: median distance, in px, between mark and detection over all pairs
-    /// outside the border of the image; `None` without such pairs.
+    /// outside the border strip of the image; `None` without such pairs.
     pub localisation_px: Option<f64>,
     /// Localisation error as a fraction of the [hexagonal
-    /// spacing](crate::mosaic::hexagonal_spacing) of the marks outside the border of the image;
-    /// `None` without pairs there.
+    /// spacing](crate::mosaic::hexagonal_spacing) of the marks outside the border strip of the
+    /// image; `None` without pairs there.
     pub localisation_s: Option<f64>,
     /// Mean displacement from mark to detection, in px to the right and down, over all pairs
-    /// outside the border of the image; `None` without such pairs. A value far from zero suggests
-    /// that marks and detections count pixels from different origins.
+    /// outside the border strip of the image; `None` without such pairs. A value far from zero
+    /// suggests that marks and detections count pixels from different origins.
     pub offset_px: Option<[f64; 2]>,
-    /// Number of marks outside the border of the image.
+    /// Number of marks outside the border strip of the image.
     pub marks_inside: usize,
-    /// Number of detections outside the border of the image.
+    /// Number of detections outside the border strip of the image.
     pub detections_inside: usize,
-    /// Number of detections divided by number of marks, both outside the border of the image: 1
-    /// means equal density. `None` if no mark lies outside the border.
+    /// Number of detections divided by number of marks, both outside the border strip of the image:
+    /// 1 means equal density. `None` if no mark lies outside the border strip.
     pub density_ratio: Option<f64>,
     /// Area of the image without its border, in px².
     pub area_px: f64,
     /// Scale in µm on the retina per pixel; `None` if unknown. [`validate`] leaves the field
     /// `None`; the caller may set it.
     pub um_per_px: Option<f64>,
-    /// Number of all marks, also those in the border of the image.
+    /// Number of all marks, also those in the border strip of the image.
     pub n_marks: usize,
-    /// Number of all detections, also those in the border of the image.
+    /// Number of all detections, also those in the border strip of the image.
     pub n_detections: usize,
     /// Largest distance allowed in a pair, in px.
     pub limit_px: f64,

@@ -13,10 +13,10 @@ use crate::geometry::{Polygon, Rectangle, Window};
 const RATIO: f64 = 1.2;
 /// Total number of points of all patterns that are drawn for one curve.
 const POINTS_PER_CURVE: f64 = 16_000.;
-/// Least and greatest number of patterns per curve, for classes below [`LARGE`] points.
+/// Smallest and largest number of patterns per curve, for classes below [`LARGE`] points.
 const REALISATIONS: (usize, usize) = (4, 60);
-/// Least number of points for which a curve is the mean of only 2 patterns; from five times as many
-/// points on, it is a single pattern. Large patterns vary little and take long.
+/// Smallest number of points for which a curve is the mean of only 2 patterns; from five times as
+/// many points on, it is a single pattern. Large patterns vary little and take long.
 const LARGE: usize = 20_000;
 
 /// Class of mosaics that share a reference curve. Numbers are stored as exponents of 1.2.

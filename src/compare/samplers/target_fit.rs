@@ -14,14 +14,14 @@ pub struct TargetFit {
     /// Pair correlation function of the points at the distances `r`, estimated in their window with
     /// default options.
     pub reached: Vec<f64>,
-    /// Greatest absolute difference between the two functions.
+    /// Largest absolute difference between the two functions.
     pub l_infinity: f64,
-    /// Distance at which the greatest difference occurs, in hexagonal spacings.
+    /// Distance at which the largest difference occurs, in hexagonal spacings.
     pub worst_r: f64,
 }
 
 impl TargetFit {
-    /// Returns whether the greatest difference lies within 0.4 hexagonal spacings of the last
+    /// Returns whether the largest difference lies within 0.4 hexagonal spacings of the last
     /// distance compared, and this last distance is below 5.6.
     ///
     /// Such a difference says little about the fit: pairs farther apart than the end of the target

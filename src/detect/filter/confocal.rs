@@ -7,8 +7,8 @@ use super::{Criterion, negative_laplacian};
 use crate::detect::spacing::CLEAR;
 use crate::image::{Plane, gaussian};
 
-/// Width of the Gaussian in a clear image, in spacings: narrow, so that close neighbours stay
-/// apart.
+/// Standard deviation of the Gaussian in a clear image, in spacings: narrow, so that close
+/// neighbours stay apart.
 const NARROWEST: f64 = 0.13;
 /// Increase of the width, in spacings, for every unit by which the clarity is below `CLEAR`.
 ///

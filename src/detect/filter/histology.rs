@@ -8,10 +8,11 @@ use super::{Criterion, negative_laplacian};
 use crate::detect::flatten::normalise;
 use crate::image::{Plane, gaussian};
 
-/// Width of the Gaussian, in spacings: as wide as a disc, so that texture and outline make no
-/// maxima of their own.
+/// Standard deviation of the Gaussian, in spacings: as wide as a disc, so that texture and outline
+/// make no maxima of their own.
 const SIGMA: f64 = 0.22;
-/// Width, in spacings, of the Gaussian neighbourhood whose root mean square divides the response.
+/// Standard deviation, in spacings, of the Gaussian window for the local root mean square, by which
+/// the response is divided.
 const CONTRAST: f64 = 2.;
 
 /// Criterion for cones.

@@ -23,13 +23,14 @@ const CRITERION: Criterion = Criterion {
     relative: Some(RelativeThreshold { slope: 0.75, offset: -0.7 }),
 };
 
-/// Width, in spacings, of the Gaussian at the upper end of the band.
+/// Standard deviation, in spacings, of the Gaussian at the upper end of the band.
 const FINE: f32 = 0.14;
-/// Width, in spacings, of the Gaussian at the lower end of the band.
+/// Standard deviation, in spacings, of the Gaussian at the lower end of the band.
 ///
 /// The band leaves nothing of a slow drift, so none is subtracted beforehand.
 const COARSE: f32 = 0.25;
-/// Width, in spacings, of the Gaussian neighbourhood whose root mean square divides the response.
+/// Standard deviation, in spacings, of the Gaussian window for the local root mean square, by which
+/// the response is divided.
 const CONTRAST: f64 = 0.8;
 
 /// Returns the response of the filter to an image with the given cone `spacing` in px, and the

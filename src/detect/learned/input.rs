@@ -9,10 +9,11 @@
 use crate::image::{PARALLEL_PIXELS, Plane, gaussian, mirror, plane_of, values};
 use rayon::prelude::*;
 
-/// Width, in px of the resampled image, of the Gaussian filter whose result is subtracted as drift.
+/// Standard deviation, in px of the resampled image, of the Gaussian filter whose result is
+/// subtracted as drift.
 const DRIFT: f64 = 8.;
-/// Width, in px of the resampled image, of the Gaussian neighbourhood in which contrast is
-/// measured.
+/// Standard deviation, in px of the resampled image, of the Gaussian neighbourhood in which
+/// contrast is measured.
 const CONTRAST: f64 = 12.;
 /// Fraction of the mean contrast that is added to the local contrast.
 ///

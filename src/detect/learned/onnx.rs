@@ -13,7 +13,7 @@ use std::sync::Arc;
 ///
 /// Multiples of 32 px allow five halvings.
 const MULTIPLE: &str = "32";
-/// Least distance of a probability from 0 and from 1.
+/// Smallest distance of a probability from 0 and from 1.
 ///
 /// Closer probabilities are moved to this distance, because the logit of 0 or 1 is infinite.
 const SURE: f32 = 1e-6;

@@ -11,22 +11,25 @@ use crate::detect::spacing::{AROUND as AROUND_RING, RingProfile};
 use crate::detect::{Modality, Polarity, filter, flatten::normalise, local_maxima, suppress};
 use crate::image::{Plane, gaussian, values};
 
-/// Width, in spacings, of the Gaussian that smooths an image before fine slopes are taken.
+/// Standard deviation, in spacings, of the Gaussian that smooths an image before fine slopes are
+/// taken.
 const FINE: f64 = 0.1;
-/// Width, in spacings, of the Gaussian that smooths an image before coarse slopes are taken.
+/// Standard deviation, in spacings, of the Gaussian that smooths an image before coarse slopes are
+/// taken.
 const COARSE: f64 = 0.2;
-/// Width, in spacings, of the Gaussian that smooths an image before grey values are compared.
+/// Standard deviation, in spacings, of the Gaussian that smooths an image before grey values are
+/// compared.
 ///
 /// Without it, noise would blur the distribution of grey values.
 const GREY: f64 = 0.08;
-/// Width, in spacings, of the Gaussian neighbourhood whose mean and scatter serve as reference for
-/// grey values.
+/// Standard deviation, in spacings, of the Gaussian neighbourhood whose mean and scatter serve as
+/// reference for grey values.
 const AROUND: f64 = 1.5;
-/// Least range of grey values that other values are divided by, in local standard deviations.
+/// Smallest range of grey values that other values are divided by, in local standard deviations.
 ///
 /// Without this floor, the range could be 0: more than half of an image may be a single grey value.
 const LEAST_RANGE: f64 = 1e-2;
-/// Least height of a maximum that counts as a cone, as a fraction of the median height of all
+/// Smallest height of a maximum that counts as a cone, as a fraction of the median height of all
 /// maxima.
 const CONE: f64 = 0.3;
 

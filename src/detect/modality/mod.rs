@@ -18,13 +18,14 @@ use crate::geometry::Point;
 use crate::image::{Plane, gaussian};
 use features::{DIRECTION, Features, MODALITY};
 
-/// Width, in spacings, of the Gaussian that averages the brightness in the middle of a cut cell.
+/// Standard deviation, in spacings, of the Gaussian that averages the brightness in the middle of a
+/// cut cell.
 const MIDDLE: f64 = 0.1;
-/// Width, in spacings, of the Gaussian that averages the brightness of a cut cell and of its
-/// surroundings beyond the walls.
+/// Standard deviation, in spacings, of the Gaussian that averages the brightness of a cut cell and
+/// of its surroundings beyond the walls.
 const CELL: f64 = 0.5;
 
-/// Least number of pixels of a flattened image that is taken for a part of a larger one, so that
+/// Smallest number of pixels of a flattened image that is taken for a part of a larger one, so that
 /// its ring is measured anew.
 ///
 /// Parts of a large image are at most 512 × 512 px.

@@ -26,7 +26,7 @@ const TRUST: f64 = 0.35;
 
 /// Approximate number of cones in a square in which a local density is counted.
 const COUNTED: f64 = 80.;
-/// Least number of cones in an image for which local spacings are computed.
+/// Smallest number of cones in an image for which local spacings are computed.
 ///
 /// With fewer, local counts would be noise, so one spacing serves the entire image.
 const ENOUGH_CONES: usize = 320;
@@ -34,7 +34,7 @@ const ENOUGH_CONES: usize = 320;
 const NODE_STEP: f64 = 4.;
 /// Smallest fraction of a square that must have been imaged for its count to be used.
 const IMAGED: f64 = 0.4;
-/// Least ratio of the largest to the smallest spacing of a map; a map with a smaller ratio is
+/// Smallest ratio of the largest to the smallest spacing of a map; a map with a smaller ratio is
 /// replaced by a single spacing.
 ///
 /// Local counts scatter by about as much, and filters tolerate a spacing that differs from their
@@ -46,7 +46,7 @@ pub(in crate::detect) const EVEN: f64 = 1.2;
 pub(in crate::detect) struct Start {
     /// Spacing from place to place.
     pub map: SpacingMap,
-    /// Least spacing, in px, that the density of the detections may give to the entire image.
+    /// Smallest spacing, in px, that the density of the detections may give to the entire image.
     pub least: f64,
 }
 

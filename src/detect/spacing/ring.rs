@@ -16,7 +16,7 @@ use std::sync::OnceLock;
 
 /// Side of the Fourier transform, in px.
 pub(super) const SIZE: usize = 512;
-/// Least number of times that a spacing must fit into the shorter side of the image to be a
+/// Smallest number of times that a spacing must fit into the shorter side of the image to be a
 /// candidate.
 ///
 /// With fewer periods, a ring cannot be told from uneven illumination.
@@ -38,7 +38,7 @@ const RING_BAND: (f64, f64) = (0.8, 1.4);
 const FINEST: f64 = 2.6;
 /// Factor between the middle of the band around [`FINEST`] and either end of the band.
 const FINEST_BAND: f64 = 1.15;
-/// Least clarity ([`RingProfile::clarity`]) of an image with hardly any noise.
+/// Smallest clarity ([`RingProfile::clarity`]) of an image with hardly any noise.
 pub(in crate::detect) const CLEAR: f64 = 6.2;
 /// Number of frequencies around the ring at which [`RingProfile::around`] gives the power.
 pub(in crate::detect) const AROUND: usize = 15;

@@ -15,9 +15,9 @@ const IMAGED: f64 = 0.5;
 /// <https://doi.org/10.1109/TAU.1967.1161901>).
 pub(in crate::detect) struct Rings {
     whole: RingProfile,
-    /// Index of the first pixel of each column of tiles.
+    /// x of the leftmost pixels of each column of tiles.
     columns: Vec<usize>,
-    /// Index of the first pixel of each row of tiles.
+    /// y of the topmost pixels of each row of tiles.
     rows: Vec<usize>,
     /// Profile of each tile, row by row, or `None` if too little of the tile was imaged.
     tiles: Vec<Option<RingProfile>>,

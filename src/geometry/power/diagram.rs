@@ -134,7 +134,7 @@ impl<'a> PowerSites<'a> {
         whole
     }
 
-    /// Cuts the cell of a site out of the domain.
+    /// Computes the cell of a site in `clip`, by cutting the domain down.
     fn clip(&self, i: usize, weights: &[f64], greatest: f64, hints: &[Facet], clip: &mut Clip) {
         let site = self.sites[i];
         let [x, y] = site;

@@ -52,7 +52,7 @@ impl Domain {
         }
     }
 
-    /// Returns the least and the greatest coordinates.
+    /// Returns the least and the largest coordinates.
     pub(super) fn bounds(&self) -> [[f64; 2]; 2] {
         match self {
             Self::Torus { width, height } => [[0., 0.], [*width, *height]],

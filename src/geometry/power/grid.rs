@@ -13,7 +13,7 @@ pub(super) struct Entry {
 pub(super) struct Grid {
     columns: usize,
     rows: usize,
-    /// Least coordinates of the domain.
+    /// Smallest coordinates of the domain.
     low: [f64; 2],
     /// Sides of a cell of the grid.
     size: [f64; 2],

@@ -92,7 +92,7 @@ impl Raster {
         (self.columns, self.rows)
     }
 
-    /// Returns the densities in row order, divided by the greatest density.
+    /// Returns the densities in row order, divided by the largest density.
     pub fn values(&self) -> &[f64] {
         &self.density
     }

@@ -19,8 +19,8 @@ pub(super) struct Layout {
     pub(super) width: usize,
     /// Height of the picture in px.
     pub(super) height: usize,
-    /// Number of samples per pixel, at least one; samples after the colour or grey and the alpha
-    /// are ignored.
+    /// Number of samples per pixel, at least one. The colour samples (three, or one of grey) come
+    /// first, then alpha if it is used; any further samples are ignored.
     pub(super) channels: usize,
     /// `true` if every pixel begins with a red, a green and a blue sample, `false` if it begins
     /// with a single grey sample.

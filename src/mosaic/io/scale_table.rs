@@ -24,7 +24,7 @@ pub enum ScaleTableError {
         table: String,
         /// File name of the image, shortened.
         file_name: String,
-        /// Identifiers of the table.
+        /// Identifiers in the table, the first few of many.
         candidates: String,
     },
     /// Several identifiers fit equally well.

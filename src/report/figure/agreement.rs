@@ -93,7 +93,7 @@ fn signed(value: f64) -> String {
     if value < 0. { format!("−{number}") } else { format!("+{number}") }
 }
 
-/// Returns the least and the greatest value, each moved outwards by a margin.
+/// Returns the least and the largest value, each moved outwards by a margin.
 ///
 /// The margin is 12 % of the range. Without a range it is a tenth of the value, and at least 1.
 fn with_margin(values: impl Iterator<Item = f64>) -> (f64, f64) {

@@ -24,13 +24,13 @@ const DOT_RESOLUTION: f64 = 6.;
 const LARGEST_DOT_SIDE: f64 = 1500.;
 /// Radius of a point in hexagonal spacings.
 const DOT_RADIUS: f64 = 0.2;
-/// Least and greatest radius of a point, in canvas units.
+/// Smallest and largest radius of a point, in canvas units.
 const DOT_RADIUS_BOUNDS: (f64, f64) = (0.1, 1.5);
 /// Colour on a picture of the border of a window that is no rectangle (Okabe & Ito 2008).
 const OUTLINE_ON_PICTURE: &str = "#E69F00";
 /// Width of that border, in canvas units.
 const OUTLINE_WIDTH: f64 = 0.8;
-/// Greatest share of the field's width that the scale bar takes.
+/// Largest share of the field's width that the scale bar takes.
 const SCALE_BAR_SHARE: f64 = 0.4;
 
 /// The map from the mosaic's coordinates to the page: both have y down, and the scale is the same

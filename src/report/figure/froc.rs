@@ -16,9 +16,9 @@ const SWATCH: f64 = 15.;
 const CROSS: f64 = 3.2;
 /// Multiple of what the dot lacks to a rate of 1, and of its false alarms, that the axes show.
 const SHOWN: f64 = 4.;
-/// Least part of an axis of rates that is shown.
+/// Smallest part of an axis of rates that is shown.
 const LEAST_SHOWN: f64 = 0.02;
-/// Greatest number of corners of a drawn curve; nobody sees more.
+/// Largest number of corners of a drawn curve; nobody sees more.
 const CORNERS: usize = 600;
 
 /// The curve of one detector.

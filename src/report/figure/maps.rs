@@ -27,9 +27,9 @@ const BAR_ROOM: f64 = 56.;
 const BAR_GAP: f64 = 6.;
 /// Width of a colour bar, in canvas units.
 const BAR_WIDTH: f64 = 9.;
-/// Least height of a colour bar.
+/// Smallest height of a colour bar.
 const LEAST_HEIGHT: f64 = 60.;
-/// Greatest height of a field.
+/// Largest height of a field.
 const MOST_HEIGHT: f64 = 330.;
 const HEAD: f64 = 36.;
 /// Room for the scale bar below a row and the titles above the next.
@@ -112,7 +112,7 @@ impl Layout {
 ///
 /// The maps show local density, inter-cell distance, nearest-neighbour distance, its regularity
 /// index, |ψ6| and the share of six-sided cells. Each has a colour bar from the least to the
-/// greatest value of whole windows. Peak (PCD) and centroid (CDC) are marked. Windows that reach
+/// largest value of whole windows. Peak (PCD) and centroid (CDC) are marked. Windows that reach
 /// beyond that of the mosaic are pale. Equal input makes equal bytes.
 ///
 /// # Errors
@@ -169,7 +169,7 @@ pub fn maps_figure(title: &str, mosaic: &Mosaic, maps: &Maps) -> Result<String, 
     Ok(canvas.into_svg(title, DESCRIPTION))
 }
 
-/// Returns the least and the greatest value of whole windows, or of all windows if none is whole.
+/// Returns the least and the largest value of whole windows, or of all windows if none is whole.
 fn range(grid: &MapGrid) -> Option<(f64, f64)> {
     let of = |whole: bool| {
         let values = grid.values.iter().zip(&grid.whole).filter(|(v, w)| v.is_finite() && (**w || !whole));

@@ -21,7 +21,7 @@ const RIGHT_EDGE: f64 = 8.;
 pub(super) const LEFT_EDGE: f64 = 2.;
 /// Height of the plots where nothing asks for more.
 const PLOT_HEIGHT: f64 = 160.;
-/// Greatest height of a field beside the plots.
+/// Largest height of a field beside the plots.
 const TALLEST: f64 = 200.;
 /// Share of the two plots' width that the histogram gets; the PCF has more to show.
 const HISTOGRAM_SHARE: f64 = 0.4;

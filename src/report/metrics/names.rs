@@ -2,10 +2,10 @@ use super::unit::Unit;
 use super::{Metric, Quantity, metrics};
 use std::borrow::Cow;
 
-/// Metrics that had another name in earlier versions: the old name and the present one.
+/// Metrics that had another name in earlier versions: the old name and the current one.
 const RENAMED: [(&str, &str); 1] = [("spacing", "spacing_density")];
 
-/// Returns the present name of a metric or column, which may be given by its name in an earlier
+/// Returns the current name of a metric or column, which may be given by its name in an earlier
 /// version.
 pub(super) fn canonical(name: &str) -> Cow<'_, str> {
     for (old, present) in RENAMED {
@@ -22,9 +22,9 @@ pub(super) fn canonical(name: &str) -> Cow<'_, str> {
 /// Names of the column of one metric and unit in the summaries of all commands and versions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ColumnNames {
-    /// Present name of the column, which ends in the unit.
+    /// Current name of the column, which ends in the unit.
     pub name: String,
-    /// Names that end in the unit, the present one first.
+    /// Names that end in the unit, the current one first.
     pub suffixed: Vec<String>,
     /// Names without a unit, which mean the same column where the coordinates are in px.
     ///

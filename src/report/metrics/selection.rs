@@ -9,7 +9,8 @@ use std::str::FromStr;
 /// The file, the unit, the number of cones and the warnings are always included.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct MetricSelection {
-    /// Present names of groups, metrics or columns; empty if all metrics are wanted.
+    /// Names of the wanted groups, metrics or columns, where current names have replaced old ones;
+    /// empty if all metrics are wanted.
     wanted: Vec<String>,
 }
 
@@ -65,7 +66,7 @@ impl FromStr for MetricSelection {
 
     /// Reads names of groups, metrics or columns, separated by commas, or the word `all`.
     ///
-    /// Names of earlier versions are replaced by the present ones.
+    /// Names of earlier versions are replaced by the current ones.
     ///
     /// # Errors
     /// If there is no name, or one that is not known.

@@ -19,8 +19,8 @@ pub struct ValidationRow {
     /// Judgement of every detection, and of what the program's own detector rejected; `None` if the
     /// detections have no scores.
     pub judged: Option<JudgedImage>,
-    /// Number of false alarms outside the border that the scores predict, Σ (1 − score), if all
-    /// scores are between 0 and 1.
+    /// Number of false alarms outside the border strip that the scores predict, Σ (1 − score), if
+    /// all scores are between 0 and 1.
     pub expected_false_alarms: Option<f64>,
     /// Score of the other detections, if two are compared.
     pub versus: Option<VersusRow>,

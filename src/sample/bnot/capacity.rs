@@ -24,7 +24,7 @@ const STEP_TOLERANCE: f64 = 0.1;
 /// Power diagram whose cells have nearly equal masses.
 pub(super) struct Solved {
     pub(super) diagram: PowerDiagram,
-    /// Greatest relative deviation of a cell's mass from the target.
+    /// Largest relative deviation of a cell's mass from the target.
     pub(super) error: f64,
 }
 
@@ -87,7 +87,7 @@ pub(super) fn solve(
     Solved { diagram: state.diagram, error: state.error }
 }
 
-/// Least mass of a cell, as a share of the target, at which the Newton steps may start.
+/// Smallest mass of a cell, as a share of the target, at which the Newton steps may start.
 ///
 /// With a smaller cell the steps would be too short, so the weights are shrunk first.
 const SMALLEST: f64 = 0.02;

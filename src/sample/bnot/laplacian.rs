@@ -3,7 +3,8 @@
 use crate::geometry::power::PowerDiagram;
 use rayon::prelude::*;
 
-/// Least number of rows per thread: fewer rows are done sooner than handed over to another thread.
+/// Smallest number of rows per thread: fewer rows are done sooner than handed over to another
+/// thread.
 const ROWS: usize = 8192;
 
 /// Weighted Laplacian L of a graph: row i is Σ_j c_ij (x_i − x_j), with c_ij = c_ji > 0 for

@@ -29,7 +29,7 @@ struct Level {
     matrix: Laplacian,
     /// Group to which each node belongs; the group is a node of the next level.
     groups: Vec<u32>,
-    /// Product of the matrix and the present solution.
+    /// Product of the matrix and the current solution.
     rest: Vec<f64>,
     /// Right-hand side of the next level.
     below: Vec<f64>,

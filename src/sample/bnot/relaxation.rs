@@ -82,7 +82,7 @@ impl Bnot {
     }
 }
 
-/// Points being relaxed, with their present weights and cells.
+/// Points being relaxed, with their current weights and cells.
 struct State<'a> {
     region: &'a Region,
     points: Vec<[f64; 2]>,
@@ -120,7 +120,7 @@ impl State<'_> {
         }
     }
 
-    /// Finds weights that make all masses equal within `tolerance`, and returns the greatest
+    /// Finds weights that make all masses equal within `tolerance`, and returns the largest
     /// relative deviation of a mass that is left.
     fn solve(&mut self, tolerance: f64) -> f64 {
         let mut weights = std::mem::take(&mut self.weights);

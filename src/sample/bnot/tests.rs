@@ -96,7 +96,7 @@ fn points_follow_the_density() {
 
 #[test]
 fn cells_of_the_pattern_have_the_published_scatter_of_areas() {
-    // METHODS: the coefficient of variation of Voronoi areas is .041 after 20 steps
+    // the published coefficient of variation of Voronoi areas is .041 after 20 steps
     let points = Bnot::PAPER.sample(1024, &Window::unit_torus(), &mut seeded(6)).unwrap();
     let cv = voronoi(&points, &Window::unit_torus()).summary().area_cv.unwrap();
     assert!((cv - 0.041).abs() < 0.008, "{cv}");

@@ -199,8 +199,8 @@ impl Packing<'_> {
         })
     }
 
-    /// Adds a disc, and its pockets with all discs that are near enough for a disc of mean radius
-    /// to touch both.
+    /// Adds a disc. Also queues the pockets that it forms with each earlier disc, if a third disc
+    /// of the local mean radius can touch both.
     fn put(&mut self, disc: Disc) {
         let new = self.discs.len();
         let mean = self.retina.size(disc.centre);

@@ -191,7 +191,7 @@ impl Deering {
 
     /// Moves all cells except the first `fixed` by the forces between neighbours.
     ///
-    /// `largest` is the greatest mean diameter of the cells.
+    /// `largest` is the largest mean diameter of the cells.
     fn settle(&self, cells: &mut [Cell], fixed: usize, largest: f64) {
         let reach = largest * (ATTRACTION_ENDS * (1. + DEVIATIONS * self.radius_sd) + SLACK);
         let mut grid = HashGrid::new(reach);

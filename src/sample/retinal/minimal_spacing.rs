@@ -11,8 +11,8 @@ use rand::{Rng, RngExt};
 /// Largest deviation of a minimal distance from the mean, in standard deviations; larger deviations
 /// are drawn again.
 const DEVIATIONS: f64 = 4.;
-/// Least distance between human cones in the periphery, in mm: the middle of the 6–8 µm of Curcio
-/// and Sloan (1992).
+/// Smallest distance between human cones in the periphery, in mm: the middle of the 6–8 µm of
+/// Curcio and Sloan (1992).
 const PERIPHERAL: f64 = 0.007;
 /// Number of places tried for one cell before the window counts as full.
 const TRIALS: usize = 100_000;

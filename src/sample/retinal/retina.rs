@@ -3,7 +3,7 @@
 use crate::mosaic::RetinalPlace;
 use crate::sample::Setting;
 
-/// Greatest eccentricity at which the density of cones is known, in mm.
+/// Largest eccentricity at which the density of cones is known, in mm.
 pub(super) const FARTHEST: f64 = 18.;
 
 /// Returns the parameter `eccentricity` of the models in which cells follow the density of the

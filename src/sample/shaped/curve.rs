@@ -27,7 +27,7 @@ const SIGMA: f64 = 0.1;
 /// After five rounds, the result smoothed again is within .03 of a measured hard core; more rounds
 /// would amplify noise.
 const ROUNDS: usize = 5;
-/// Least distance, in spacings, at which a measured curve may end: a shorter curve says nothing
+/// Smallest distance, in spacings, at which a measured curve may end: a shorter curve says nothing
 /// about a pattern.
 const SHORTEST: f64 = 1.;
 

@@ -101,8 +101,8 @@ impl Sampler for Shaped {
 
 /// Largest number of positions on the pattern at which the polygon is tried.
 const CUTS: usize = 64;
-/// Least width of a window, in spacings, for which points are moved; in narrower windows they stay
-/// uniform.
+/// Smallest width of a window, in spacings, for which points are moved; in narrower windows they
+/// stay uniform.
 const NARROWEST: f64 = 1.;
 
 impl Shaped {

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 /// Number of parts into which a large pattern is split. Parts may run in parallel; their sums are
 /// added in order.
 const CHUNKS: usize = 32;
-/// Least number of points for which a pattern is split into [`CHUNKS`] parts.
+/// Smallest number of points for which a pattern is split into [`CHUNKS`] parts.
 const CHUNKED_FROM: usize = 2048;
 
 /// K and g with several edge corrections: none, border, translation and isotropic.

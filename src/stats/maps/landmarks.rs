@@ -12,7 +12,7 @@ pub struct Landmarks {
     /// Number of cones whose local window lies inside the window of the mosaic; the density map is
     /// made from the values of these cones only.
     pub whole: usize,
-    /// Peak cone density (PCD): the greatest density in a local window that lies inside the window
+    /// Peak cone density (PCD): the largest density in a local window that lies inside the window
     /// of the mosaic. `None` if there is no such local window.
     pub peak: Option<f64>,
     /// Position of the cone with the peak cone density; the first of them if several are equal.

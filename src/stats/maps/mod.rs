@@ -73,7 +73,7 @@ impl Maps {
 
 /// Computes the maps of a mosaic that has been measured.
 ///
-/// The maps are linear between cones, so their peak is at the cone of greatest local density. The
+/// The maps are linear between cones, so their peak is at the cone of largest local density. The
 /// peak density is the maximum over as many local windows as there are cones. It therefore exceeds
 /// the true density at that place by about the scatter of the density in a single local window.
 ///

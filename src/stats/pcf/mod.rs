@@ -201,7 +201,7 @@ pub(crate) fn pcf_on_one_thread(
     estimate(points, window, options, false)
 }
 
-/// Least number of points for which the work is split into [`CHUNKS`] parts that may run in
+/// Smallest number of points for which the work is split into [`CHUNKS`] parts that may run in
 /// parallel.
 const CHUNKED_FROM: usize = 8192;
 /// Number of parts into which a large pattern is split. It is fixed, so that the result does not

@@ -16,8 +16,8 @@ const RANGE: (f64, f64) = (0.6, 1.6);
 const STEP: f64 = 0.01;
 /// Standard deviation of the kernel that averages power over frequency, in √λ.
 const SMOOTHING: f64 = 0.05;
-/// Least number of points for which a ring is sought. With fewer points, too few waves are as long
-/// as the spacing.
+/// Smallest number of points for which a ring is sought. With fewer points, too few waves are as
+/// long as the spacing.
 const FEWEST: usize = 20;
 
 /// First ring of the power of a point pattern, and the spacing that belongs to it.

@@ -63,7 +63,7 @@ pub struct Trend {
     pub variation: Option<f64>,
     /// Lower and upper end of the 98 % confidence interval of `variation`.
     pub variation_interval: Option<(f64, f64)>,
-    /// Ratio of the greatest to the smallest density in the window by a quadratic fit, at most 100.
+    /// Ratio of the largest to the smallest density in the window by a quadratic fit, at most 100.
     ///
     /// Even without a trend, the ratio is above 1 by chance.
     pub density_ratio: Option<f64>,

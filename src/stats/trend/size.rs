@@ -44,13 +44,13 @@ impl Size {
     /// Returns the standard normal deviate of the observed strength of the trend if the density
     /// varies by `variation`.
     ///
-    /// - Relative to the noise of one wave, the sum of squares over the five waves of the trend has
-    ///   mean 5 + λ and variance 10 + 4λ, where λ is proportional to the square of the variation.
-    ///   The sum is treated as a gamma variable with the same mean and variance (Patnaik 1949,
+    /// - In units of the noise of one wave, the sum of squares over the five waves of the trend has
+    ///   mean 5 + λ and variance 10 + 4λ, where λ = 5 · (variation²/12) / `chance`. The sum is
+    ///   treated as a gamma variable with the same mean and variance (Patnaik 1949,
     ///   <https://doi.org/10.1093/biomet/36.1-2.202>).
-    /// - The sum is divided by its expectation: λ, which is known, plus 5 times the noise, which is
-    ///   estimated. This expectation has 17(1 + λ/5)² degrees of freedom (Satterthwaite 1946,
-    ///   <https://doi.org/10.2307/3002019>).
+    /// - The sum is divided by its expectation. In units of `observed`², this is variation²/12,
+    ///   which is given, plus `chance`, which is estimated. It has 17(1 + λ/5)² degrees of freedom
+    ///   (Satterthwaite 1946, <https://doi.org/10.2307/3002019>).
     /// - The ratio of the two is treated as an F variable. The formula of Paulson (1942,
     ///   <https://doi.org/10.1214/aoms/1177731608>) converts it to a normal deviate; for the 1 %
     ///   point of F(5, 17), the formula gives 1.01 %.

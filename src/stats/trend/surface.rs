@@ -4,7 +4,7 @@ use super::polygon;
 use crate::geometry::Polygon;
 
 /// Lower bound on the fitted density when the ratio of densities is computed, as a share of the
-/// greatest density. Below it, the ratio would mean nothing.
+/// largest density. Below it, the ratio would mean nothing.
 const LEAST_SHARE: f64 = 0.01;
 
 /// Density divided by its mean, fitted in the unit square: 1 + Σ c P_j(2x−1) P_k(2y−1) with
@@ -50,7 +50,7 @@ impl DensityFit {
         Self { coefficients: fitted.unwrap_or([1., 0., 0., 0., 0., 0.]) }
     }
 
-    /// Returns the ratio of the greatest to the smallest fitted density, at most 100, over the
+    /// Returns the ratio of the largest to the smallest fitted density, at most 100, over the
     /// places of a grid for which `inside` is true.
     pub(super) fn ratio(&self, inside: impl Fn((f64, f64)) -> bool) -> f64 {
         let steps = 32;

@@ -10,8 +10,8 @@ use crate::image::{Plane, Spectrum, crop, fast_length, signed_frequency};
 /// Zero-padding factor of the transform: tiles are padded to this multiple of their side, which
 /// interpolates the spectrum.
 const PADDING: usize = 2;
-/// Least power, as a fraction of the mean, to which all lower values are raised: a power of 0 has
-/// no logarithm.
+/// Smallest power, as a fraction of the mean, to which all lower values are raised: a power of 0
+/// has no logarithm.
 const FLOOR: f32 = 1e-12;
 
 /// Directions of the spectrum over which the power is averaged.

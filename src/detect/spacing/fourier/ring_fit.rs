@@ -24,8 +24,8 @@ const TRIED_PER_OCTAVE: f64 = 48.;
 ///
 /// Slower waves are uneven illumination, and what the Hann window leaves of the mean.
 const FIRST: f64 = 3.;
-/// Least number of periods per tile of a ring that is tried: slower rings cannot be told from the
-/// background.
+/// Smallest number of periods per tile of a ring that is tried: slower rings cannot be told from
+/// the background.
 const PERIODS: f64 = 5.;
 /// Degree of the polynomial that models the background.
 const DEGREE: usize = 3;
