@@ -25,6 +25,10 @@ impl Parameter {
         let kind = if self.whole { "whole, " } else { "" };
         match self.range {
             (low, f64::INFINITY) => format!("{kind}at least {low}"),
+            // cut off, not rounded: the number shown must itself be allowed
+            (low, high) if high.to_string().len() > 7 && !self.whole => {
+                format!("{low} to {}", (high * 1e4).floor() / 1e4)
+            }
             (low, high) => format!("{kind}{low} to {high}"),
         }
     }

@@ -90,7 +90,9 @@ pub(super) fn warnings_of(
             format!(" by about {} % (98 % interval {} to {} %)", percent(size), percent(low), percent(high))
         });
         let remedy = match measures.inhomogeneous {
-            Some(_) => "compare it with g_inhomogeneous and g_locally_scaled, which allow for the variation",
+            Some(_) => {
+                "compare g with g_inhomogeneous and g_locally_scaled in pcf.csv, which allow for the variation"
+            }
             None => "use a smaller window, in which the density is more even",
         };
         warnings.push(format!(

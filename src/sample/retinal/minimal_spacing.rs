@@ -71,7 +71,7 @@ impl Sampler for MinimalSpacing {
     }
 
     fn about(&self) -> &'static str {
-        "random places, refused if an earlier cell is nearer than a normally distributed minimum on the \
+        "random positions, refused if an earlier cell is nearer than a normally distributed minimum on the \
          torus; exactly n (Wässle & Riemann 1978, Galli-Resta et al. 1999)"
     }
 
