@@ -102,7 +102,10 @@ const HOPELESS: f64 = 0.1;
 #[derive(Debug, Error, PartialEq)]
 pub enum DetectError {
     /// The image is too small.
-    #[error("the image is {width} × {height} px: expected at least {MIN_SIDE} × {MIN_SIDE} px")]
+    #[error(
+        "the image is {width} × {height} px: expected at least {MIN_SIDE} × {MIN_SIDE} px, so leave it out or \
+         use a larger part"
+    )]
     TooSmall {
         /// Width of the image in px.
         width: usize,
@@ -454,7 +457,7 @@ mod tests {
         image[[70, 80]] = 0.5;
         image[[71, 81]] = 0.7;
         let error = detect(&image, &DetectOptions::default()).unwrap_err().to_string();
-        assert!(error.starts_with("only 2 × 2 px of the 150 × 150 px"), "{error}");
+        assert!(error.starts_with("only 2 × 2 px of the image (150 × 150 px) are not black"), "{error}");
     }
 
     #[test]

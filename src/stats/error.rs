@@ -47,7 +47,8 @@ pub enum StatsError {
     },
     /// The torus correction was requested for a window with a border.
     #[error(
-        "the torus correction needs a torus, but this window has a border: choose another edge correction"
+        "the torus correction needs a window that is a torus, but this window has a border: choose another edge \
+         correction, or measure the points as a torus"
     )]
     NotATorus,
 }

@@ -78,8 +78,9 @@ pub(super) fn warnings_of(
     }
     if record.n < FEW {
         warnings.push(format!(
-            "only {}, so every statistic is uncertain (the regularity index of {FEW} points scatters by \
-             about 15 %): use a larger window if you can",
+            "only {} in the window, so every statistic is uncertain (the regularity index of {FEW} points \
+             scatters by about 15 %): check that the window and its unit are right, and use a larger one \
+             if you can",
             counted(record.n, "point")
         ));
     }
@@ -87,17 +88,20 @@ pub(super) fn warnings_of(
     if trend.significant {
         let percent = |share: f64| format!("{:.0}", 100. * share);
         let size = trend.variation.zip(trend.variation_interval).map(|(size, (low, high))| {
-            format!(" by about {} % (98 % interval {} to {} %)", percent(size), percent(low), percent(high))
+            format!(
+                " by about {} % of its mean (98 % interval {} to {} %)",
+                percent(size),
+                percent(low),
+                percent(high)
+            )
         });
         let remedy = match measures.inhomogeneous {
-            Some(_) => {
-                "compare g with g_inhomogeneous and g_locally_scaled in pcf.csv, which allow for the variation"
-            }
+            Some(_) => "use g_inhomogeneous and g_locally_scaled in pcf.csv, which allow for the variation",
             None => "use a smaller window, in which the density is more even",
         };
         warnings.push(format!(
-            "density varies{} across the window, but g(r) and the distances to the samplers assume that it \
-             is constant: {remedy}",
+            "the density varies{} across the window, so g(r) and the distances to the samplers, which assume \
+             a constant density, are unreliable: {remedy}",
             size.unwrap_or_default()
         ));
     }

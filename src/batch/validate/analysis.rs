@@ -143,8 +143,7 @@ impl Analysis {
             let few = if self.groups.is_empty() { "images" } else { "groups" };
             notes.push(format!(
                 "with so few {few}, the p-value of the comparison cannot fall below {least:.4}, however \
-                 much the two differ: use the intervals instead, or at least six {few} that differ, with \
-                 which p can reach 0.03"
+                 much the two differ: use the intervals instead. With six {few} that differ, p can reach 0.03"
             ));
         }
         let unscored = rows.iter().filter(|r| r.judged.is_none()).count();
@@ -157,8 +156,9 @@ impl Analysis {
         }
         if self.froc.is_some() && self.reliability.is_none() {
             notes.push(
-                "scores are not all between 0 and 1, so they are not probabilities: no reliability is \
-                 computed, and the FROC curve assumes that scores are comparable between images"
+                "no detection counts, or scores are not all between 0 and 1 and so no probabilities: no \
+                 reliability is computed, and the FROC curve assumes that scores are comparable between \
+                 images"
                     .into(),
             );
         }

@@ -50,8 +50,8 @@ pub enum CompareError {
     },
     /// Too few or too many simulations, or a level out of its range.
     #[error(
-        "a verdict from {found} simulations was asked for: expected 39 to 9999 simulations, and a level \
-         between 0 and 0.5"
+        "the number of simulations of a verdict is {found}: expected 39 to 9999 (and a level between 0 and \
+         0.5)"
     )]
     Simulations {
         /// Number of simulations asked for.

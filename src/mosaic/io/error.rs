@@ -103,7 +103,10 @@ pub enum ReadFault {
         found: String,
     },
     /// A row has more or fewer cells than the first one.
-    #[error("expected {expected} cells as in the first row, found {found} in {line}: correct the row")]
+    #[error(
+        "expected {expected} cells as in the first row, found {found} in {line}: correct the row (is this a \
+         table of coordinates? are decimal commas separated by semicolons?)"
+    )]
     Ragged {
         /// Number of cells in the first row.
         expected: usize,
