@@ -454,7 +454,7 @@ mod tests {
         image[[70, 80]] = 0.5;
         image[[71, 81]] = 0.7;
         let error = detect(&image, &DetectOptions::default()).unwrap_err().to_string();
-        assert!(error.starts_with("only 2 × 2 px of the 150 × 150 px"), "{error}");
+        assert!(error.starts_with("only 2 × 2 px of the image (150 × 150 px) are not black"), "{error}");
     }
 
     #[test]

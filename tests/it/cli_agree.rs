@@ -92,7 +92,7 @@ fn tables_that_cannot_be_compared_are_refused_with_a_remedy() {
     place.write("twice.csv", "name,density\na.png,1\na.tif,2\n");
     for (second, more, words) in [
         ("other.csv", &[][..], "paired by file name"),
-        ("bare.csv", &[], "name or file"),
+        ("bare.csv", &[], "name, file, image or identifier"),
         ("twice.csv", &[], "line 3"),
         ("none.csv", &[], "summary.csv"),
         ("other.csv", &["--columns", "age"], "no column age"),

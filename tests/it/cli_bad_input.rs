@@ -164,9 +164,9 @@ fn options_out_of_range_are_refused_before_anything_is_written() {
     let place = Place::new();
     place.image("a.png", 1);
     for (options, word) in [
-        (&["--spacing", "200"][..], "4–160 px"),
-        (&["--spacing", "nan"], "4–160 px"),
-        (&["--spacing", "-3"], "4–160 px"),
+        (&["--spacing", "200"][..], "4 to 160 px"),
+        (&["--spacing", "nan"], "4 to 160 px"),
+        (&["--spacing", "-3"], "4 to 160 px"),
         (&["--spacing", "wide"], "expected a number"),
         (&["--threads", "0"], "1..=1024"),
         (&["--threads", "many"], "whole number"),

@@ -146,7 +146,7 @@ fn options_of_maps_that_cannot_be_are_refused() {
     for (extra, words) in [
         (&["--maps", "--map-cells", "2"][..], "3 to 100000"),
         (&["--maps", "--map-side", "0"], "positive number"),
-        (&["--maps", "--map-side", "5mm"], "um behind it"),
+        (&["--maps", "--map-side", "5mm"], "5um (in µm)"),
         (&["--maps", "--isodensity", "1"], "0.01 to 0.99"),
         (&["--maps", "--map-side", "5", "--map-cells", "50"], "cannot be used with"),
         (&["--map-cells", "50"], "--maps"),

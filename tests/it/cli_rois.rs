@@ -172,7 +172,7 @@ fn regions_that_cannot_be_are_refused() {
         (&["--roi-step", "5"], &["--roi-side"]),
         (&["--roi-side", "5", "--rois", "flat.csv"], &["cannot be used with"]),
         (&["--roi-side", "5", "--roi-cells", "0"], &["1 to 100000"]),
-        (&["--roi-side", "much"], &["um behind it"]),
+        (&["--roi-side", "much"], &["5um (in µm)"]),
     ] {
         let error = place.refused(&[&measure[..], extra].concat());
         assert!(words.iter().all(|w| error.contains(w)), "{extra:?}: {error}");

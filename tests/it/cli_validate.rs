@@ -187,7 +187,7 @@ fn two_detectors_are_compared_image_by_image() {
     assert_eq!(number(&rows[3], "first") - number(&rows[3], "second"), -0.5);
     // both subjects are worse, so two of the four choices of signs are as extreme
     assert_eq!((number(&rows[1], "p"), number(&rows[1], "p_least")), (0.5, 0.5));
-    let note = "p of the comparison cannot fall below 0.5000";
+    let note = "the p-value of the comparison cannot fall below 0.5000";
     assert!(
         outcome.stdout.contains(note) && place.read("out/index.html").contains(note),
         "{}",

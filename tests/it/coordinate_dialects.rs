@@ -293,7 +293,7 @@ fn every_failure_says_where_and_what_to_do() {
         ("1,2\n3,4,5\n", &["line 2", "found 3"]),
         ("1,5 2,5\n", &["line 1", "“5 2”", "semicolons"]),
         ("row,column\n1,2\n", &["line 1", "x and y", "“row,column”"]),
-        ("x,y,x,y\n1,2,3,4\n", &["line 1", "two of them"]),
+        ("x,y,x,y\n1,2,3,4\n", &["line 1", "found two in"]),
         ("x,y,score\n1,2,\n", &["line 2", "score", "empty cell"]),
         ("x,y\n\"1,2\n", &["line 2", "quotation"]),
         ("A,1,2\n", &["line 1", "“A”", "header"]),

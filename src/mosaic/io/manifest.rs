@@ -231,7 +231,7 @@ mod tests {
         };
         refused("", "m.csv");
         refused("id\nA\n", "at least one more column");
-        refused("id,a,a\nA,1,2\n", "two of them");
+        refused("id,a,a\nA,1,2\n", "found two in");
         refused("id,eccentricity_mm\nA,1\nB,-1\n", "line 3");
         refused("id,eccentricity_mm\nA,one\n", "eccentricity_mm");
         refused("id,meridian\nA,NT\n", "nasal");
