@@ -28,7 +28,7 @@ impl Preset {
 pub const PRESETS: [Preset; 8] = [
     Preset {
         name: "fovea",
-        about: "confocal, foveal centre: spacing 5 px in the middle, density falling to a third",
+        about: "confocal, fovea: spacing 5 px in the middle, density falls to a third",
         make: fovea,
     },
     Preset {
