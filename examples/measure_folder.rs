@@ -22,8 +22,7 @@ fn main() -> Outcome<()> {
     };
     let images = image_files(&[PathBuf::from(folder)], None)?;
     // kept for the whole folder: a mosaic of about the same size gets the same curve
-    let references =
-        References::new(vec![sampler("dart-throwing")?], MeasureOptions::default().pcf.clone(), 1);
+    let references = References::new(vec![sampler("dart-throwing")?], MeasureOptions::default().pcf, 1);
 
     println!(
         "image                 modality     cones  density      spacing px   RI     l∞ to dart throwing"
