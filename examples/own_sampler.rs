@@ -57,7 +57,7 @@ fn distance(a: Point, b: Point, frame: &Frame) -> f64 {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     static MATERN: Matern = Matern { least: 0.5 };
     let options = PcfOptions::default();
-    let references = References::new(vec![&MATERN, sampler("uniform")?], options.clone(), 1);
+    let references = References::new(vec![&MATERN, sampler("uniform")?], options, 1);
 
     println!("mosaic          RI     l∞ to matern   l∞ to uniform");
     let window = Window::rectangle(0., 0., 200., 200.)?;
