@@ -22,7 +22,7 @@ impl Density {
     /// Creates a density from values given row by row, in any unit.
     ///
     /// # Errors
-    /// If the number of values is not `columns` × `rows`, a value is negative or not finite, or all
+    /// Fails if the number of values is not `columns` × `rows`, a value is negative or not finite, or all
     /// values are 0.
     pub fn new(columns: usize, rows: usize, values: &[f64]) -> Result<Self, RasterError> {
         let greatest = values.iter().copied().fold(0., f64::max);
@@ -38,7 +38,7 @@ impl Density {
     /// x and y run from 0 to 1 across the bounds of the window.
     ///
     /// # Errors
-    /// The errors of [`Density::new`].
+    /// Fails if [`Density::new`] fails.
     pub fn from_fn(columns: usize, rows: usize, f: impl Fn(f64, f64) -> f64) -> Result<Self, RasterError> {
         let middle = |i: usize, count: usize| (i as f64 + 0.5) / count as f64;
         let values: Vec<f64> = (0..rows)

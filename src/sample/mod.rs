@@ -99,7 +99,7 @@ pub fn samplers() -> &'static [&'static dyn Sampler] {
 /// `names` is empty, the default samplers are returned, see [`samplers_by_default`].
 ///
 /// # Errors
-/// If no sampler has one of the names; the error lists all names.
+/// Fails if no sampler has one of the names; the error lists all names.
 pub fn samplers_named(names: &[String]) -> Result<Vec<&'static dyn Sampler>, SampleError> {
     if names.is_empty() {
         return Ok(samplers_by_default());
@@ -140,7 +140,7 @@ pub fn as_reference(sampler: &'static dyn Sampler) -> &'static dyn Sampler {
 /// Returns the sampler called `name`.
 ///
 /// # Errors
-/// If no sampler has that name; the error lists all names and suggests a similar one.
+/// Fails if no sampler has that name; the error lists all names and suggests a similar one.
 pub fn sampler(name: &str) -> Result<&'static dyn Sampler, SampleError> {
     SAMPLERS.iter().copied().find(|s| s.name() == name).ok_or_else(|| {
         let names: Vec<&str> = SAMPLERS.iter().map(|s| s.name()).collect();

@@ -102,7 +102,7 @@ pub trait Configure {
     /// If a name is given twice, the last value holds.
     ///
     /// # Errors
-    /// If a name belongs to no parameter, or a value is not a number in its range; the message says
+    /// Fails if a name belongs to no parameter, or a value is not a number in its range; the message says
     /// what can be set.
     fn configured(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError>;
 }

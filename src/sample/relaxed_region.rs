@@ -36,7 +36,7 @@ impl Region {
     /// Creates the region of a polygon, or `None` if the polygon is not convex.
     ///
     /// # Errors
-    /// The errors of [`Frame::new`].
+    /// Fails if [`Frame::new`] fails.
     pub(super) fn convex(
         n: usize,
         polygon: &Polygon,
@@ -63,7 +63,7 @@ impl Region {
     /// Draws `n` independent points whose distribution is given by the density.
     ///
     /// # Errors
-    /// If [`MOST_TRIES`] places in the bounds all miss the region.
+    /// Fails if [`MOST_TRIES`] places in the bounds all miss the region.
     pub(super) fn scatter(
         &self,
         sampler: &'static str,

@@ -17,7 +17,7 @@ pub trait Sampler: fmt::Debug + Send + Sync {
     /// returns `true`. The same state of the generator gives the same points.
     ///
     /// # Errors
-    /// If `n` is out of the method's range, or the method found no room for `n` points.
+    /// Fails if `n` is out of the method's range, or the method found no room for `n` points.
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError>;
 
     /// Returns whether [`Sampler::fill`] makes exactly the `n` points asked for; `false` by
@@ -56,7 +56,7 @@ pub trait Sampler: fmt::Debug + Send + Sync {
     /// Returns the same method with other parameters, given as (name, value).
     ///
     /// # Errors
-    /// If there is no parameter with one of the names, or a value is out of its range.
+    /// Fails if there is no parameter with one of the names, or a value is out of its range.
     fn configure(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError> {
         let name = settings.first().map_or("", |(name, _)| name);
         let none = || Err(SampleError::unknown_parameter(self.name(), name, &[]));
@@ -89,7 +89,7 @@ pub trait Sampler: fmt::Debug + Send + Sync {
     /// The default implementation reports nothing.
     ///
     /// # Errors
-    /// The errors of [`Sampler::fill`].
+    /// Fails if [`Sampler::fill`] fails.
     fn fill_watched(
         &self,
         n: usize,
@@ -103,7 +103,7 @@ pub trait Sampler: fmt::Debug + Send + Sync {
     /// Returns the points of [`Sampler::sample_watched`] without reporting progress.
     ///
     /// # Errors
-    /// The errors of [`Sampler::sample_watched`].
+    /// Fails if [`Sampler::sample_watched`] fails.
     fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         self.sample_watched(n, window, rng, &mut |_, _| ())
     }
@@ -116,7 +116,7 @@ pub trait Sampler: fmt::Debug + Send + Sync {
     /// times, and the one with the nearest number is used.
     ///
     /// # Errors
-    /// If `n` or the window is out of the method's range, or the method found no room for the
+    /// Fails if `n` or the window is out of the method's range, or the method found no room for the
     /// points.
     fn sample_watched(
         &self,

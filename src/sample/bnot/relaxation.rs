@@ -28,7 +28,7 @@ impl Bnot {
     /// points may lie beyond [0, width) × [0, height).
     ///
     /// # Errors
-    /// If the masses cannot be made equal within [`EXACT`].
+    /// Fails if the masses cannot be made equal within [`EXACT`].
     pub(super) fn relax(
         &self,
         start: &[[f64; 2]],

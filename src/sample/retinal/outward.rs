@@ -22,7 +22,7 @@ const ATTEMPTS: usize = 12;
 /// proportions, that holds n points; it is scaled to the frame.
 ///
 /// # Errors
-/// If the pattern of the last attempt still has too few points.
+/// Fails if the pattern of the last attempt still has too few points.
 pub(super) fn exactly(
     n: usize,
     frame: &Frame,

@@ -55,7 +55,7 @@ impl TargetCurve {
     /// <https://doi.org/10.1007/BF01391351>.
     ///
     /// # Errors
-    /// If there are fewer than two rows, r does not rise from 0 or more to 1 or more, or g is
+    /// Fails if there are fewer than two rows, r does not rise from 0 or more to 1 or more, or g is
     /// negative or not finite.
     pub fn from_pcf(rows: &[[f64; 2]]) -> Result<Self, SampleError> {
         check(rows, "a target pair correlation function", "r", "g", SHORTEST)?;
@@ -75,7 +75,7 @@ impl TargetCurve {
     /// g comes out negative and is cut to 0.
     ///
     /// # Errors
-    /// If there are fewer than two rows, f does not rise from 0 or more, or S is negative or not
+    /// Fails if there are fewer than two rows, f does not rise from 0 or more, or S is negative or not
     /// finite.
     pub fn from_spectrum(rows: &[[f64; 2]]) -> Result<Self, SampleError> {
         check(rows, "a target spectrum", "frequency", "power", f64::MIN_POSITIVE)?;
