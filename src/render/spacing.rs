@@ -29,8 +29,10 @@ pub(super) struct CellSizes {
 }
 
 impl CellSizes {
-    /// Returns the spacing set by the user for every cone or, if `options.spacing` is `None`, the
-    /// local spacings.
+    /// Creates the sizes of the cones at `points`.
+    ///
+    /// The spacing is `options.spacing` at every cone or, if that is `None`, follows from the
+    /// distances to the neighbours.
     pub(super) fn of(points: &[Point], options: &RenderOptions) -> Result<Self, RenderError> {
         let neighbours = nearest_neighbours(points)?;
         let nearest = neighbours.iter().map(|n| n.get(1).map_or(f64::INFINITY, |n| n.1)).collect();
