@@ -23,8 +23,8 @@ impl Density {
     /// Creates a density from values row by row, in any unit.
     ///
     /// # Errors
-    /// Fails if the number of values is not `columns` × `rows`, a value is negative or not finite, or all
-    /// values are 0.
+    /// Fails if the number of values is not `columns` × `rows`, a value is negative or not finite,
+    /// or all values are 0.
     pub fn new(columns: usize, rows: usize, values: &[f64]) -> Result<Self, RasterError> {
         let greatest = values.iter().copied().fold(0., f64::max);
         // the values are checked on a unit square here, so that `over` cannot fail for them later

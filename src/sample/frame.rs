@@ -28,7 +28,8 @@ impl Frame {
     /// Creates the frame for the bounds of a window.
     ///
     /// # Errors
-    /// Fails if `n` exceeds 10⁸, or one side of the bounds is more than 10⁶ times as long as the other.
+    /// Fails if `n` exceeds 10⁸, or one side of the bounds is more than 10⁶ times as long as the
+    /// other.
     pub fn new(n: usize, window: &Window) -> Result<Self, SampleError> {
         let bounds = window.bounds();
         let (width, height) = (bounds.width(), bounds.height());

@@ -7,13 +7,16 @@ use crate::sample::normal_deviate::displaced;
 use crate::sample::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use rand::Rng;
 
-/// Distance between successive rings, in spacings: that between the rows of a triangular lattice.
+/// Distance between successive rings, in spacings: √3/2, the distance between the rows of a
+/// triangular lattice.
 const RING: f64 = 0.866_025_403_784_438_6;
-/// Number of cones per squared spacing.
+/// Number of cones per squared spacing: that of a triangular lattice.
 const DENSITY: f64 = 1. / RING;
-/// Number of displacements drawn for one cone before the cone is left out.
+/// Largest number of displacements drawn for one cone; if none leaves the minimal spacing, the cone
+/// is left out.
 const DRAWS: usize = 100;
-/// Distance beyond the window up to which rings are made, in spacings.
+/// Distance beyond the window up to which rings are made, in spacings, so that the edge of the
+/// array does not show.
 const BEYOND: f64 = 3.;
 
 /// Model of Wang et al. (2001): a polar array around the fovea, Gaussian jitter, and a minimal

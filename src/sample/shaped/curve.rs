@@ -75,8 +75,8 @@ impl TargetCurve {
     /// g comes out negative and is cut to 0.
     ///
     /// # Errors
-    /// Fails if there are fewer than two rows, f does not rise from 0 or more, or S is negative or not
-    /// finite.
+    /// Fails if there are fewer than two rows, f does not rise from 0 or more, or S is negative or
+    /// not finite.
     pub fn from_spectrum(rows: &[[f64; 2]]) -> Result<Self, SampleError> {
         check(rows, "a target spectrum", "frequency", "power", f64::MIN_POSITIVE)?;
         Ok(Self { g: transformed(rows), spectrum: Some(rows.to_vec()) })
