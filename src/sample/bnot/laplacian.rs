@@ -3,8 +3,8 @@
 use crate::geometry::power::PowerDiagram;
 use rayon::prelude::*;
 
-/// Smallest number of rows that a thread is given: fewer rows are computed sooner than handed over
-/// to another thread.
+/// Smallest number of rows that are given to one thread. With fewer, handing them over would take
+/// longer than computing them.
 const ROWS: usize = 8192;
 
 /// Weighted Laplacian L of a graph: row i is Σ_j c_ij (x_i − x_j), with c_ij = c_ji > 0 for

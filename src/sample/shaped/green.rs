@@ -4,8 +4,8 @@ use std::sync::LazyLock;
 /// Pair correlation function g at .15, .244, …, 2.406 spacings, smoothed by a Gaussian of standard
 /// deviation .1.
 ///
-/// It is the mean over patterns of 512 and of 1024 points, made by a reference program, of the
-/// green noise of Ahmed et al. (2015, “AA patterns for point sets with controlled spectral
+/// It is the mean over patterns of 512 and of 1024 points that a reference program made. They are
+/// the green noise of Ahmed et al. (2015, “AA patterns for point sets with controlled spectral
 /// properties”).
 const PCF: [f64; 25] = [
     2.292, 2.064, 1.785, 1.439, 1.091, 0.803, 0.600, 0.478, 0.439, 0.477, 0.580, 0.735, 0.926, 1.120, 1.277,
