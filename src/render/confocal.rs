@@ -148,6 +148,8 @@ impl Light {
         let count = rng.random_range(2..=4);
         let turn = rng.random_range(0. ..TAU);
         for k in 0..count {
+            // The peaks lie in roughly equal directions from each other; angles, distances and
+            // peaks scatter.
             let angle = turn + TAU * f64::from(k) / f64::from(count) + 0.3 * normal(rng);
             let offset = PEAK_OFFSET * width * rng.random_range(0.6..1.2);
             let at = Point::new(p.x + offset * angle.cos(), p.y + offset * angle.sin());

@@ -28,11 +28,11 @@ const ROD: f64 = 0.7;
 /// Levels are measured above the widest plane of the inner segments.
 const UNEVEN_SECTION: f64 = 0.25;
 
-/// Returns the radius of the cross-section of each of `count` cells, relative to the largest radius
-/// of the cell, or 0 if the section misses the cell.
+/// Returns, for each of `count` cells, the radius of its cross-section relative to its largest
+/// radius, or 0 if the section misses the cell.
 ///
-/// Inner segments are taken as ellipsoids that are all cut at about the level `options.section`, in
-/// units of their half axis.
+/// Inner segments are taken as ellipsoids. Each is cut at about the level `options.section`, which
+/// is measured from its widest plane in units of its half axis.
 pub(super) fn section(count: usize, options: &RenderOptions, rng: &mut dyn Rng) -> Vec<f64> {
     if options.section == 0. {
         return vec![1.; count];
@@ -48,7 +48,8 @@ pub(super) fn section(count: usize, options: &RenderOptions, rng: &mut dyn Rng) 
 ///
 /// `heights` are the peaks of the discs, and `sizes` the relative radii that [`section()`] returns.
 /// Discs are neither quite round nor evenly bright. Their mean radius is at most half the distance
-/// to the nearest neighbour, so they hardly overlap; where they do, the brighter one is seen.
+/// to the nearest neighbour (but at least 0.2 px), so they hardly overlap. Where they do, the
+/// brighter one is seen.
 pub(super) fn signal(
     points: &[Point],
     cells: &CellSizes,
@@ -66,7 +67,8 @@ pub(super) fn signal(
         // At the default scatter of 0.05, sizes stay from 0.8 to 1.2 times the mean. Even at the
         // largest scatter no size falls below 0.3, as a radius must be positive.
         let scatter = (1. + cv * normal(rng)).clamp((1. - 4. * cv).max(0.3), 1. + 4. * cv);
-        // The least radius, 0.2 px, serves coincident points, as the shading divides by the radius.
+        // The least radius, 0.2 px, keeps the discs of coincident points from a radius of 0, by
+        // which the shading would divide.
         let radius = (0.5 * options.diameter * spacing * scatter).min(0.5 * cells.nearest[i]).max(0.2);
         // The radius at angle θ is multiplied by 1 + a cos 2θ + b sin 2θ + c cos 3θ + d sin 3θ. a
         // and b make the disc oval, c and d give it three lobes.

@@ -216,6 +216,7 @@ impl RenderOptions {
         if let Some(spacing) = self.spacing {
             check("spacing", spacing, (2., 1000.), "px")?;
         }
+        // units that the message of the error names
         const GREY: &str = "of the full range of grey";
         const OF_CONES: &str = "(fraction of the cones)";
         const CONTRASTS: &str = "times the contrast";

@@ -25,6 +25,7 @@ const WIDTH: f64 = 3.232_679;
 /// `distance` is in full widths at half maximum of the intensity. The value is interpolated
 /// linearly between the samples of a table; beyond [`AIRY_CUT`] it is 0.
 pub(super) fn airy_amplitude(distance: f64) -> f64 {
+    // made when first asked for, as every pixel of every spot reads it
     static TABLE: OnceLock<Vec<f64>> = OnceLock::new();
     let table = TABLE.get_or_init(|| {
         let count = (AIRY_CUT * PER_WIDTH as f64).ceil() as usize + 2;
@@ -43,6 +44,7 @@ pub(super) fn airy_amplitude(distance: f64) -> f64 {
 /// but for terms of the order of J₁₂₇(v). With 64 steps they vanish at double precision for all v
 /// in use.
 fn besinc(v: f64) -> f64 {
+    // far more than v ≤ 10.1 needs; the table is made only once
     const STEPS: usize = 64;
     if v < 1e-6 {
         return 1.;

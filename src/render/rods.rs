@@ -25,7 +25,7 @@ const PARKED: f64 = 0.6;
 /// Smallest room that cones are assumed to leave to rods, in squared spacings per cone, even if
 /// wide cones leave less.
 const LEAST_ROOM: f64 = 0.1;
-/// Number of random positions tried per rod asked for.
+/// Number of random positions tried per rod; most of them have no room.
 const TRIES: f64 = 6.;
 /// Coefficient of variation of the rods' peaks, which are log-normal.
 const SCATTER: f64 = 0.5;
@@ -81,8 +81,8 @@ pub(super) fn between(
     rods
 }
 
-/// Returns the smallest distance between two rods, in spacings, at which all rods asked for find
-/// room.
+/// Returns the smallest distance between two rods, in spacings, at which `options.rods` rods per
+/// cone find room.
 ///
 /// With n rods per cone of diameter d and area CELL, the distance x solves n x² = PARKED · (CELL −
 /// π (d + x)²/4), as the centre of a rod keeps x/2 away from the edge of a cone.

@@ -53,6 +53,7 @@ pub(super) fn signal(
     let mut plane = relief.plane;
     if options.texture > 0. {
         let slope = slope(&texture(width, height, 0.11 * cells.typical, rng), sin, cos);
+        // scaled to the standard deviation `texture`; 1e-6 keeps an even plane from a division by 0
         let strength = options.texture as f32 / deviation(&slope).max(1e-6);
         plane.zip_mut_with(&slope, |sum, &v| *sum += strength * v);
     }
@@ -65,6 +66,7 @@ pub(super) fn signal(
 /// px.
 pub(super) fn cover(plane: &mut Plane, vessels: &Plane, options: &RenderOptions, spacing: f64) {
     let (sin, cos) = options.orientation.to_radians().sin_cos();
+    // A vessel's profile is steep at its edge; smoothing keeps the flanks from becoming thin lines.
     let soft = smooth(vessels, 0.15 * options.vessel_width * spacing);
     let steepness = (VESSEL_RELIEF * options.vessel_width * spacing * options.vessel_depth) as f32;
     let shade = options.vessel_depth as f32;
@@ -112,8 +114,8 @@ impl Relief {
     }
 }
 
-/// Returns the slope per px of a relief along a direction, given by the sine and cosine of its
-/// angle from x.
+/// Returns the slope per px of a relief along the direction whose angle from x has the sine `sin`
+/// and the cosine `cos`.
 ///
 /// The first column, and the first row unless the direction is along x, are 0.
 fn slope(relief: &Plane, sin: f64, cos: f64) -> Plane {

@@ -2,7 +2,7 @@ use super::SampleError;
 use crate::geometry::{Point, Rectangle, Window};
 use crate::mosaic::hexagonal_spacing;
 
-/// Largest number of points that may be asked for, so that they fit into memory.
+/// Largest number of points of a pattern, so that it fits into memory.
 const MAX_POINTS: usize = 100_000_000;
 /// Largest allowed ratio of the longer to the shorter side of a window's bounds; in longer windows
 /// a pattern has no meaning.

@@ -1,7 +1,8 @@
 /// Points on the torus `[0, width) × [0, height)`, sorted into cells to find whether any point is
 /// near a position.
 ///
-/// Cells are no smaller than the largest distance asked for.
+/// Cells are no smaller than the largest distance of a query, so only the cells around a position
+/// are searched.
 pub(crate) struct TorusCells {
     /// Width and height of the torus.
     sides: [f64; 2],

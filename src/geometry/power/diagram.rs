@@ -93,8 +93,7 @@ impl<'a> PowerSites<'a> {
         self.grid.order().collect()
     }
 
-    /// Computes the cells for the given weights, one weight per site, in squared units of the
-    /// coordinates.
+    /// Computes the cells for `weights`, one weight per site, in squared units of the coordinates.
     ///
     /// `before` may be the diagram of the same sites with other weights, or of sites nearby in the
     /// same order. The neighbours in `before` are tried first, which saves time and changes the

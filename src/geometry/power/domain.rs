@@ -11,7 +11,7 @@ pub enum Domain {
         /// Height of the torus, in units of the coordinates.
         height: f64,
     },
-    /// Convex polygon, given by its corners in order.
+    /// Convex polygon, as the list of its corners in order.
     Convex(Vec<[f64; 2]>),
 }
 

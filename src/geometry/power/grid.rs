@@ -27,8 +27,8 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// Sorts the sites into cells. Sites that are not finite are left out; those outside the domain
-    /// belong to the nearest cell.
+    /// Sorts the sites into cells. Sites with a coordinate that is not finite are left out; sites
+    /// outside the domain belong to the nearest cell.
     pub(super) fn new(domain: &Domain, sites: &[[f64; 2]]) -> Self {
         let [low, high] = domain.bounds();
         let (width, height) = (high[0] - low[0], high[1] - low[1]);

@@ -139,7 +139,8 @@ impl Raster {
     }
 }
 
-/// Integrals over a polygon, summed along its outline; edges are given relative to the site.
+/// Integrals over a polygon, summed along its outline; the coordinates of edges are relative to the
+/// site.
 pub(super) struct Sums<'a> {
     raster: &'a Raster,
     /// Position of the site relative to the corner of the domain's bounds with the smallest
@@ -151,7 +152,8 @@ pub(super) struct Sums<'a> {
 }
 
 impl Sums<'_> {
-    /// Adds an edge, given relative to the site, and returns the integral of the density along it.
+    /// Adds an edge, with coordinates relative to the site, and returns the integral of the density
+    /// along it.
     pub(super) fn edge(&mut self, from: [f64; 2], to: [f64; 2]) -> f64 {
         let (a, b) = (self.absolute(from), self.absolute(to));
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);

@@ -108,6 +108,7 @@ impl Laplacian {
     ///
     /// Source: Vaněk, Mandel and Brezina (1996), <https://doi.org/10.1007/BF02238511>.
     pub(super) fn groups(&self) -> (Vec<u32>, usize) {
+        // marks a node that belongs to no group yet
         const NONE: u32 = u32::MAX;
         let mut groups = vec![NONE; self.len()];
         let mut count = 0;

@@ -1,4 +1,4 @@
-//! Bridson's Poisson-disk sampling: new points are sought around those placed before.
+//! Bridson's Poisson-disk sampling: new points are sought around points placed before.
 
 use crate::geometry::Point;
 use crate::geometry::index::{Nearby, TorusGrid};
@@ -23,9 +23,9 @@ const MARGIN: f64 = 1e-9;
 ///    point itself. If no candidate is, the picked point is no longer active. Repeat from 2 until
 ///    no point is active.
 ///
-/// The number of points varies by about 1 % at n = 1024, and is smaller than asked for in windows a
-/// few radii wide. In windows narrower than r it is the number of disks that fill a line, which may
-/// be far from n.
+/// The number of points varies by about 1 % at n = 1024, and is smaller than n in windows a few
+/// radii wide. In windows narrower than r it is the number of disks that fill a line, which may be
+/// far from n.
 ///
 /// Source: Bridson (2007), <https://doi.org/10.1145/1278780.1278807>.
 #[derive(Clone, Copy, Debug)]

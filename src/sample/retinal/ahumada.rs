@@ -132,6 +132,7 @@ impl Settable for Ahumada {
 }
 
 #[derive(Clone, Copy)]
+/// Disc of one cone; lengths are in mean radii in the middle of the window.
 struct Disc {
     centre: [f64; 2],
     radius: f64,
@@ -172,7 +173,8 @@ impl Ahumada {
         radius = self.radius(rng);
         while let Some(Reverse((_, a, b, side))) = packing.pockets.pop() {
             let (a, b) = (packing.discs[a], packing.discs[b]);
-            // The mean radius at the pocket is the mean of those at the two discs.
+            // The mean radius at the pocket is taken as the average of the mean radii at the two
+            // discs.
             let scaled = radius * (retina.size(a.centre) + retina.size(b.centre)) / 2.;
             let Some(centre) = touching_both(a, b, scaled, side) else {
                 continue;

@@ -1,6 +1,6 @@
 //! Cone mosaic of cells that attract and repel each other, after Deering (2005).
 //!
-//! 1. Add a ring of cells of random size around those that exist.
+//! 1. Add a ring of cells of random size around the existing cells.
 //! 2. Move the cells of the last rings by the forces between neighbours, for some rounds.
 //! 3. Repeat until the window is covered.
 
@@ -46,12 +46,12 @@ const BEYOND: f64 = 4.;
 ///
 /// **Published** (the author's slides): cones are added in concentric rings outward, with target
 /// sizes that vary; an equation gives the forces between them; the borders of the cells are formed
-/// anew, and there is a final touch-up; densities by eccentricity and meridian are mostly those of
-/// Curcio et al. (1990).
+/// anew, and there is a final touch-up; most densities by eccentricity and meridian are from Curcio
+/// et al. (1990).
 ///
-/// **As understood here**: target radii are perturbed at random; cells repel each other when nearer
-/// than their radii ask for and attract each other when somewhat farther; only those near the
-/// growing edge move.
+/// **As understood here**: target radii are perturbed at random; cells repel each other if they are
+/// nearer than the sum of their radii and attract each other if they are somewhat farther apart;
+/// only cells near the growing edge move.
 ///
 /// **Not available, so chosen here**: the equation. Two cells at u times the distance at which they
 /// touch repel each other by 1 − u for u < 1, and attract each other by 1.6 (u − 1)(1.5 − u) for u
@@ -145,6 +145,7 @@ impl Settable for Deering {
 }
 
 #[derive(Clone, Copy)]
+/// Cell of one cone; lengths are in mean diameters in the middle of the window.
 struct Cell {
     centre: [f64; 2],
     radius: f64,

@@ -67,7 +67,7 @@ impl Retina {
     /// Returns an upper bound for the size of the cells with |x| ≤ `half[0]` and |y| ≤ `half[1]`.
     pub(super) fn largest(&self, half: [f64; 2]) -> f64 {
         // Densities rise again by a few per cent in the far periphery, so the corner need not have
-        // the largest cell.
+        // the largest cell. The factor covers this.
         const RISE: f64 = 1.02;
         if self.place.is_some() { RISE * self.size(half) } else { 1. }
     }

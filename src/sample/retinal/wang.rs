@@ -28,11 +28,11 @@ const BEYOND: f64 = 3.;
 ///
 /// **As understood here**: the model consists of a polar array, a jitter and a minimal spacing.
 ///
-/// **Not available, so chosen here**: rings are √3/2 spacings apart and hold one cone per spacing,
-/// from a random angle on. A cone whose displacement brings it nearer than the minimal spacing to
-/// one placed before is displaced anew, and left out after 100 draws. The defaults, a jitter of .1
-/// and a minimal spacing of .65 spacings of the array, give a regularity index of 10, within the
-/// range of real mosaics (8 to 12).
+/// **Not available, so chosen here**: rings are √3/2 spacings apart, and each has one cone per
+/// spacing of its length, beginning at a random angle. A cone whose displacement brings it nearer
+/// than the minimal spacing to one placed before is displaced anew, and left out after 100 draws.
+/// The defaults, a jitter of .1 and a minimal spacing of .65 spacings of the array, give a
+/// regularity index of 10, within the range of real mosaics (8 to 12).
 ///
 /// **Eccentricity**: there is no such parameter. The model is one of the fovea, and no dependence
 /// is known to have been published.

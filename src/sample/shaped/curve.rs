@@ -238,9 +238,11 @@ fn unit() -> f64 {
 
 /// Computes samples of g, [`STEP`] apart, from the rows of a radial power spectrum.
 fn transformed(rows: &[[f64; 2]]) -> Vec<f64> {
-    /// Number of frequencies summed per period of the Bessel function at the longest distance.
+    /// Number of frequencies summed per period of the Bessel function at the longest distance,
+    /// where it oscillates fastest.
     const PER_WAVE: f64 = 24.;
     let last = rows[rows.len() - 1][0];
+    // the bounds keep narrow spectra accurate and wide ones affordable
     let steps = (PER_WAVE * last * REACH * unit()).ceil().clamp(400., 20_000.) as usize;
     let step = last / steps as f64;
     let terms: Vec<[f64; 2]> = (0..steps)

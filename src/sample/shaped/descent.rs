@@ -79,8 +79,8 @@ pub(super) fn descend(points: &mut Vec<[f64; 2]>, sides: [f64; 2], features: &Fe
     }
 }
 
-/// Returns the points moved by −`pull`, or by less if that is too far, and whether the step as a
-/// whole was left at its full length.
+/// Returns the points moved by −`pull`, or by less if that is too far, and `false` if the entire
+/// step was shortened.
 fn step(points: &[[f64; 2]], pull: &[[f64; 2]], sides: [f64; 2]) -> (Vec<[f64; 2]>, bool) {
     let squares: f64 = pull.iter().map(|[x, y]| x * x + y * y).sum();
     let way = (squares / pull.len().max(1) as f64).sqrt();

@@ -228,6 +228,7 @@ fn place(d: f64) -> (usize, f64) {
 /// The result is the number of pairs per length that the spline at r counts if the density of
 /// points is 1.
 fn pairs_per_length(target: &TargetCurve, r: f64) -> f64 {
+    // number of equal parts in which the spline's range is integrated
     const PARTS: usize = 64;
     (0..PARTS)
         .map(|k| -2. + 4. * (k as f64 + 0.5) / PARTS as f64)

@@ -24,6 +24,7 @@ const SPECTRUM: [f64; 17] =
 /// Lanaro et al. measured (means .343 and .352, ratios 1.376 and 1.425).
 const NEAREST: NearestTarget = NearestTarget { mean: 0.348, sd: 0.2495 };
 
+/// Sampler with the curves of green noise, created on first use.
 static SHAPED: LazyLock<Shaped> =
     LazyLock::new(|| Shaped { curve: TargetCurve::from_tables(&PCF, &SPECTRUM), nearest: Some(NEAREST) });
 

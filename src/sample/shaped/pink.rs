@@ -25,6 +25,7 @@ const SPECTRUM: [f64; 17] =
 /// and 1.50) and that of the mean over many patterns.
 const NEAREST: NearestTarget = NearestTarget { mean: 0.376, sd: 0.2615 };
 
+/// Sampler with the curves of pink noise, created on first use.
 static SHAPED: LazyLock<Shaped> =
     LazyLock::new(|| Shaped { curve: TargetCurve::from_tables(&PCF, &SPECTRUM), nearest: Some(NEAREST) });
 
