@@ -4,12 +4,13 @@ use super::{Point, Ring, Window};
 /// Returns the area of the part of the window that is nearer to `site` than to any of `neighbours`,
 /// in squared units of the coordinates.
 ///
-/// `neighbours` must hold all points whose Voronoi cells touch that of `site`. Each ring of the
+/// `neighbours` must contain all points whose Voronoi cells touch that of `site`. Each ring of the
 /// window is cut by one half-plane after another (Sutherland & Hodgman 1974,
-/// <https://doi.org/10.1145/360767.360802>). A ring that falls into pieces stays joined by edges
-/// that enclose nothing, so the sum is right for any polygon.
+/// <https://doi.org/10.1145/360767.360802>). The pieces of a ring that falls apart stay joined by
+/// edges that enclose nothing, so the sum is right for any polygon.
 pub fn clipped_cell_area(window: &Window, site: Point, neighbours: &[Point]) -> f64 {
-    // Relative to the site, as areas far from the origin would lose digits to cancellation.
+    // Coordinates are taken relative to the site, as areas far from the origin would lose digits to
+    // cancellation.
     let relative = |p: &Point| Point::new(p.x - site.x, p.y - site.y);
     let area = |ring: Ring| {
         let cell = neighbours.iter().map(relative).fold(ring, |ring, to| {

@@ -1,9 +1,9 @@
 use super::Point;
 
-/// Number of edges in a leaf of the tree.
+/// Number of edges in a leaf of the tree, which are tested one by one.
 const LEAF: usize = 4;
 
-/// Straight piece of an outline.
+/// Straight piece of an outline, from one corner to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Edge {
     pub(super) from: Point,
@@ -20,14 +20,14 @@ impl Edge {
         ex * ex + ey * ey
     }
 
-    /// Returns twice the signed area of the triangle of the edge and `p`; the sign tells the side
-    /// on which `p` lies.
+    /// Returns twice the signed area of the triangle formed by the edge and `p`; the sign tells the
+    /// side on which `p` lies.
     pub(super) fn side(&self, p: Point) -> f64 {
         (self.to.x - self.from.x) * (p.y - self.from.y) - (p.x - self.from.x) * (self.to.y - self.from.y)
     }
 }
 
-/// Upright bounding box of edges.
+/// Upright bounding box of edges, from (`x0`, `y0`) to (`x1`, `y1`).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     pub(super) x0: f64,
@@ -73,11 +73,11 @@ impl Extent {
     }
 }
 
-/// Edges in a binary tree of bounding boxes, for fast queries by place.
+/// Edges in a binary tree of bounding boxes, for fast queries by position.
 ///
 /// Edges that follow each other along an outline lie near each other, so the tree halves their
-/// sequence and no sorting is needed. A query at one place takes time logarithmic in the number of
-/// edges, plus the time for the edges that the query concerns.
+/// sequence and no sorting is needed. A query at one position takes time logarithmic in the number
+/// of edges, plus the time for the edges that the query concerns.
 #[derive(Debug)]
 pub(super) struct EdgeTree {
     edges: Vec<Edge>,
@@ -104,16 +104,16 @@ impl EdgeTree {
         &self.edges
     }
 
-    /// Calls `visit(index, edge)` for all edges in the boxes that `wanted` accepts.
+    /// Calls `visit(index, edge)` for all edges of the leaves whose boxes, and all boxes above
+    /// them, `wanted` accepts.
     ///
-    /// Nodes below a box that is not accepted are skipped. The search ends as soon as `visit`
-    /// returns `false`.
+    /// The search ends as soon as `visit` returns `false`.
     pub(super) fn visit(
         &self,
         wanted: impl Fn(&Extent) -> bool,
         mut visit: impl FnMut(usize, &Edge) -> bool,
     ) {
-        // A descent leaves at most one sibling per level to be visited later, so 64 places are
+        // A descent leaves at most one sibling per level to be visited later, so 64 entries are
         // enough.
         let mut stack = [0usize; 64];
         let mut height = 1;

@@ -1,5 +1,5 @@
 //! Points, the windows in which they could have been observed, and searches for neighbours. This
-//! module knows nothing of cones, images or files.
+//! module does not depend on cones, images or files.
 //!
 //! # Examples
 //! ```

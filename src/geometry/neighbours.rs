@@ -4,7 +4,8 @@ use rayon::prelude::*;
 use serde::Serialize;
 use std::num::NonZero;
 
-/// Smallest number of points for which the search runs on all threads.
+/// Smallest number of points for which the search runs on all threads; a search for fewer is done
+/// before threads would pay.
 const SPREAD_FROM: usize = 8192;
 
 /// Nearest neighbour of every point, in the order of the points.
@@ -15,12 +16,13 @@ pub struct NearestNeighbours {
     /// Distance from each point to the nearest other point, in the unit of the coordinates; 0 if
     /// the two coincide.
     pub distances: Vec<f64>,
-    /// Index of the nearest other point of each point; any one of them if several are equally near.
+    /// Index of the nearest other point of each point. If several are equally near, it is any of
+    /// them.
     pub indices: Vec<usize>,
 }
 
-/// Finds the nearest neighbour of every point with a k-d tree, taking the short way round on a
-/// torus.
+/// Finds the nearest neighbour of every point with a k-d tree; on a torus, distances are those of
+/// the short way round.
 ///
 /// The result is empty for fewer than two points, and if a coordinate is not finite.
 pub fn nearest_neighbours(points: &[Point], window: &Window) -> NearestNeighbours {
@@ -46,8 +48,8 @@ pub fn nearest_neighbours(points: &[Point], window: &Window) -> NearestNeighbour
     nearest
 }
 
-/// Returns the distance from each of `places` to the nearest of `points`, taking the short way
-/// round on a torus.
+/// Returns the distance from each of `places` to the nearest of `points`; on a torus, distances are
+/// those of the short way round.
 ///
 /// Distances are infinite if there are no points or a coordinate of `points` is not finite.
 pub fn distances_to_nearest(places: &[Point], points: &[Point], window: &Window) -> Vec<f64> {
@@ -55,6 +57,7 @@ pub fn distances_to_nearest(places: &[Point], points: &[Point], window: &Window)
     let Some(tree) = tree else { return vec![f64::INFINITY; places.len()] };
     let grid = WindowGrid::new(points, window);
     let distance = |&place: &Point| {
+        // The grid is faster, but finds no point where points are too sparse.
         let near = grid.nearest(place);
         let found = near.or_else(|| tree.nearest(place, NonZero::<usize>::MIN).next().map(|(j, _)| j));
         found.map_or(f64::INFINITY, |j| window.distance(place, points[j]))

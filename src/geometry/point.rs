@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-/// Place in the plane: x to the right, y down, in the unit of the mosaic to which it belongs.
+/// Position in the plane: x to the right, y down, in the unit of the mosaic to which it belongs.
 ///
 /// In pixels, (0, 0) is the **centre** of the top-left pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -7,10 +7,10 @@ use std::sync::{Arc, OnceLock};
 /// Reason why rings do not make a polygon.
 #[derive(Clone, Debug, thiserror::Error, PartialEq)]
 pub enum PolygonError {
-    /// The rings enclose no area.
+    /// Rings that enclose no area.
     #[error("the polygon has no area: give at least three corners that do not lie on one line")]
     NoArea,
-    /// A corner has a coordinate that is not finite.
+    /// Corner with a coordinate that is not finite.
     #[error("a corner of the polygon is ({x}, {y}): expected finite coordinates")]
     NotFinite {
         /// Horizontal coordinate of the corner.
@@ -18,7 +18,7 @@ pub enum PolygonError {
         /// Vertical coordinate of the corner.
         y: f64,
     },
-    /// Edges cross, so that inside and outside cannot be told apart.
+    /// Edges that cross, so that inside and outside cannot be told apart.
     #[error(
         "the outline of the polygon crosses itself at ({x:.3}, {y:.3}): give its corners in order, and rings that do not cross"
     )]
@@ -32,12 +32,12 @@ pub enum PolygonError {
 
 /// Area enclosed by one or more rings that do not cross (they may touch).
 ///
-/// A place belongs to the area if an odd number of rings surround it: a ring within a ring is a
-/// hole, a ring within a hole an island. The corners may be given in either direction. They are
+/// A point belongs to the area if an odd number of rings surround it: a ring within a ring is a
+/// hole, a ring within a hole an island. The corners may be listed in either direction. They are
 /// stored so that outer rings have positive area (clockwise, since y points down) and holes have
 /// negative area.
 ///
-/// Clones share their contents and are cheap.
+/// Clones are cheap, as they share one copy of the rings.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(try_from = "Vec<Vec<[f64; 2]>>", into = "Vec<Vec<[f64; 2]>>")]
 pub struct Polygon {
@@ -47,10 +47,13 @@ pub struct Polygon {
 /// Contents of a polygon, shared by its clones.
 #[derive(Debug)]
 struct Shape {
+    /// Rings, as [`Polygon::rings`] returns them.
     rings: Vec<Ring>,
+    /// Edges of all rings.
     tree: EdgeTree,
     bounds: Rectangle,
     area: f64,
+    /// Set covariance, computed when it is first asked for.
     covariance: OnceLock<SetCovariance>,
 }
 
@@ -94,6 +97,7 @@ impl Polygon {
         let extent = tree.edges().iter().map(Extent::of).reduce(Extent::union).ok_or(PolygonError::NoArea)?;
         let bounds = Rectangle::new(extent.x0, extent.y0, extent.x1, extent.y1);
         let bounds = bounds.map_err(|_: WindowError| PolygonError::NoArea)?;
+        // an area of 10⁻¹² of the bounds is not distinguished from rounding errors
         if area.is_nan() || area <= 1e-12 * bounds.area() {
             return Err(PolygonError::NoArea);
         }
@@ -156,7 +160,8 @@ impl Polygon {
         self.shape.tree.visit_circle(p, d, |edge| {
             let (ax, ay) = (edge.from.x - p.x, edge.from.y - p.y);
             let (dx, dy) = (edge.to.x - edge.from.x, edge.to.y - edge.from.y);
-            // |a + t d|² = d², 0 ≤ t ≤ 1
+            // with a the start of the edge relative to p, b its direction: |a + t b|² = d², 0 ≤ t ≤
+            // 1
             let (a, half_b, c) = (dx * dx + dy * dy, ax * dx + ay * dy, ax * ax + ay * ay - d * d);
             let discriminant = half_b * half_b - a * c;
             if discriminant <= 0. {
@@ -209,8 +214,8 @@ impl Polygon {
         self.shape.covariance.get_or_init(|| SetCovariance::of(self))
     }
 
-    /// Returns nodes (place on the outline, weight) such that Σ weight · F(place) is the integral
-    /// of ∂F/∂x over the polygon (Green's theorem).
+    /// Returns nodes, each a point on the outline and a weight, such that Σ weight · F(point) is
+    /// the integral of ∂F/∂x over the polygon (Green's theorem).
     ///
     /// Edges are divided into pieces no longer than `step`. Each piece is integrated by Gauss's
     /// rule of 8 nodes, which is exact to rounding if F varies slowly over a step.
@@ -218,6 +223,7 @@ impl Polygon {
         let mut nodes = Vec::new();
         for edge in self.shape.tree.edges() {
             let (dx, dy) = (edge.to.x - edge.from.x, edge.to.y - edge.from.y);
+            // dy is the factor of every weight, so a horizontal edge adds nothing
             if dy == 0. {
                 continue;
             }
@@ -267,7 +273,7 @@ impl Polygon {
 }
 
 /// Positive nodes and weights of Gauss's rule of 8 nodes on `[−1, 1]` (Abramowitz & Stegun 1964,
-/// table 25.4).
+/// table 25.4). The other four nodes are their negatives, with the same weights.
 const GAUSS: [(f64, f64); 4] = [
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),
     (0.525_532_409_916_329, 0.313_706_645_877_887_3),

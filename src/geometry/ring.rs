@@ -1,7 +1,7 @@
 use super::edge_tree::{Edge, EdgeTree, Extent};
 use super::{Point, PolygonError};
 
-/// Closed line through corners, the last of which is joined to the first.
+/// Closed line through corners; the last corner is joined to the first.
 pub type Ring = Vec<Point>;
 
 /// Position of a point relative to a polygon.
@@ -12,8 +12,8 @@ pub(super) enum Place {
     Outside,
 }
 
-/// Returns the position of `p`: on an edge, or else by the parity of the edges that a ray to the
-/// right crosses.
+/// Returns the position of `p`: on an edge or, otherwise, inside if a ray to the right crosses an
+/// odd number of edges.
 pub(super) fn place(tree: &EdgeTree, p: Point) -> Place {
     let mut inside = false;
     let mut on_border = false;
@@ -127,8 +127,8 @@ pub(super) fn tidy(rings: Vec<Ring>) -> Result<Vec<Ring>, PolygonError> {
 
 /// Returns the part of a ring in which `depth` is not negative.
 ///
-/// `depth` is a linear function of the place, and 0 on the cutting line. `edge` moves a computed
-/// crossing exactly onto that line.
+/// `depth` must be a linear function of the position; it is 0 on the cutting line. `edge` moves a
+/// computed crossing exactly onto that line.
 pub(super) fn cut(ring: &[Point], depth: impl Fn(Point) -> f64, edge: impl Fn(Point) -> Point) -> Ring {
     let mut kept = Vec::with_capacity(ring.len() + 4);
     for (&a, &b) in ring.iter().zip(ring.iter().cycle().skip(1)) {

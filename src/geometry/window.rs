@@ -3,7 +3,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// Error for bounds that do not make a rectangle, because a side is not finite or not positive.
+/// Bounds that do not make a rectangle, because a side is not finite or not positive.
 #[derive(Debug, Error, PartialEq)]
 #[error(
     "the window [{x0}, {x1}] × [{y0}, {y1}] has no area: give X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1, all finite"
@@ -88,11 +88,11 @@ impl Rectangle {
 pub enum Window {
     /// Upright rectangle outside which nothing is known: an imaged field, a cropped picture.
     Rectangle(Rectangle),
-    /// Rectangle without a border, whose opposite edges are the same place; patterns from periodic
+    /// Rectangle without a border, whose opposite edges are glued together; patterns from periodic
     /// samplers have such a window.
     Torus(Rectangle),
-    /// Polygon outside which, and within the holes of which, nothing is known: the imaged area of a
-    /// montage, or a region drawn by hand.
+    /// Polygon: nothing is known outside it or in its holes. It is the imaged area of a montage, or
+    /// a region drawn by hand.
     Polygon(Polygon),
 }
 

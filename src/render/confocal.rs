@@ -1,8 +1,11 @@
 //! Confocal images: cones and rods as spots of light that interfere in part.
 //!
-//! 1. Each cone or rod sends its light through the point-spread function, with a random phase.
-//! 2. Intensities add up, and so do amplitudes; the signal mixes both by the degree of coherence.
-//! 3. Haze, which is no cone, is added.
+//! 1. Each cone or rod makes a spot of light: the point-spread function, with a random phase.
+//! 2. The spots are added up twice: as intensities, as if no light interfered, and as complex
+//!    amplitudes, as if all of it did. The signal is a mixture of both sums.
+//! 3. Haze, which is light that comes from no cone, is added.
+//!
+//! Intensities are relative to the peak of an average cone.
 
 use super::field::{normal, smooth, texture};
 use super::psf::{AIRY_CUT, airy_amplitude};
@@ -15,25 +18,28 @@ use rand::{Rng, RngExt};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Fraction of the light of neighbouring cones that interferes; the intensities of the remaining
+/// Fraction of the light of neighbouring spots that interferes; the intensities of the remaining
 /// light add up.
 const COHERENCE: f64 = 0.35;
-/// Full width at half maximum of a Gaussian divided by its standard deviation.
+/// Full width at half maximum of a Gaussian divided by its standard deviation: 2 √(2 ln 2).
 const WIDTH_PER_SIGMA: f64 = 2.354_820_045;
-/// Distance at which a spot is cut off, in standard deviations of its intensity.
+/// Distance at which a Gaussian spot is cut off, in standard deviations of its intensity. The
+/// intensity there is e⁻⁸, 0.03 % of the peak.
 const CUT: f64 = 4.;
-/// Width of a rod's spot divided by the distance between rods.
+/// Full width at half maximum of a rod's spot, divided by the typical distance between rods.
 const ROD: f64 = 0.6;
-/// Width of each small peak of a multimodal cone, in widths of an ordinary cone's spot.
+/// Full width at half maximum of each small peak of a multimodal cone, in widths of an ordinary
+/// cone's spot.
 const PEAK: f64 = 0.45;
-/// Distance of the small peaks of a multimodal cone from its centre, in widths of an ordinary
-/// cone's spot, before a random factor.
+/// Distance between the small peaks of a multimodal cone and its centre, in widths of an ordinary
+/// cone's spot. It is multiplied by a random factor from 0.6 to 1.2.
 const PEAK_OFFSET: f64 = 0.4;
 
 /// Draws cones and rods as waveguides that send light back through a point-spread function.
 ///
-/// The spots are centred on the cones and have a mean height of 1. Light of neighbours interferes
-/// in part, with random phases, which joins or separates their spots.
+/// The result is 0 where there is no light, and 1 is the peak of an average cone. `heights` are the
+/// peaks of the cones. Light of neighbours interferes in part, with random phases, which joins or
+/// separates their spots.
 pub(super) fn signal(
     points: &[Point],
     cells: &CellSizes,
@@ -45,6 +51,8 @@ pub(super) fn signal(
     let mut light = Light::dark(options);
     for ((&p, &spacing), &peak) in points.iter().zip(&cells.spacing).zip(heights) {
         let cv = options.size_scatter;
+        // At the default scatter of 0.06, sizes stay from 0.7 to 1.3 times the mean. Even at the
+        // largest scatter no size falls below 0.3, as a width must be positive.
         let scatter = (1. + cv * normal(rng)).clamp((1. - 5. * cv).max(0.3), 1. + 5. * cv);
         let width = options.diameter * spacing * scatter;
         let phase = rng.random_range(0. ..TAU);
@@ -59,6 +67,7 @@ pub(super) fn signal(
     }
     let mut intensity = light.seen();
     if options.texture > 0. {
+        // A square is never negative, as haze can only add light.
         let haze = texture(options.width, options.height, 0.2 * cells.typical, rng);
         let haze = smooth(&haze.mapv(|v| v * v), 0.15 * cells.typical);
         let strength = options.texture as f32;
@@ -67,11 +76,14 @@ pub(super) fn signal(
     intensity
 }
 
-/// Light of many spots, as summed intensity and as summed complex amplitude.
+/// Light of many spots, added up as intensity and as complex amplitude.
 struct Light {
     psf: PointSpread,
+    /// Sum of the intensities, in peaks of an average cone.
     intensity: Plane,
+    /// Real part of the sum of the amplitudes.
     real: Plane,
+    /// Imaginary part of the sum of the amplitudes.
     imaginary: Plane,
 }
 
@@ -81,7 +93,10 @@ impl Light {
         Self { psf: options.psf, intensity: plane(), real: plane(), imaginary: plane() }
     }
 
-    /// Adds a spot of the given full width at half maximum (in px), peak intensity and phase.
+    /// Adds a spot at `p` with a full width at half maximum of `width` px and the peak intensity
+    /// `peak`.
+    ///
+    /// `phase` is the phase of the spot's light, in radians.
     fn add_spot(&mut self, p: Point, width: f64, peak: f64, phase: f64) {
         let (sin, cos) = phase.sin_cos();
         let amplitude = peak.sqrt();
@@ -125,11 +140,16 @@ impl Light {
         }
     }
 
-    /// Adds two to four peaks within a cone, as wide cones guide several modes.
+    /// Adds two to four small peaks within a cone instead of one spot, as wide cones guide several
+    /// modes.
+    ///
+    /// `width` and `peak` are those of the spot that an ordinary cone would have.
     fn add_peaks(&mut self, p: Point, width: f64, peak: f64, rng: &mut dyn Rng) {
         let count = rng.random_range(2..=4);
         let turn = rng.random_range(0. ..TAU);
         for k in 0..count {
+            // The peaks lie in roughly equal directions from each other; angles, distances and
+            // peaks scatter.
             let angle = turn + TAU * f64::from(k) / f64::from(count) + 0.3 * normal(rng);
             let offset = PEAK_OFFSET * width * rng.random_range(0.6..1.2);
             let at = Point::new(p.x + offset * angle.cos(), p.y + offset * angle.sin());
@@ -138,8 +158,8 @@ impl Light {
         }
     }
 
-    /// Returns the intensity that a detector sees: a mixture of summed intensities and summed
-    /// amplitudes.
+    /// Returns the intensity that a detector sees: a mixture of the summed intensities and the
+    /// squared modulus of the summed amplitudes.
     fn seen(mut self) -> Plane {
         let coherence = COHERENCE as f32;
         let (real, imaginary) = (&self.real, &self.imaginary);
@@ -150,8 +170,8 @@ impl Light {
     }
 }
 
-/// Returns the pixels of an axis that are at most `reach` px from `centre`, or `None` if there are
-/// none.
+/// Returns the pixels along an axis that are at most `reach` px from `centre`, or `None` if there
+/// are none.
 ///
 /// `side` is the number of pixels along the axis.
 pub(super) fn span(centre: f64, reach: f64, side: usize) -> Option<Range<usize>> {

@@ -1,24 +1,24 @@
-//! Density of a simulated mosaic from place to place, and patterns bent to have it.
+//! Density of a simulated mosaic as a function of position, and patterns bent to have that density.
 //!
-//! All distortions go through cumulative densities: a place moves to where the integral of the
-//! wanted density equals that of the pattern.
+//! All distortions go through cumulative densities: a point moves to the position up to which the
+//! integral of the wanted density equals that of the pattern.
 
 use super::{GradientShape, MosaicOptions};
 use crate::geometry::Point;
 use rand::{Rng, RngExt};
 use std::f64::consts::{PI, TAU};
 
-/// Area of a cell, in squared spacings: √3/2.
+/// Area of a cell of a triangular lattice, in squared spacings: √3/2.
 const CELL: f64 = 0.866_025_403_784_438_6;
-/// Number of samples of a cumulative density.
+/// Number of equal steps in which a density is integrated.
 const SAMPLES: usize = 2048;
 /// Angle between one point of Vogel's spiral and the next, in radians: 2π divided by the square of
-/// the golden ratio.
+/// the golden ratio. Points turned by this angle spread evenly over a disc.
 ///
 /// Source: Vogel (1979), <https://doi.org/10.1016/0025-5564(79)90080-4>.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
-/// Upright rectangle, in px.
+/// Upright rectangle from (`x0`, `y0`) to (`x1`, `y1`), in px.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rectangle {
     pub(super) x0: f64,
@@ -27,10 +27,10 @@ pub(super) struct Rectangle {
     pub(super) y1: f64,
 }
 
-/// Density of a mosaic from place to place.
+/// Density of a mosaic as a function of position.
 ///
-/// Places are given in the isotropic frame: the image, stretched until the mosaic has the same
-/// spacing along x and y.
+/// Positions are in the isotropic frame: the image, stretched until the mosaic has the same spacing
+/// along x and y.
 pub(super) struct Density {
     /// Width of the isotropic frame, in px.
     pub(super) width: f64,
@@ -38,7 +38,9 @@ pub(super) struct Density {
     pub(super) height: f64,
     /// Factor from x in the image to x in the isotropic frame; y is divided by it.
     stretch: f64,
+    /// Hexagonal spacing in px, see [`MosaicOptions::spacing`].
     spacing: f64,
+    /// Ratio of the densities at the two ends of the gradient, see [`MosaicOptions::gradient`].
     gradient: f64,
     shape: GradientShape,
 }
@@ -91,17 +93,21 @@ impl Density {
     fn relative_density(&self, x: f64) -> f64 {
         let log = self.gradient.ln();
         let t = ((x + 0.5) / self.width).clamp(0., 1.);
-        // ∫₀¹ exp(log (½ − t)) dt = 2 sinh(log/2) / log
+        // ∫₀¹ exp(log (½ − t)) dt = 2 sinh(log/2) / log, which tends to 1 as log tends to 0
         let mean = if log.abs() < 1e-9 { 1. } else { 2. * (log / 2.).sinh() / log };
         (log * (0.5 - t)).exp() / mean
     }
 
+    /// Returns the middle of the isotropic frame, in px.
     fn middle(&self) -> Point {
         Point::new(0.5 * self.width - 0.5, 0.5 * self.height - 0.5)
     }
 
     /// Returns the spacing of a radial gradient at distance `radius` from the middle of the image,
     /// in px.
+    ///
+    /// It changes linearly up to half the longer side, where the density has changed by the factor
+    /// `gradient`, and is constant beyond.
     fn spacing_at_radius(&self, radius: f64) -> f64 {
         let reach = 0.5 * self.width.max(self.height);
         self.spacing * (1. + (self.gradient.sqrt() - 1.) * (radius / reach).min(1.))
@@ -109,12 +115,13 @@ impl Density {
 
     /// Returns points of this density that are spread evenly over the rectangle `bounds`.
     ///
-    /// For a linear gradient, a low-discrepancy sequence with a random start is bent to the density
+    /// For a linear gradient, a low-discrepancy sequence with a random start is bent to the
+    /// density. The sequence is the analogue, in the plane, of multiples of the golden ratio
     /// (Roberts 2018,
-    /// <https://extremelearning.com.au/unreasonable-effectiveness-of-quasirandom-sequences/>, the
-    /// analogue of the golden ratio in the plane). For a radial gradient, Vogel's spiral is spaced
-    /// by the density.
+    /// <https://extremelearning.com.au/unreasonable-effectiveness-of-quasirandom-sequences/>). For
+    /// a radial gradient, the radii of Vogel's spiral are chosen by the density.
     pub(super) fn evenly_spread(&self, bounds: &Rectangle, rng: &mut dyn Rng) -> Vec<Point> {
+        // 1/ρ and 1/ρ², where ρ³ = ρ + 1
         const RATIO: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
         let start: [f64; 2] = [rng.random(), rng.random()];
         let Rectangle { x0, y0, x1, y1 } = *bounds;
@@ -163,8 +170,9 @@ impl Density {
                 (Rectangle { x0: -0.5, y0: -0.5, x1, y1 }, (self.width * self.height / cell).round() as usize)
             }
             GradientShape::Radial => {
-                // a square around the disc that would hold the same cones at the density of the
-                // middle
+                // At the density of the middle, a disc of radius `half` contains as many cones as
+                // the mosaic does up to the corners of the image. The pattern fills the square
+                // around that disc.
                 let half = (cell * self.within_radius(self.corner()).total() / PI).sqrt();
                 let square = Rectangle { x0: -half, y0: -half, x1: half, y1: half };
                 (square, (4. * half * half / cell).round() as usize)
@@ -172,11 +180,12 @@ impl Density {
         }
     }
 
+    /// Returns the distance between the middle and a corner of the isotropic frame, in px.
     fn corner(&self) -> f64 {
         0.5 * self.width.hypot(self.height)
     }
 
-    /// Moves the points of a uniform pattern to their places in the mosaic.
+    /// Moves the points of a uniform pattern to their positions in the mosaic.
     ///
     /// With a radial gradient, points that would lie farther out than the corners of the image are
     /// dropped.
@@ -204,9 +213,11 @@ impl Density {
     }
 }
 
-/// Integral of a density from 0, sampled in equal steps.
+/// Integral of a density from 0, computed in [`SAMPLES`] equal steps.
 struct Cumulative {
+    /// Upper end of the range over which the density is integrated.
     length: f64,
+    /// Integral up to the end of each step, from 0 to the total.
     sums: Vec<f64>,
 }
 
@@ -224,7 +235,7 @@ impl Cumulative {
         self.sums[SAMPLES]
     }
 
-    /// Returns the place up to which the integral is `sum`.
+    /// Returns the position up to which the integral is `sum`.
     fn place(&self, sum: f64) -> f64 {
         let i = self.sums.partition_point(|&c| c <= sum).clamp(1, SAMPLES) - 1;
         let within = (sum - self.sums[i]) / (self.sums[i + 1] - self.sums[i]);

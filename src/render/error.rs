@@ -4,7 +4,7 @@ use thiserror::Error;
 /// Reason why an image cannot be made.
 #[derive(Debug, Error, PartialEq)]
 pub enum RenderError {
-    /// An option lies outside its range.
+    /// Option that is outside its range.
     #[error("{option} is {value}: it must be from {low} to {high} {unit}")]
     OutOfRange {
         /// Name of the option that is out of its range.
@@ -18,7 +18,7 @@ pub enum RenderError {
         /// Unit of `value`, `low` and `high`.
         unit: &'static str,
     },
-    /// The image would have more pixels than are allowed.
+    /// Image with more pixels than are allowed.
     #[error(
         "an image of {width} × {height} px is too large: expected at most {limit} pixels, so make the \
          width or height smaller"
@@ -31,7 +31,7 @@ pub enum RenderError {
         /// Largest number of pixels allowed.
         limit: usize,
     },
-    /// A coordinate is infinite or not a number.
+    /// Point with a coordinate that is infinite or not a number.
     #[error("point {index} (counted from 0) is ({x}, {y}): expected finite coordinates")]
     NotFinite {
         /// Index of the point, from 0.
@@ -41,10 +41,10 @@ pub enum RenderError {
         /// Value of the point's y coordinate.
         y: f64,
     },
-    /// The nearest neighbours of the points could not be found.
+    /// Points whose nearest neighbours could not be found.
     #[error("the neighbours of {points} points could not be found: {reason}")]
     Neighbours {
-        /// Number of points given.
+        /// Number of points passed.
         points: usize,
         /// Message of the spatial index.
         reason: String,
@@ -58,7 +58,7 @@ pub enum RenderError {
          few: give at least 4 points, or the spacing"
     )]
     SpacingUnknown {
-        /// Number of points given.
+        /// Number of points passed.
         found: usize,
     },
 }

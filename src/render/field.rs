@@ -1,4 +1,4 @@
-//! Random fields for simulated images: slow fields for uneven light, textures for grain.
+//! Random fields for simulated images: slow fields for uneven light, and textures for grain.
 
 use crate::image::Plane;
 use ndarray::Array2;
@@ -12,10 +12,12 @@ pub(super) fn normal(rng: &mut dyn Rng) -> f64 {
 
 /// Smooth Gaussian random field of mean 0 and variance 1.
 ///
-/// It is a sum of cubic B-splines over knots with random values, so its cost does not grow with its
-/// correlation length.
+/// It is a sum of cubic B-splines, whose coefficients at the knots are random, so its cost does not
+/// grow with its correlation length.
 pub(super) struct SlowField {
+    /// Coefficients of the splines: independent standard normal values, one per knot.
     knots: Array2<f64>,
+    /// Distance between neighbouring knots, in px.
     cell: f64,
 }
 
@@ -24,6 +26,7 @@ impl SlowField {
     /// 1).
     pub(super) fn new(width: usize, height: usize, cell: f64, rng: &mut dyn Rng) -> Self {
         let cell = cell.max(1.);
+        // every position, up to the last pixel, needs four knots
         let knots = |side: usize| (side as f64 / cell).ceil() as usize + 4;
         let mut values = Array2::zeros((knots(height), knots(width)));
         values.iter_mut().for_each(|v| *v = normal(rng));
@@ -57,27 +60,30 @@ impl SlowField {
     }
 }
 
-/// Four knots that determine the field at a place along one axis, with their weights.
+/// Four successive knots along one axis that determine the field at a position, with their weights.
 struct Knots {
+    /// Index of the first of the four knots.
     first: usize,
     weights: [f64; 4],
 }
 
 impl Knots {
-    /// Returns the knots around place `at`, in cells, of an axis with `knots` knots.
+    /// Returns the knots around position `at` on an axis with `knots` knots; `at` is in distances
+    /// between knots.
     fn around(at: f64, knots: usize) -> Self {
         let at = at.clamp(0., (knots - 4) as f64);
         let mut weights = cubic_b_spline(at.fract());
-        // Between knots the variance of a sum of splines drops. Dividing by its root makes the
-        // field equally strong everywhere.
+        // Between knots the variance of a sum of splines drops. Dividing by its square root makes
+        // the field equally strong everywhere.
         let deviation = weights.iter().map(|w| w * w).sum::<f64>().sqrt();
         weights.iter_mut().for_each(|w| *w /= deviation);
         Self { first: at as usize, weights }
     }
 }
 
-/// Returns the weights of the four knots around a place at fraction `t` of the way between the
-/// middle two.
+/// Returns the weights of four successive knots at a position between the middle two.
+///
+/// `t` is the distance from the second knot as a fraction of the distance between knots.
 fn cubic_b_spline(t: f64) -> [f64; 4] {
     let u = 1. - t;
     [
@@ -101,19 +107,22 @@ pub(super) fn texture(width: usize, height: usize, sigma: f64, rng: &mut dyn Rng
 
 /// Returns the factor by which [`smooth`] reduces the standard deviation of white noise.
 pub(super) fn smoothed_deviation(sigma: f64) -> f64 {
+    // The weight of a pixel is the product w_i w_j of two weights along the axes, so the square
+    // root of the sum of all squares is Σ w².
     gaussian(sigma).iter().map(|&w| f64::from(w).powi(2)).sum()
 }
 
 /// Convolves with a Gaussian of standard deviation `sigma` px; the image is mirrored at its border.
 pub(super) fn smooth(plane: &Plane, sigma: f64) -> Plane {
-    // a narrower Gaussian does not extend to the next pixel
     if sigma < NARROWEST { plane.clone() } else { crate::image::gaussian(plane, sigma) }
 }
 
-/// Standard deviation, in px, below which a Gaussian is taken to stay within a pixel.
+/// Smallest standard deviation, in px, of a Gaussian that is applied. A narrower one has fallen to
+/// 2·10⁻¹⁰ at the next pixel, so it changes nothing.
 const NARROWEST: f64 = 0.15;
 
-/// Returns samples of a Gaussian with sum 1, from −⌈4σ⌉ to ⌈4σ⌉.
+/// Returns samples of a Gaussian with sum 1, from −⌈4σ⌉ to ⌈4σ⌉, where it has fallen to 0.03 % of
+/// its peak.
 ///
 /// If σ is too small for the Gaussian to extend to the next pixel, the only sample is 1.
 fn gaussian(sigma: f64) -> Vec<f32> {

@@ -1,12 +1,12 @@
-//! Simulated retinal images with known places of the cones.
+//! Simulated retinal images in which the position of every cone is known.
 //!
-//! [`cone_mosaic`] makes places for cones, [`render`] makes an image of given places, and
-//! [`simulate`] does both. The simulation covers what decides whether a detector works: the size of
-//! a cone relative to the distance to its neighbours, scatter of brightness, dim cones, structure
-//! that is not a cone, uneven illumination, blur and noise. Sizes follow the local spacing, so the
-//! cones of a sparser place are also larger.
+//! [`cone_mosaic`] makes positions of cones, [`render()`] draws an image of cones at these
+//! positions, and [`simulate`] does both. The simulation covers what decides whether a detector
+//! works: the size of a cone relative to the distance to its neighbours, scatter of brightness, dim
+//! cones, structure that is not a cone, uneven illumination, blur and noise. Sizes follow the local
+//! spacing, so cones are larger where they are sparser.
 //!
-//! Judging detectors by simulated cones with known places follows Mariotti and Devaney (2015),
+//! Judging detectors by simulated cones at known positions follows Mariotti and Devaney (2015),
 //! <https://doi.org/10.1364/JOSAA.32.000497>.
 
 mod confocal;
@@ -40,7 +40,7 @@ use montage::Montage;
 use rand::Rng;
 use spacing::CellSizes;
 
-/// Simulated image with the cones in it.
+/// Simulated image, with the positions and the visibility of its cones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Simulation {
     /// Image with grey values in [0, 1].
@@ -57,7 +57,7 @@ pub struct Simulation {
 /// of the image is taken from `image`; the size in `mosaic` is not used.
 ///
 /// # Errors
-/// If an option is out of its range.
+/// Fails if an option is out of its range.
 ///
 /// # Examples
 /// ```
@@ -93,14 +93,15 @@ pub fn simulate(
 /// Coordinates are in px; (0, 0) is the centre of the top-left pixel. Points beyond the border are
 /// allowed: the light that they cast into the image is drawn.
 ///
-/// 1. The size of each cone follows from its neighbours, and its height is drawn.
+/// 1. The size of each cone follows from the distances to its neighbours; its peak brightness is
+///    drawn at random.
 /// 2. The modality turns cones, and rods between them, into a signal.
 /// 3. Contrast, brightness, uneven illumination, vessels and blur are applied.
-/// 4. Noise is added, and values are cut to [0, 1].
-/// 5. A montage of tiles is made, if asked for.
+/// 4. Noise is added, and values are clamped to [0, 1].
+/// 5. If `options.montage` is at least 2, the image is seen through the tiles of a montage.
 ///
 /// # Errors
-/// If an option is out of its range, a coordinate is not finite, or there are fewer than four
+/// Fails if an option is out of its range, a coordinate is not finite, or there are fewer than four
 /// points and `options.spacing` is `None`.
 ///
 /// # Examples
@@ -120,11 +121,11 @@ pub fn render(points: &[Point], options: &RenderOptions, rng: &mut dyn Rng) -> R
     Ok(picture(points, options, rng)?.image)
 }
 
-/// Draws the same image as [`render`] and returns it with the points on imaged pixels and their
-/// visibility.
+/// Draws the same image as [`render()`], and returns it with the visibility of each cone on an
+/// imaged pixel.
 ///
 /// # Errors
-/// The errors of [`render`].
+/// Fails if [`render()`] fails.
 pub fn picture(
     points: &[Point],
     options: &RenderOptions,
@@ -169,8 +170,10 @@ pub fn picture(
     Ok(Simulation { image, cones, visibility })
 }
 
-/// Turns the signal into grey values: unevenly lit, behind vessels, blurred, and inverted where the
-/// polarity is negative.
+/// Turns the signal into grey values.
+///
+/// The signal is 0 where there is no cone, and 1 is the contrast of an average cone. The image is
+/// unevenly lit, seen behind vessels, blurred, and inverted if the polarity is negative.
 fn expose(
     mut signal: Plane,
     vessels: Option<&Plane>,
@@ -197,14 +200,15 @@ fn expose(
 
 /// Multiplies the image by an uneven illumination of mean 1.
 ///
-/// Half of the variance of the illumination comes from a field that spans the image (vignetting,
-/// tilt), and half from a field that spans a few cones (vessels and the layers above).
+/// Half of the variance of the illumination comes from a field that spans the image, like
+/// vignetting or a tilt, and half from a field that spans a few cones, like the shadows of vessels
+/// and of the layers above. `spacing` is the median spacing of the cones, in px.
 fn illuminate(image: &mut Plane, options: &RenderOptions, spacing: f64, rng: &mut dyn Rng) {
     let (height, width) = image.dim();
     let mut field = |cell| SlowField::new(width, height, cell, rng).plane(width, height);
     let (wide, near) = (field(0.5 * width.max(height) as f64), field(1.5 * spacing));
+    // each of the two fields gets half of the variance `drift`²
     let half = (options.drift * 0.5f64.sqrt()) as f32;
-    // The factor stays above 0, as a bright field never turns dark, however large a drift is asked
-    // for.
+    // The factor stays above 0, as a bright field never turns dark, however large the `drift` is.
     ndarray::Zip::from(image).and(&wide).and(&near).for_each(|v, w, n| *v *= (1. + half * (w + n)).max(0.1));
 }

@@ -1,35 +1,45 @@
-//! Montages: an image seen through overlapping tiles, each turned and with a brightness of its own.
+//! Montages: an image seen through overlapping tiles, each turned by a small angle and with a
+//! brightness of its own.
 
 use super::RenderOptions;
 use super::field::normal;
 use crate::image::{Plane, fill_rows};
 use rand::{Rng, RngExt};
 
-/// Side of a tile divided by the distance between neighbouring tiles on the grid (the pitch).
+/// Side of a tile divided by the distance between neighbouring tiles on the grid. That distance is
+/// called the pitch.
 const OVERLAP: f64 = 1.3;
-/// Standard deviation of a tile's displacement from its grid place along each axis, in pitches.
+/// Standard deviation of a tile's displacement from its grid point along each axis, in pitches.
 const STRAY: f64 = 0.06;
 /// Largest rotation of a tile, in radians: 5°.
 const TURN: f64 = 0.087;
-/// Standard deviation of the logarithm of a tile's brightness.
+/// Standard deviation of the logarithm of the factor by which a tile's brightness differs.
 const GAIN: f64 = 0.08;
-/// Probability that a tile is left out, for those places at the border where a tile may be missing.
+/// Probability that a tile is left out, for those grid points at the border of the montage whose
+/// tile may be missing.
 const GAPS: f64 = 0.3;
-/// Darkest value of an imaged pixel: one grey of an 8-bit file, so that black means not imaged.
+/// Darkest value of an imaged pixel: one grey level of an 8-bit file, so that black always means a
+/// pixel that was not imaged.
 const DARKEST: f32 = 1. / 255.;
 
 /// One of the overlapping frames of a montage.
 struct Tile {
+    /// Position of the tile's centre along x, in px.
     x: f64,
+    /// Position of the tile's centre along y, in px.
     y: f64,
+    /// Cosine of the angle by which the tile is turned.
     cos: f64,
+    /// Sine of the angle by which the tile is turned.
     sin: f64,
     /// Half of the tile's side, in px.
     half: f64,
+    /// Factor by which the tile multiplies the brightness.
     gain: f32,
 }
 
 impl Tile {
+    /// Returns whether the tile covers (x, y), in px.
     fn covers(&self, x: f64, y: f64) -> bool {
         let (dx, dy) = (x - self.x, y - self.y);
         (self.cos * dx + self.sin * dy).abs() <= self.half
@@ -37,23 +47,23 @@ impl Tile {
     }
 }
 
-/// Tiles of a montage on a grid of places; later tiles lie on top of earlier ones.
+/// Tiles of a montage, laid on a grid; later tiles lie on top of earlier ones.
 pub(super) struct Montage {
     tiles: Vec<Tile>,
-    /// Centre of the first column of the grid along x, in px.
+    /// Centre along x of the first column of the grid, in px.
     x0: f64,
-    /// Centre of the first row of the grid along y, in px.
+    /// Centre along y of the first row of the grid, in px.
     y0: f64,
-    /// Distance between neighbouring places of the grid, in px.
+    /// Distance between neighbouring grid points, in px.
     pitch: f64,
     columns: usize,
     rows: usize,
-    /// Index of the tile at each place of the grid, row by row, or `None` if the tile is left out.
+    /// Index of the tile at each grid point, row by row, or `None` if the tile is left out.
     at: Vec<Option<usize>>,
 }
 
 impl Montage {
-    /// Lays tiles on a grid that fills the image, with some of the outermost left out.
+    /// Lays tiles on a grid that fills the image, and leaves out some of the outermost ones.
     pub(super) fn new(options: &RenderOptions, rng: &mut dyn Rng) -> Self {
         let (w, h) = (options.width as f64, options.height as f64);
         // The outer edges of the outermost tiles lie on the border of the image, before the tiles
@@ -69,7 +79,7 @@ impl Montage {
             let (i, j) = (k % columns, k / columns);
             let outermost = |i: usize, count: usize| count > 2 && (i == 0 || i + 1 == count);
             let (across, down) = (outermost(i, columns), outermost(j, rows));
-            // Every other place of a side keeps its tile, so that the montage holds together.
+            // Every other tile along a side stays, so that the montage does not fall apart.
             let may_miss = (across && (down || j % 2 == 1)) || (down && i % 2 == 1);
             let missing = rng.random::<f64>() < GAPS;
             let (stray_x, stray_y) = (STRAY * normal(rng), STRAY * normal(rng));
@@ -85,9 +95,10 @@ impl Montage {
         Self { tiles, x0, y0, pitch, columns, rows, at }
     }
 
-    /// Returns the uppermost tile at (x, y), or `None` if no tile covers that place.
+    /// Returns the uppermost tile at (x, y), or `None` if no tile covers that point.
     fn tile(&self, x: f64, y: f64) -> Option<&Tile> {
-        // only tiles within two places of the grid can cover (x, y)
+        // The corners of a tile are .92 pitches from its centre, and tiles stray by .06 pitches
+        // (standard deviation), so only tiles within two grid points can cover (x, y).
         let near = |v: f64, from: f64, count: usize| {
             let place = (v - from) / self.pitch;
             let low = (place - 2.).floor().clamp(0., count as f64) as usize;

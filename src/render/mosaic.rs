@@ -1,7 +1,8 @@
 //! Simulated cone mosaics: patches of triangular lattice with defects between them.
 //!
-//! 1. Spread points of the wanted density evenly, and displace them until their order is forgotten.
-//! 2. For 30 steps, let points push each other away that are nearer than 1.25 local spacings.
+//! 1. Spread points of the wanted density evenly, and displace them at random so that no trace of
+//!    the even arrangement is left.
+//! 2. In 30 steps, let points that are nearer than 1.25 local spacings push each other away.
 //! 3. Displace each point at random.
 
 use super::RenderError;
@@ -14,20 +15,27 @@ use rand::Rng;
 use rayon::prelude::*;
 use serde::Serialize;
 
-/// Number of relaxation steps; more steps make larger crystals and a higher regularity.
+/// Number of steps in which points push each other away; more steps make larger crystals and a
+/// higher regularity.
+///
+/// With 30 steps, the regularity is that of real mosaics, see [`cone_mosaic`].
 const STEPS: usize = 30;
-/// Distance, in spacings, below which cones push each other away.
+/// Distance, in local spacings, below which cones push each other away. In a triangular lattice
+/// only the six nearest neighbours, at distance 1, are nearer; the next ones are 1.73 away.
 const REACH: f64 = 1.25;
-/// Displacement of a cone per step and per unit of push, in local spacings.
+/// Displacement of a cone per step and per unit of push, in local spacings. The push of a neighbour
+/// falls linearly from 1 at distance 0 to 0 at distance [`REACH`].
 const STIFFNESS: f64 = 0.3;
-/// Standard deviation, in spacings, of the displacement that makes evenly spread points forget
-/// their order.
+/// Standard deviation of the random displacement, in local spacings, after which no trace of the
+/// even arrangement is left.
 const FORGET: f64 = 0.3;
 /// Width of the margin around the image in which cones are made too, in spacings.
 ///
-/// The margin keeps effects of its outer bounds away from the image.
+/// Cones at the outer bounds of the margin are pressed against them. The margin keeps this away
+/// from the image.
 const MARGIN: f64 = 4.;
-/// Distance from the image within which cones still shine into it, in spacings.
+/// Distance from the image, in spacings, within which cones are kept because their light still
+/// falls into it.
 const SURROUNDINGS: f64 = 2.;
 
 /// Direction in which the density of a mosaic changes.
@@ -92,7 +100,7 @@ impl MosaicOptions {
     /// Checks that every field is in its range.
     ///
     /// # Errors
-    /// If a field is out of its range; the error names the first such field and its range.
+    /// Fails if a field is out of its range; the error names the first such field and its range.
     pub fn validate(&self) -> Result<(), RenderError> {
         validate_size(self.width, self.height)?;
         check("spacing", self.spacing, (2., 1000.), "px")?;
@@ -107,33 +115,33 @@ impl MosaicOptions {
     }
 }
 
-/// Returns whether a point lies on a pixel of the image.
+/// Returns whether a point lies on a pixel of an image of `width` × `height` px.
 pub(super) fn in_image(p: Point, width: usize, height: usize) -> bool {
     let on = |v: f64, side: usize| v >= -0.5 && v < side as f64 - 0.5;
     on(p.x, width) && on(p.y, height)
 }
 
-/// Makes the places of cones in an image, in px, where (0, 0) is the centre of the top-left pixel.
+/// Makes the positions of cones in an image, in px, where (0, 0) is the centre of the top-left
+/// pixel.
 ///
 /// The cones form patches of triangular lattice, turned in all directions, with defects between
-/// them, as repelling discs do when they freeze without time to crystallise. First, points of the
-/// wanted density are spread evenly; a few steps of soft repulsion within the local spacing follow,
-/// and then jitter.
+/// them, as repelling discs do when they freeze without time to crystallise. The steps are evenly
+/// spread points, soft repulsion over about the local spacing, and jitter.
 ///
-/// With uniform density and the default jitter, the mean nearest-neighbour distance is .83 s (s is
-/// the hexagonal spacing) and the regularity index is 9 to 10, as in real confocal images. With a
-/// jitter of 0.11 these values are .79 s and 8, as in real split-detector images.
+/// With uniform density and the default jitter, the mean nearest-neighbour distance is .83
+/// hexagonal spacings and the regularity index is 9 to 10, as in real confocal images. With a
+/// jitter of 0.11, these values are .79 and 8, as in real split-detector images.
 ///
 /// # Errors
-/// If an option is out of its range.
+/// Fails if an option is out of its range.
 pub fn cone_mosaic(options: &MosaicOptions, rng: &mut dyn Rng) -> Result<Vec<Point>, RenderError> {
     let mut points = with_surroundings(options, rng)?;
     points.retain(|&p| in_image(p, options.width, options.height));
     Ok(points)
 }
 
-/// Makes the places of [`cone_mosaic`], and also those of cones beyond the border that shine into
-/// the image.
+/// Makes the positions of [`cone_mosaic`], and also those of cones beyond the border whose light
+/// falls into the image.
 pub(super) fn with_surroundings(
     options: &MosaicOptions,
     rng: &mut dyn Rng,
@@ -170,8 +178,8 @@ fn jitter(points: &mut [Point], density: &Density, options: &MosaicOptions, rng:
     }
 }
 
-/// Conversion of a pattern of uniform density, such as a sampler makes, into a mosaic with given
-/// options.
+/// Conversion of a pattern of uniform density, such as a sampler makes, into a mosaic as
+/// [`MosaicOptions`] describe it.
 pub struct Pattern {
     density: Density,
     options: MosaicOptions,
@@ -183,7 +191,7 @@ impl Pattern {
     /// Creates the conversion for the mosaic that `options` describe.
     ///
     /// # Errors
-    /// If an option is out of its range.
+    /// Fails if an option is out of its range.
     pub fn new(options: &MosaicOptions) -> Result<Self, RenderError> {
         options.validate()?;
         let density = Density::of(options);
@@ -202,11 +210,11 @@ impl Pattern {
         &self.window
     }
 
-    /// Converts a uniform pattern into the mosaic and returns the points that lie in the image, in
+    /// Converts a uniform pattern into the mosaic, and returns its points that lie in the image, in
     /// px.
     ///
-    /// `points` must fill [`Pattern::window`]. A gradient of density stretches cells along its
-    /// direction.
+    /// `points` must fill [`Pattern::window`]. Where the density changes, the cells of the pattern
+    /// come out longer along the gradient or across it.
     pub fn bent(&self, points: &[Point], rng: &mut dyn Rng) -> Vec<Point> {
         let mut points = self.density.bent(points);
         jitter(&mut points, &self.density, &self.options, rng);
@@ -217,8 +225,10 @@ impl Pattern {
 
 /// Image with a margin around it, in the isotropic frame of [`Density`].
 struct Field {
+    /// Rectangle in which cones are made: the isotropic frame with the margin around it.
     bounds: Rectangle,
-    /// Side of the squares in which neighbours are sought, in px.
+    /// Side of the squares in which neighbours are sought, in px; at least the distance over which
+    /// cones push each other.
     cell: f64,
 }
 
@@ -235,7 +245,7 @@ impl Field {
         Self { bounds, cell: REACH * widest }
     }
 
-    /// Returns the point, moved to the nearest place of the bounds if it lies outside.
+    /// Returns the point, moved to the nearest point of the bounds if it lies outside.
     fn held(&self, p: Point) -> Point {
         let Rectangle { x0, y0, x1, y1 } = self.bounds;
         Point::new(p.x.clamp(x0, x1), p.y.clamp(y0, y1))

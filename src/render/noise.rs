@@ -1,4 +1,5 @@
-//! Noise of photons and of the detector, correlated as by the registration of frames.
+//! Noise of photons and of the detector, correlated between pixels as the registration of frames
+//! correlates it.
 
 use super::RenderOptions;
 use super::field::{normal, smooth, smoothed_deviation};
@@ -6,16 +7,15 @@ use crate::image::Plane;
 use rand::Rng;
 use rand_distr::{Distribution, Poisson};
 
-/// Smallest mean number of photons for which a normal distribution replaces the Poisson
-/// distribution.
+/// Smallest mean number of photons for which a normal deviate replaces the Poisson deviate, which
+/// is slower to draw. The skewness of the Poisson distribution is then at most 0.1.
 const MANY_PHOTONS: f64 = 100.;
 
 /// Adds photon and detector noise, smoothed as registration smooths it.
 ///
-/// Photon noise has the share q of the variance noise² at mid-grey. One photon makes 2 q noise² of
-/// the
-/// full range of grey, so a pixel of grey value v gets Poisson(v / 2 q noise²) · 2 q noise², which
-/// has the variance 2 q v noise².
+/// Let q be `options.photons`, the share of photon noise in the variance `options.noise`² at
+/// mid-grey (v = ½). One photon makes p = 2 q noise² of the full range of grey, so a pixel of grey
+/// value v gets Poisson(v/p) · p. The variance of that is p v, which is q noise² at mid-grey.
 pub(super) fn add(image: &mut Plane, options: &RenderOptions, rng: &mut dyn Rng) {
     if options.noise == 0. {
         return;
@@ -32,7 +32,7 @@ pub(super) fn add(image: &mut Plane, options: &RenderOptions, rng: &mut dyn Rng)
     image.zip_mut_with(&noise, |value, &n| *value += gain * n);
 }
 
-/// Draws a Poisson deviate of the given mean and returns its difference from the mean.
+/// Draws a Poisson deviate of mean `mean` and returns its difference from the mean.
 fn deviation_of_photons(mean: f64, rng: &mut dyn Rng) -> f64 {
     if mean >= MANY_PHOTONS {
         return mean.sqrt() * normal(rng);

@@ -3,9 +3,10 @@ use super::error::check;
 use crate::image::{Modality, Polarity};
 use serde::Serialize;
 
-/// Longest side of a simulated image, in px.
+/// Largest side of a simulated image, in px; larger images are refused.
 const MAX_SIDE: usize = 16_384;
-/// Largest number of pixels of a simulated image: 2²⁶, about 1 GB while it is made.
+/// Largest number of pixels of a simulated image: 2²⁶. Making such an image takes about 1 GB of
+/// memory.
 const MAX_PIXELS: usize = 1 << 26;
 
 /// Shape of the spot that a cone's light makes; all shapes have the same full width at half
@@ -21,9 +22,9 @@ pub enum PointSpread {
 
 /// Options for the simulated image of a mosaic.
 ///
-/// “Spacings” are hexagonal spacings of the cones: the local one for the sizes of cones, the median
-/// one for vessels and blur. [`RenderOptions::new`] gives, for each modality, values that make the
-/// image look real; [`Default`] gives the values for confocal images.
+/// “Spacings” are hexagonal spacings of the cones: the local spacing for the sizes of cones, the
+/// median spacing for vessels and blur. [`RenderOptions::new`] gives, for each modality, values
+/// that make the image look real; [`Default`] gives the values for confocal images.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RenderOptions {
     /// Kind of image: confocal, split detector or histology.
@@ -68,16 +69,20 @@ pub struct RenderOptions {
     /// In split-detector images, it points from the dark to the bright side of a cone; in
     /// histological images, towards the bright side of a disc. Confocal images do not use it.
     pub orientation: f64,
-    /// Excess brightness of the middle of an average cone over its surround in split-detector
-    /// images, -2 to 2 times the contrast.
+    /// Difference between the middle of an average cone and its surround in split-detector images,
+    /// -2 to 2 times the contrast.
+    ///
+    /// A segment that stands upright has a dark and a bright half, and its middle is as bright as
+    /// the surround. One that leans is brighter in its middle, or darker if the value is negative.
     pub lean: f64,
     /// Ratio of a cone's length across the direction of light and shade to its length along that
     /// direction, in split-detector images, 0.5 to 2.
     pub elongation: f64,
-    /// Strength of the rise and fall of brightness across a disc in histological images, 0 to 2
-    /// times the height of the disc.
+    /// Strength with which discs in histological images are lit from one side, 0 to 2.
     ///
-    /// Large values give Nomarski contrast.
+    /// From the centre of a disc to its bright side, the brightness rises by √2 × `shading` times
+    /// the peak of the disc; to the other side it falls as much. Large values give Nomarski
+    /// contrast.
     pub shading: f64,
     /// Depth of the dark outline of discs in histological images, 0 to 3 times the contrast.
     pub outline: f64,
@@ -86,11 +91,11 @@ pub struct RenderOptions {
     ///
     /// The grain stands for mitochondria in an electron micrograph.
     pub granules: f64,
-    /// Height of the section above the widest place of the inner segments in histological images, 0
+    /// Level of the section above the widest plane of the inner segments in histological images, 0
     /// to 0.95 of their half axis.
     ///
-    /// The segments are taken as ellipsoids. If the section lies above the widest place, cells are
-    /// cut at different heights and differ in size.
+    /// The segments are taken as ellipsoids. If the level is above 0, cells are cut at different
+    /// levels and differ in size.
     pub section: f64,
     /// Standard deviation of structure that is not a cone (haze, rods, grain of the tissue), 0 to 2
     /// times the contrast.
@@ -115,8 +120,8 @@ pub struct RenderOptions {
     /// Photon noise is Poisson, with a variance proportional to the grey value. The rest is
     /// detector noise: Gaussian, and equally strong everywhere.
     pub photons: f64,
-    /// Standard deviation of the Gaussian that correlates the noise of neighbouring pixels, 0 to 4
-    /// px.
+    /// Standard deviation of the Gaussian by which noise is smoothed, so that the noise of
+    /// neighbouring pixels is correlated, 0 to 4 px.
     ///
     /// Averaging registered frames resamples them, which correlates their noise. 0 gives white
     /// noise. The standard deviation of a pixel's noise stays `noise`.
@@ -129,7 +134,10 @@ pub struct RenderOptions {
 }
 
 impl RenderOptions {
-    /// Returns options that make a 150 × 150 px image of the given modality look real.
+    /// Returns options that make a 150 × 150 px image of the modality look real.
+    ///
+    /// The values were set so that grey level, spread, skewness, spectrum and scatter of brightness
+    /// match those of real images.
     pub const fn new(modality: Modality) -> Self {
         let common = Self {
             modality,
@@ -202,12 +210,13 @@ impl RenderOptions {
     /// Checks that every field is in its range.
     ///
     /// # Errors
-    /// If a field is out of its range; the error names the first such field and its range.
+    /// Fails if a field is out of its range; the error names the first such field and its range.
     pub fn validate(&self) -> Result<(), RenderError> {
         validate_size(self.width, self.height)?;
         if let Some(spacing) = self.spacing {
             check("spacing", spacing, (2., 1000.), "px")?;
         }
+        // units that the message of the error names
         const GREY: &str = "of the full range of grey";
         const OF_CONES: &str = "(fraction of the cones)";
         const CONTRASTS: &str = "times the contrast";

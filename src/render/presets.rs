@@ -8,6 +8,7 @@ pub struct Preset {
     pub name: &'static str,
     /// Description of the image in one line.
     pub about: &'static str,
+    /// Function that makes the options of the mosaic and those of the image.
     make: fn() -> (MosaicOptions, RenderOptions),
 }
 
@@ -64,6 +65,7 @@ pub const PRESETS: [Preset; 8] = [
     },
 ];
 
+/// Returns the default options of a modality, for a square image of `side` px.
 fn of(modality: Modality, side: usize) -> RenderOptions {
     RenderOptions { width: side, height: side, ..RenderOptions::new(modality) }
 }
@@ -71,7 +73,8 @@ fn of(modality: Modality, side: usize) -> RenderOptions {
 fn fovea() -> (MosaicOptions, RenderOptions) {
     let mosaic =
         MosaicOptions { spacing: 5., gradient: 3., shape: GradientShape::Radial, ..MosaicOptions::default() };
-    // In the fovea the point-spread function is as wide as the cones are apart.
+    // In the fovea the point-spread function is wide compared with the distance between cones (0.55
+    // spacings by default).
     let image = RenderOptions { diameter: 0.6, texture: 0.1, noise: 0.012, ..of(Modality::Confocal, 256) };
     (mosaic, image)
 }

@@ -1,4 +1,4 @@
-//! Rods at random places in the room that cones leave.
+//! Rods at random positions in the room that cones leave.
 
 use super::RenderOptions;
 use super::field::normal;
@@ -8,37 +8,42 @@ use crate::geometry::index::BucketGrid;
 use rand::{Rng, RngExt};
 use std::f64::consts::TAU;
 
-/// Area of a cone's cell, in squared spacings: √3/2.
+/// Area of a cone's cell in a triangular lattice, in squared spacings: √3/2.
 const CELL: f64 = 0.866_025_403_784_438_6;
-/// Smallest distance between two rods, as a share of the spacing of a triangular lattice of the
+/// Smallest distance between two rods, as a fraction of the spacing of a triangular lattice of the
 /// same density.
 ///
-/// Random placing without overlap stops at about this distance.
+/// Discs placed at random without overlap come to about this distance before there is no more room:
+/// .777 if no room at all is left.
 const CLOSEST: f64 = 0.75;
-/// Number of discs of diameter 1 per unit of area that random placing without overlap achieves.
+/// Number of discs of diameter 1 per unit of area that are placed at random without overlap.
 ///
-/// Random sequential adsorption in the plane (Rényi's car parking) covers .547 of the area; the
-/// limited number of tries achieves only a part of it.
+/// Random sequential adsorption of discs ends at .70 discs, which cover .547 of the plane (Feder
+/// 1980, <https://doi.org/10.1016/0022-5193(80)90358-6>). The limited number of tries, see
+/// [`TRIES`], achieves only a part of it.
 const PARKED: f64 = 0.6;
-/// Smallest room that the cones are assumed to leave to rods, in squared spacings per cone.
+/// Smallest room that cones are assumed to leave to rods, in squared spacings per cone, even if
+/// wide cones leave less.
 const LEAST_ROOM: f64 = 0.1;
-/// Number of places tried per rod asked for.
+/// Number of random positions tried per rod; most of them have no room.
 const TRIES: f64 = 6.;
-/// Coefficient of variation of the rods' heights.
+/// Coefficient of variation of the rods' peaks, which are log-normal.
 const SCATTER: f64 = 0.5;
 
-/// Rod that lies between cones.
+/// Rod that lies between cones, in px.
 pub(super) struct Rod {
+    /// Position of the rod's centre.
     pub(super) centre: Point,
     /// Typical distance between this rod and the rods around it, in px.
     pub(super) pitch: f64,
-    /// Height over the surround, relative to the average cone.
+    /// Peak brightness over the surround, relative to that of the average cone.
     pub(super) height: f64,
 }
 
 /// Places rods at random in the room that the cones leave, without overlap.
 ///
-/// The distance between rods follows from their number and from the room that the cones leave.
+/// The smallest distance between rods follows from `options.rods` and from the room that the cones
+/// leave.
 pub(super) fn between(
     points: &[Point],
     cells: &CellSizes,
@@ -54,6 +59,8 @@ pub(super) fn between(
     for (&p, &spacing) in points.iter().zip(&cells.spacing) {
         taken.insert(p, 0.5 * options.diameter * spacing);
     }
+    // standard deviation of the logarithm; a mean of −log_sd²/2 makes the mean of the peaks
+    // `rod_contrast`
     let log_sd = (1. + SCATTER * SCATTER).ln().sqrt();
     let tries = (TRIES * options.rods).ceil() as usize;
     let mut rods = Vec::new();
@@ -61,6 +68,7 @@ pub(super) fn between(
         let closest = closest_per_spacing * spacing;
         let pitch = closest / CLOSEST;
         for _ in 0..tries {
+            // uniform by area, from 0.2 to 1 spacings away from the cone
             let distance = spacing * rng.random_range(0.04f64..1.).sqrt();
             let (sin, cos) = rng.random_range(0. ..TAU).sin_cos();
             let centre = Point::new(p.x + distance * cos, p.y + distance * sin);
@@ -73,10 +81,11 @@ pub(super) fn between(
     rods
 }
 
-/// Returns the least distance between two rods, in spacings, at which the rods asked for find room.
+/// Returns the smallest distance between two rods, in spacings, at which `options.rods` rods per
+/// cone find room.
 ///
-/// The distance x solves rods · x² = PARKED · (CELL − π (d + x)²/4), as the centre of a rod keeps
-/// x/2 away from the edge of a cone of diameter d.
+/// With n rods per cone of diameter d and area CELL, the distance x solves n x² = PARKED · (CELL −
+/// π (d + x)²/4), as the centre of a rod keeps x/2 away from the edge of a cone.
 fn closest(options: &RenderOptions) -> f64 {
     let d = options.diameter;
     let parked = PARKED * TAU / 8.;
@@ -85,15 +94,17 @@ fn closest(options: &RenderOptions) -> f64 {
     ((b * b + 4. * a * room).sqrt() - b) / (2. * a)
 }
 
-/// Discs that must not overlap, in a grid of squares.
+/// Discs that must not overlap, sorted into a grid of squares.
 ///
 /// The side of a square is at least the largest distance at which a rod can touch another disc, so
 /// only adjacent squares are searched.
 struct Discs {
+    /// Side of a square, in px.
     side: f64,
-    /// Numbers of columns and of rows of squares that cover the image, without the ring of squares
-    /// around it.
+    /// Numbers of columns and rows of squares that cover the image, without the ring of further
+    /// squares around it.
     counts: [usize; 2],
+    /// Centre and radius of each disc, in px.
     discs: BucketGrid<(Point, f64)>,
 }
 

@@ -8,26 +8,31 @@ use std::num::NonZero;
 /// Ratio of the hexagonal spacing to the mean distance of the three nearest neighbours in a cone
 /// mosaic.
 const SPACING_PER_NEIGHBOUR_DISTANCE: f64 = 1.09;
-/// Smallest spacing that is assigned to a cone, in px; cones in tight clusters get it.
+/// Smallest spacing that is assigned to a cone, in px, so that cones at one position have a size.
 const MIN_SPACING: f64 = 1.;
-/// Largest spacing that is assigned to a cone, in px; cones far from all others get it.
+/// Largest spacing that is assigned to a cone, in px, so that cones far from all others have a
+/// finite size.
 const MAX_SPACING: f64 = 1000.;
 /// Number of points over which a cone's spacing is averaged: the cone and its ring of six
 /// neighbours.
 const RING: NonZero<usize> = NonZero::<usize>::MIN.saturating_add(6);
 
-/// Local spacing and nearest-neighbour distance of each cone, which determine the sizes of cones.
+/// Local spacing and nearest-neighbour distance of each cone, from which its size follows.
 pub(super) struct CellSizes {
     /// Local hexagonal spacing at each cone, in px.
     pub(super) spacing: Vec<f64>,
     /// Distance between each cone and its nearest neighbour, in px; infinite if there is no other
     /// cone.
     pub(super) nearest: Vec<f64>,
-    /// Median spacing, in px, which is the scale of everything that is not a cone.
+    /// Median of `spacing`, in px: the unit of everything that is not a cone.
     pub(super) typical: f64,
 }
 
 impl CellSizes {
+    /// Creates the sizes of the cones at `points`.
+    ///
+    /// The spacing is `options.spacing` at every cone or, if that is `None`, follows from the
+    /// distances to the neighbours.
     pub(super) fn of(points: &[Point], options: &RenderOptions) -> Result<Self, RenderError> {
         let neighbours = nearest_neighbours(points)?;
         let nearest = neighbours.iter().map(|n| n.get(1).map_or(f64::INFINITY, |n| n.1)).collect();
@@ -54,7 +59,7 @@ fn nearest_neighbours(points: &[Point]) -> Result<Vec<Vec<(usize, f64)>>, Render
     let neighbours = points.iter().enumerate().map(|(own, &place)| {
         let mut found: Vec<(usize, f64)> =
             tree.nearest(place, RING).map(|(k, squared)| (k, squared.sqrt())).collect();
-        // Among points at the same place, the tree may name another one first.
+        // Among points at the same position, the tree may name another one first.
         found.sort_by(|a, b| a.1.total_cmp(&b.1).then((a.0 != own).cmp(&(b.0 != own))).then(a.0.cmp(&b.0)));
         found
     });
@@ -63,9 +68,9 @@ fn nearest_neighbours(points: &[Point]) -> Result<Vec<Vec<(usize, f64)>>, Render
 
 /// Returns the local spacing at each point from the distances to its neighbours.
 ///
-/// Unlike a density, the mean distance of the three nearest neighbours is as good at the border of
-/// a mosaic as inside. Averaging it over the ring of neighbours removes irregularity and keeps a
-/// gradient.
+/// Unlike a density, the mean distance to the three nearest neighbours is as good at the border of
+/// a mosaic as inside. Averaging it over the point and its ring of neighbours removes irregularity
+/// and keeps a gradient.
 fn local_spacing(neighbours: &[Vec<(usize, f64)>]) -> Vec<f64> {
     let own: Vec<f64> = neighbours
         .iter()

@@ -8,32 +8,36 @@ use crate::image::Plane;
 use rand::{Rng, RngExt};
 use std::f64::consts::{PI, TAU};
 
-/// Length of a step along a vessel, in widths of the vessel.
+/// Length of a step in which a vessel is drawn, in widths of the vessel.
 const STEP: f64 = 0.25;
 /// Standard deviation of the change of direction over a length of one vessel width, in radians.
 const WINDING: f64 = 0.12;
 /// Mean length between two branchings, in widths of the vessel.
 const BRANCHING: f64 = 14.;
-/// Smallest width of a branch, in spacings; narrower branches are not drawn.
+/// Smallest width of a branch that is drawn, in median spacings of the cones.
 const NARROWEST: f64 = 0.4;
 /// Widths of the two branches, relative to their stem: the cubes add up to about 1 (0.8³ + 0.79³).
 ///
 /// Source: Murray (1926), <https://doi.org/10.1073/pnas.12.3.207>.
 const BRANCHES: [f64; 2] = [0.8, 0.79];
-/// Largest number of pieces drawn for one tree of vessels, so that the drawing ends.
+/// Largest number of pieces between branchings that are drawn for one tree of vessels, so that the
+/// drawing ends.
 const MOST_PIECES: usize = 64;
 
-/// Start of a piece of vessel, with its direction in radians and its width in px.
+/// Start of the piece of a vessel between two branchings.
 struct Piece {
+    /// Position of the start, in px.
     start: Point,
+    /// Direction in radians, clockwise from x as y points down.
     heading: f64,
+    /// Width of the vessel, in px.
     width: f64,
 }
 
-/// Returns how deep inside a vessel each pixel lies: 1 on its axis, 0 outside.
+/// Returns, for each pixel, the depth of the vessels: 1 on the axis of a vessel, 0 outside.
 ///
 /// Vessels come in from the border, wind, and branch until they leave the image or become too
-/// narrow.
+/// narrow. `spacing` is the median spacing of the cones, in px.
 pub(super) fn depth(options: &RenderOptions, spacing: f64, rng: &mut dyn Rng) -> Plane {
     let (width, height) = (options.width, options.height);
     let mut plane = Plane::zeros((height, width));
@@ -46,6 +50,7 @@ pub(super) fn depth(options: &RenderOptions, spacing: f64, rng: &mut dyn Rng) ->
             for (side, part) in [-1., 1.].into_iter().zip(BRANCHES) {
                 let width = part * piece.width;
                 if width >= NARROWEST * spacing {
+                    // a branch turns away from its stem by 0.4 radians, 23°, on average
                     let turn = side * (0.4 + 0.15 * normal(rng));
                     pieces.push(Piece { start: end, heading: heading + turn, width });
                 }
@@ -55,9 +60,10 @@ pub(super) fn depth(options: &RenderOptions, spacing: f64, rng: &mut dyn Rng) ->
     plane
 }
 
-/// Returns the start of a vessel on the border, heading inwards.
+/// Returns the start of a vessel on the border, heading inwards; `vessel` is its width in px.
 fn entrance(width: usize, height: usize, vessel: f64, rng: &mut dyn Rng) -> Piece {
     let (w, h) = (width as f64, height as f64);
+    // distance along the border from the upper left corner, clockwise
     let along = rng.random_range(0. ..2. * (w + h));
     let (start, inwards) = match along {
         a if a < w => (Point::new(a, 0.), PI / 2.),

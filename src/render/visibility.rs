@@ -1,4 +1,4 @@
-//! Heights of the cones in a simulated image, and how well each cone can be seen.
+//! Peak brightness of the cones in a simulated image, and the visibility of each cone.
 
 use super::RenderOptions;
 use super::field::{SlowField, normal};
@@ -7,7 +7,8 @@ use crate::geometry::Point;
 use rand::{Rng, RngExt};
 use serde::Serialize;
 
-/// Contrast, relative to the average cone, below which a cone counts as dim.
+/// Contrast, relative to the average cone, below which a cone counts as dim; dim cones are drawn
+/// with less than this.
 pub(super) const DIM: f64 = 0.3;
 
 /// Class of a cone by how well an observer could see it.
@@ -44,7 +45,8 @@ pub struct Visibility {
 }
 
 impl Visibility {
-    /// Returns the visibility of a cone of the given contrast; a cone without contrast is missing.
+    /// Returns the visibility of a cone of contrast `contrast`, relative to the average cone; a
+    /// cone without contrast is missing.
     pub(super) fn of(contrast: f64) -> Self {
         let class = match contrast {
             c if c <= 0. => ConeClass::Missing,
@@ -55,10 +57,10 @@ impl Visibility {
     }
 }
 
-/// Draws the heights of the cones over their surround: log-normal, with mean 1.
+/// Draws the peaks of the cones over their surround at random: log-normal, with mean 1.
 ///
 /// Three quarters of the variance of the logarithm are the cone's own, and one quarter is shared
-/// with neighbouring cones. Then dim cones lose most of their height, and missing cones all of it.
+/// with neighbouring cones. Then dim cones lose most of their peak, and missing cones all of it.
 pub(super) fn heights(
     points: &[Point],
     cells: &CellSizes,
@@ -70,6 +72,7 @@ pub(super) fn heights(
     let mut heights: Vec<f64> = points
         .iter()
         .map(|p| {
+            // the mean of exp(sd · N(0, 1)) is exp(sd²/2)
             let log = sd * (0.75f64.sqrt() * normal(rng) + 0.5 * shared.at(p.x, p.y)) - sd * sd / 2.;
             let dim = if rng.random::<f64>() < options.dim { rng.random_range(0. ..DIM) } else { 1. };
             dim * log.exp()

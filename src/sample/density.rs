@@ -2,7 +2,7 @@ use crate::geometry::power::{Domain, Raster, RasterError};
 use crate::geometry::{Point, Polygon};
 use std::sync::Arc;
 
-/// Lower limit of the density, as a share of its largest value; smaller values are raised to it.
+/// Lower limit of the density, as a fraction of its largest value; smaller values are raised to it.
 ///
 /// A region of density 0 would separate the cells on its two sides.
 const LEAST: f64 = 1e-3;
@@ -15,15 +15,16 @@ const LEAST: f64 = 1e-3;
 pub struct Density {
     columns: usize,
     rows: usize,
+    /// Densities row by row, divided by the largest one.
     values: Arc<[f64]>,
 }
 
 impl Density {
-    /// Creates a density from values given row by row, in any unit.
+    /// Creates a density from values row by row, in any unit.
     ///
     /// # Errors
-    /// If the number of values is not `columns` × `rows`, a value is negative or not finite, or all
-    /// values are 0.
+    /// Fails if the number of values is not `columns` × `rows`, a value is negative or not finite,
+    /// or all values are 0.
     pub fn new(columns: usize, rows: usize, values: &[f64]) -> Result<Self, RasterError> {
         let greatest = values.iter().copied().fold(0., f64::max);
         // the values are checked on a unit square here, so that `over` cannot fail for them later
@@ -38,7 +39,7 @@ impl Density {
     /// x and y run from 0 to 1 across the bounds of the window.
     ///
     /// # Errors
-    /// The errors of [`Density::new`].
+    /// Fails if [`Density::new`] fails.
     pub fn from_fn(columns: usize, rows: usize, f: impl Fn(f64, f64) -> f64) -> Result<Self, RasterError> {
         let middle = |i: usize, count: usize| (i as f64 + 0.5) / count as f64;
         let values: Vec<f64> = (0..rows)
@@ -53,11 +54,11 @@ impl Density {
         Raster::new(domain, self.columns, self.rows, self.values.to_vec()).ok()
     }
 
-    /// Returns the share of the density's mass that lies inside a polygon.
+    /// Returns the fraction of the density's mass that lies inside a polygon.
     ///
     /// The density is spread over the polygon's bounds, and a cell counts as inside if its centre
-    /// lies inside. The result is at least the share of one cell of an even density, so that it is
-    /// never 0 and can be divided by.
+    /// lies inside. The result is at least 1 divided by the number of cells, so that it is never 0
+    /// and can be divided by.
     pub(super) fn share(&self, polygon: &Polygon) -> f64 {
         let b = polygon.bounds();
         let middle = |i: usize, count: usize, side: f64| (i as f64 + 0.5) / count as f64 * side;

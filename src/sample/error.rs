@@ -4,7 +4,7 @@ use thiserror::Error;
 /// Reason why points could not be made.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SampleError {
-    /// No sampler has the name asked for.
+    /// Name that belongs to no sampler.
     #[error("there is no sampler “{name}”{hint}: choose from {names}")]
     Unknown {
         /// Name that was asked for.
@@ -14,7 +14,7 @@ pub enum SampleError {
         /// Suggestion of a similar name, as a question; empty if no name is similar.
         hint: String,
     },
-    /// The sampler has no parameter of the given name.
+    /// Name that belongs to no parameter of the sampler.
     #[error("{sampler} has no parameter “{name}”{hint}: {known}")]
     UnknownParameter {
         /// Name of the sampler.
@@ -26,7 +26,7 @@ pub enum SampleError {
         /// Sentence about the parameters that can be set.
         known: String,
     },
-    /// A parameter cannot have the value asked for.
+    /// Value that a parameter cannot have.
     #[error("{sampler}: {parameter}={value} is not allowed: expected a number ({expected})")]
     Value {
         /// Name of the sampler.
@@ -38,7 +38,7 @@ pub enum SampleError {
         /// Description of the values that are allowed.
         expected: String,
     },
-    /// The power cells could not be given equal masses.
+    /// Power cells that could not be given equal masses.
     #[error(
         "{sampler}: the {n} cells could not be given equal masses (they still differ by {error:.1e} of a \
          mass): use another n or seed, or a smoother density"
@@ -51,7 +51,7 @@ pub enum SampleError {
         /// Largest relative deviation of a cell's mass from the common mass.
         error: f64,
     },
-    /// More points were asked for than fit into memory.
+    /// Number of points that does not fit into memory.
     #[error("{n} points were asked for, but at most {max} can be made: ask for fewer")]
     TooMany {
         /// Number of points asked for.
@@ -59,7 +59,7 @@ pub enum SampleError {
         /// Largest number of points that can be made.
         max: usize,
     },
-    /// The window is so long and thin that a pattern in it has no meaning.
+    /// Window so long and thin that a pattern in it has no meaning.
     #[error(
         "the window is {aspect:.3e} times as long as wide, but at most {max:.0e} is possible: use a wider \
          window"
@@ -70,7 +70,7 @@ pub enum SampleError {
         /// Largest ratio that is allowed.
         max: f64,
     },
-    /// The rows given as a target curve do not describe a curve.
+    /// Rows of a target curve that do not describe a curve.
     #[error("{what} {problem}")]
     Target {
         /// Kind of the curve, as the subject of the message.
@@ -78,7 +78,7 @@ pub enum SampleError {
         /// Description of the problem, as the predicate of the message.
         problem: String,
     },
-    /// No attempt found room for all points.
+    /// Too little room for all points, in every attempt.
     #[error(
         "{sampler} found room for at most {placed} of {n} points in {attempts} attempts: use another n or a wider window"
     )]
@@ -94,16 +94,19 @@ pub enum SampleError {
     },
 }
 
-/// Largest number of edits at which a similar name is suggested.
+/// Largest number of edits (insertions, deletions, replacements of a letter) at which a similar
+/// name is suggested.
 ///
 /// Names that differ by more edits are taken for other words.
 const MISSPELT: usize = 3;
 
 impl SampleError {
+    /// Returns the error for the sampler name `name`, with a suggestion from `names`.
     pub(super) fn unknown(name: &str, names: &[&str]) -> Self {
         Self::Unknown { name: name.to_owned(), names: names.join(", "), hint: hint(name, names) }
     }
 
+    /// Returns the error for the parameter name `name`, with a suggestion from `parameters`.
     pub(super) fn unknown_parameter(sampler: &'static str, name: &str, parameters: &[Parameter]) -> Self {
         let names: Vec<&str> = parameters.iter().map(|p| p.name).collect();
         let known = match names.is_empty() {
@@ -114,6 +117,7 @@ impl SampleError {
     }
 }
 
+/// Returns a suggestion of the name most similar to `name`, or an empty text if none is similar.
 fn hint(name: &str, names: &[&str]) -> String {
     let resembling = names.iter().map(|n| (strsim::levenshtein(name, n), n)).min();
     match resembling {

@@ -2,16 +2,17 @@ use super::SampleError;
 use crate::geometry::{Point, Rectangle, Window};
 use crate::mosaic::hexagonal_spacing;
 
-/// Largest number of points that may be asked for.
+/// Largest number of points of a pattern, so that it fits into memory.
 const MAX_POINTS: usize = 100_000_000;
-/// Largest allowed ratio of the longer to the shorter side of a window's bounds.
+/// Largest allowed ratio of the longer to the shorter side of a window's bounds; in longer windows
+/// a pattern has no meaning.
 const MAX_ASPECT: f64 = 1e6;
 
 /// Rectangle in which every sampler works: the bounds of the window, with the upper left corner
 /// moved to the origin.
 ///
-/// Places lie in [0, width) × [0, height). [`Frame::place`] takes a place of the frame to a point
-/// of the window.
+/// Positions lie in [0, width) × [0, height). [`Frame::place`] converts a position in the frame to
+/// a point of the window.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
     /// Width, in the window's unit.
@@ -27,7 +28,8 @@ impl Frame {
     /// Creates the frame for the bounds of a window.
     ///
     /// # Errors
-    /// If `n` exceeds 10⁸, or one side of the bounds is more than 10⁶ times as long as the other.
+    /// Fails if `n` exceeds 10⁸, or one side of the bounds is more than 10⁶ times as long as the
+    /// other.
     pub fn new(n: usize, window: &Window) -> Result<Self, SampleError> {
         let bounds = window.bounds();
         let (width, height) = (bounds.width(), bounds.height());

@@ -5,8 +5,8 @@ use rand::{Rng, RngExt};
 /// One uniform point in each of n cells of equal area: jittered sampling.
 ///
 /// The window is cut into about √(n h/w) rows (w and h are its width and height), and each row into
-/// cells. Rows with one more cell are higher, so all cells have the same area. A square number in a
-/// square window gives the √n × √n grid.
+/// cells. The number of cells may differ by one between rows; rows with one more cell are higher,
+/// so all cells have the same area. A square number in a square window gives the √n × √n grid.
 ///
 /// Source: Cook (1986), <https://doi.org/10.1145/7529.8927>.
 #[derive(Clone, Copy, Debug)]

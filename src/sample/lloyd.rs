@@ -10,8 +10,8 @@ use rand::Rng;
 /// Random points, each moved to the centroid of its Voronoi cell, for a number of steps.
 ///
 /// With many steps the result is a centroidal Voronoi tessellation. Distances between neighbours
-/// even out within a few steps. Variations of density across the window, which the random start
-/// leaves, take about 3n steps.
+/// become equal within a few steps. Variations of density across the window, which come from the
+/// random start, vanish only after about 3n steps.
 ///
 /// Sources: Lloyd (1982), <https://doi.org/10.1109/TIT.1982.1056489>; Du, Faber and Gunzburger
 /// (1999), <https://doi.org/10.1137/S0036144599352836>.

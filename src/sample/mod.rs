@@ -1,8 +1,8 @@
 //! Random point patterns to compare mosaics with: point processes behind one trait, [`Sampler`].
 //!
-//! Every sampler works in any window. The Poisson-disk samplers measure distances on a torus in
-//! every window, so the pattern has no border of its own; a bounded window then cuts the pattern
-//! off as an image cuts off a mosaic. A polygon is cut out of a pattern that fills its bounds.
+//! Every sampler works in any window. The Poisson-disk samplers always measure distances on a
+//! torus, so the pattern has no border of its own; a bounded window then cuts the pattern off as an
+//! image cuts off a mosaic. A polygon is cut out of a pattern that fills the polygon's bounds.
 //!
 //! To add a sampler, add a file here, declare its module, re-export its type and enter it in the
 //! registry `SAMPLERS` below.
@@ -66,7 +66,8 @@ use self::sampler::{cut, nearest_in_number};
 
 /// Registry of all samplers, in the order in which they are listed.
 ///
-/// The samplers used by default come first, from the least to the most regular, then the others.
+/// The samplers used by default come first, ordered from the least to the most regular, and then
+/// all others.
 static SAMPLERS: &[&dyn Sampler] = &[
     &Uniform,
     &Jittered,
@@ -92,14 +93,13 @@ pub fn samplers() -> &'static [&'static dyn Sampler] {
     SAMPLERS
 }
 
-/// Returns the samplers with the given names, each once and in the setting that mosaics are
-/// compared with.
+/// Returns the samplers called `names`, each once, in the setting with which mosaics are compared.
 ///
 /// The name `all` stands for every sampler. The name `none` drops all samplers named before it. If
 /// `names` is empty, the default samplers are returned, see [`samplers_by_default`].
 ///
 /// # Errors
-/// If no sampler has one of the names; the error lists all names.
+/// Fails if one of the names belongs to no sampler; the error lists all names.
 pub fn samplers_named(names: &[String]) -> Result<Vec<&'static dyn Sampler>, SampleError> {
     if names.is_empty() {
         return Ok(samplers_by_default());
@@ -125,12 +125,12 @@ pub fn samplers_named(names: &[String]) -> Result<Vec<&'static dyn Sampler>, Sam
 
 /// Returns the default samplers, with which mosaics are compared unless the user names others.
 ///
-/// Each sampler is in the setting that mosaics are compared with, see [`as_reference`].
+/// Each sampler is in the setting with which mosaics are compared, see [`as_reference`].
 pub fn samplers_by_default() -> Vec<&'static dyn Sampler> {
     SAMPLERS.iter().copied().filter(|s| s.by_default()).map(as_reference).collect()
 }
 
-/// Returns the sampler in the setting that mosaics are compared with.
+/// Returns the sampler in the setting with which mosaics are compared.
 ///
 /// That setting is the default one unless [`Sampler::as_reference`] returns another.
 pub fn as_reference(sampler: &'static dyn Sampler) -> &'static dyn Sampler {
@@ -140,7 +140,7 @@ pub fn as_reference(sampler: &'static dyn Sampler) -> &'static dyn Sampler {
 /// Returns the sampler called `name`.
 ///
 /// # Errors
-/// If no sampler has that name; the error lists all names and suggests a similar one.
+/// Fails if no sampler has that name; the error lists all names and suggests a similar one.
 pub fn sampler(name: &str) -> Result<&'static dyn Sampler, SampleError> {
     SAMPLERS.iter().copied().find(|s| s.name() == name).ok_or_else(|| {
         let names: Vec<&str> = SAMPLERS.iter().map(|s| s.name()).collect();

@@ -7,7 +7,7 @@ pub struct Parameter {
     pub name: &'static str,
     /// Unit of the value, or the name of the things counted; empty for a plain number.
     pub unit: &'static str,
-    /// Smallest and largest value; both are allowed.
+    /// Smallest and largest allowed value; both are allowed themselves.
     pub range: (f64, f64),
     /// `true` if only integers are allowed.
     pub whole: bool,
@@ -40,6 +40,7 @@ impl Parameter {
         if exact.len() <= 7 { exact } else { format!("{value:.4}") }
     }
 
+    /// Converts the user's text to a value of this parameter; `sampler` is named in the error.
     fn parse(&self, sampler: &'static str, text: &str) -> Result<f64, SampleError> {
         let within = |v: &f64| (self.range.0..=self.range.1).contains(v) && (!self.whole || v.fract() == 0.);
         text.trim().parse::<f64>().ok().filter(within).ok_or_else(|| SampleError::Value {
@@ -53,7 +54,7 @@ impl Parameter {
 
 /// Row of a sampler's table of parameters: the text shown to users, and access to the field.
 ///
-/// The row holds no default; `get` reads the default from the sampler.
+/// The row contains no default, as `get` reads it from the sampler.
 pub struct Setting<S> {
     /// Name of the parameter, see [`Parameter::name`].
     pub name: &'static str,
@@ -75,6 +76,7 @@ pub struct Setting<S> {
 }
 
 impl<S> Setting<S> {
+    /// Describes the parameter for users, with the value that the sampler `of` has as its default.
     fn parameter(&self, of: &S) -> Parameter {
         let Self { name, unit, range, whole, unset, meaning, get, .. } = *self;
         Parameter { name, unit, range, whole, default: get(of), unset, meaning }
@@ -97,13 +99,13 @@ pub trait Configure {
     /// Returns the parameters, in the order of the table, with this sampler's values as defaults.
     fn described(&self) -> Vec<Parameter>;
 
-    /// Returns the same sampler with other parameters, given as (name, value).
+    /// Returns the same sampler with other parameters; each setting is a pair of name and value.
     ///
-    /// If a name is given twice, the last value holds.
+    /// If a name is repeated, its last value is used.
     ///
     /// # Errors
-    /// If a name belongs to no parameter, or a value is not a number in its range; the message says
-    /// what can be set.
+    /// Fails if a name belongs to no parameter, or a value is not a number in its range; the
+    /// message says what can be set.
     fn configured(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError>;
 }
 

@@ -6,7 +6,8 @@ use crate::geometry::power::{Domain, Raster};
 use crate::geometry::{Point, Polygon, Window};
 use rand::{Rng, RngExt};
 
-/// Number of random places tried for one point before the search fails for lack of room.
+/// Number of random positions tried for one point; if all miss the region, the search fails for
+/// lack of room.
 const MOST_TRIES: usize = 1_000_000;
 
 /// Region in which points are relaxed, with the density that the points are to have.
@@ -16,7 +17,9 @@ const MOST_TRIES: usize = 1_000_000;
 pub(super) struct Region {
     pub(super) domain: Domain,
     pub(super) density: Option<Raster>,
+    /// Bounds of the region as a frame, which converts positions to points of the window.
     frame: Frame,
+    /// Polygon in the window's coordinates, or `None` for a rectangle or torus.
     polygon: Option<Polygon>,
     /// Cumulative sums of the density's values, cell by cell: entry i includes cell i. Empty for an
     /// even density.
@@ -36,7 +39,7 @@ impl Region {
     /// Creates the region of a polygon, or `None` if the polygon is not convex.
     ///
     /// # Errors
-    /// The errors of [`Frame::new`].
+    /// Fails if [`Frame::new`] fails.
     pub(super) fn convex(
         n: usize,
         polygon: &Polygon,
@@ -60,10 +63,10 @@ impl Region {
         Self { domain, density, frame, polygon, cumulated }
     }
 
-    /// Draws `n` independent points whose distribution is given by the density.
+    /// Draws `n` independent points whose distribution follows the density.
     ///
     /// # Errors
-    /// If [`MOST_TRIES`] places in the bounds all miss the region.
+    /// Fails if [`MOST_TRIES`] positions in the bounds all miss the region.
     pub(super) fn scatter(
         &self,
         sampler: &'static str,
@@ -77,14 +80,14 @@ impl Region {
         (0..n).map(|placed| one(placed, rng)).collect()
     }
 
-    /// Returns whether a place lies inside the region; on a torus, every place does.
+    /// Returns whether a position lies inside the region; on a torus, every position does.
     pub(super) fn contains(&self, [x, y]: [f64; 2]) -> bool {
         let within = |polygon: &Polygon| polygon.contains_strictly(self.frame.place(x, y));
         let bounds = (0. ..self.frame.width).contains(&x) && (0. ..self.frame.height).contains(&y);
         self.frame.torus || (bounds && self.polygon.as_ref().is_none_or(within))
     }
 
-    /// Draws a place in the bounds of the region, with the distribution given by the density.
+    /// Draws a position in the bounds of the region; its distribution follows the density.
     fn draw(&self, rng: &mut dyn Rng) -> [f64; 2] {
         let (u, v): (f64, f64) = (rng.random(), rng.random());
         let (Some(raster), Some(whole)) = (&self.density, self.cumulated.last()) else {
@@ -110,8 +113,8 @@ impl Region {
         [self.frame.width / 2., self.frame.height / 2.]
     }
 
-    /// Converts places of the region to points of the window; on a torus, places beyond an edge are
-    /// wrapped round.
+    /// Converts positions in the region to points of the window; on a torus, positions beyond an
+    /// edge are wrapped round.
     pub(super) fn place(&self, points: &[[f64; 2]]) -> Vec<Point> {
         let wrapped = points.iter().map(|p| self.domain.wrapped(*p));
         wrapped.map(|[x, y]| self.frame.place(x, y)).collect()

@@ -3,7 +3,7 @@ use crate::geometry::{Point, Polygon, Window};
 use rand::Rng;
 use std::fmt;
 
-/// Method that places about n points in a window.
+/// Method that places about n points at random in a window.
 pub trait Sampler: fmt::Debug + Send + Sync {
     /// Returns the name that users type: lower case, words joined by hyphens.
     fn name(&self) -> &'static str;
@@ -14,18 +14,17 @@ pub trait Sampler: fmt::Debug + Send + Sync {
     /// Places about `n` points in `frame` and returns them in the window's coordinates.
     ///
     /// No point lies on the right or lower edge. The number is exactly `n` if [`Sampler::exact`]
-    /// returns `true`. The same state of the generator gives the same points.
+    /// returns `true`. The same state of `rng` gives the same points.
     ///
     /// # Errors
-    /// If `n` is out of the method's range, or the method found no room for `n` points.
+    /// Fails if `n` is out of the method's range, or the method finds no room for `n` points.
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError>;
 
-    /// Returns whether [`Sampler::fill`] makes exactly the `n` points asked for; `false` by
-    /// default.
+    /// Returns whether [`Sampler::fill`] always makes exactly `n` points; `false` by default.
     ///
-    /// Otherwise the number is the nearest possible one or is left to chance. In a polygon, the
-    /// number is exact only if the sampler fills the polygon directly instead of cutting it out of
-    /// a larger pattern.
+    /// Without this, the number of points is the nearest possible one or is left to chance. In a
+    /// polygon, the number is exact only if the sampler fills the polygon directly instead of
+    /// cutting it out of a larger pattern.
     fn exact(&self) -> bool {
         false
     }
@@ -53,31 +52,32 @@ pub trait Sampler: fmt::Debug + Send + Sync {
         self.settable().map_or(Vec::new(), Configure::described)
     }
 
-    /// Returns the same method with other parameters, given as (name, value).
+    /// Returns the same method with other parameters; each setting is a pair of name and value.
     ///
     /// # Errors
-    /// If there is no parameter with one of the names, or a value is out of its range.
+    /// Fails if a name belongs to no parameter, or a value is out of its range.
     fn configure(&self, settings: &[(&str, &str)]) -> Result<Box<dyn Sampler>, SampleError> {
         let name = settings.first().map_or("", |(name, _)| name);
         let none = || Err(SampleError::unknown_parameter(self.name(), name, &[]));
         self.settable().map_or_else(none, |sampler| sampler.configured(settings))
     }
 
-    /// Returns the same method for points with the given density, or `None` if the method cannot
-    /// vary the density.
+    /// Returns the same method for points of relative density `density`, or `None` if the method
+    /// cannot vary the density.
     fn with_density(&self, _density: &Density) -> Option<Box<dyn Sampler>> {
         None
     }
 
-    /// Returns whether mosaics are compared with this sampler unless others are named.
+    /// Returns whether mosaics are compared with this sampler if the user names no samplers.
     ///
-    /// The default samplers are those that retinas come close to, and independent points for scale.
-    /// Mean curves of the default samplers come with the program (`scripts/make-curves`).
+    /// The default samplers are those that retinas come close to, and independent points as a
+    /// reference. Mean curves of the default samplers come with the program
+    /// (`scripts/make-curves`).
     fn by_default(&self) -> bool {
         false
     }
 
-    /// Returns the sampler in the setting that mosaics are compared with, or `None` if that is the
+    /// Returns the sampler in the setting with which mosaics are compared, or `None` if that is the
     /// default setting.
     fn as_reference(&self) -> Option<&'static dyn Sampler> {
         None
@@ -89,7 +89,7 @@ pub trait Sampler: fmt::Debug + Send + Sync {
     /// The default implementation reports nothing.
     ///
     /// # Errors
-    /// The errors of [`Sampler::fill`].
+    /// Fails if [`Sampler::fill`] fails.
     fn fill_watched(
         &self,
         n: usize,
@@ -103,12 +103,13 @@ pub trait Sampler: fmt::Debug + Send + Sync {
     /// Returns the points of [`Sampler::sample_watched`] without reporting progress.
     ///
     /// # Errors
-    /// The errors of [`Sampler::sample_watched`].
+    /// Fails if [`Sampler::sample_watched`] fails.
     fn sample(&self, n: usize, window: &Window, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         self.sample_watched(n, window, rng, &mut |_, _| ())
     }
 
-    /// Returns about `n` points of `window` and reports progress.
+    /// Returns about `n` random points in `window`, and reports progress as
+    /// [`Sampler::fill_watched`] does.
     ///
     /// A rectangle or torus is filled as by [`Sampler::fill`]. A polygon is cut out of a pattern of
     /// the same density in its bounds, so the number of points inside the polygon is left to
@@ -116,7 +117,7 @@ pub trait Sampler: fmt::Debug + Send + Sync {
     /// times, and the one with the nearest number is used.
     ///
     /// # Errors
-    /// If `n` or the window is out of the method's range, or the method found no room for the
+    /// Fails if `n` or the window is out of the method's range, or the method finds no room for the
     /// points.
     fn sample_watched(
         &self,
@@ -185,8 +186,8 @@ pub(super) fn nearest_in_number(
     Ok(best.map(|(_, points)| points).unwrap_or_default())
 }
 
-/// Largest number of patterns that are drawn to cut a polygon out of.
+/// Largest number of patterns that are drawn to cut a polygon out of; the best of them is used.
 const CUTS: usize = 32;
-/// Relative deviation from the number of points asked for that ends the search for a better
-/// pattern.
+/// Relative deviation from `n` at which the number of points counts as close enough, so that no
+/// further pattern is drawn.
 const CLOSE: f64 = 0.005;

@@ -1,14 +1,16 @@
 use crate::geometry::Point;
 
-/// Marker of the end of a chain.
+/// Marker of the end of a chain, in place of the index of an item.
 const NONE: u32 = u32::MAX;
 
 /// Grid of square cells to which items can be added between queries for items nearby.
 ///
-/// Each cell holds a chain of its items. A place outside the grid belongs to the nearest outermost
+/// The items of a cell form a chain. A position outside the grid belongs to the nearest outermost
 /// cell.
 pub(crate) struct BucketGrid<T> {
+    /// Upper left corner of the first cell.
     origin: [f64; 2],
+    /// Side of a cell.
     side: f64,
     columns: usize,
     rows: usize,
@@ -17,6 +19,7 @@ pub(crate) struct BucketGrid<T> {
     /// Index of the item that was added to the same cell before each item, or [`NONE`] for the
     /// first item.
     before: Vec<u32>,
+    /// Items in the order in which they were added.
     things: Vec<T>,
 }
 
@@ -29,13 +32,14 @@ impl<T> BucketGrid<T> {
         Self { origin, side, columns, rows, last, before: Vec::new(), things: Vec::new() }
     }
 
+    /// Returns the column and row of the cell to which a position belongs.
     fn cell(&self, p: Point) -> (usize, usize) {
         let column = ((p.x - self.origin[0]) / self.side) as usize;
         let row = ((p.y - self.origin[1]) / self.side) as usize;
         (column.min(self.columns - 1), row.min(self.rows - 1))
     }
 
-    /// Adds an item at `place`; the grid must hold fewer than 2³² − 1 items.
+    /// Adds an item at `place`; the grid must contain fewer than 2³² − 1 items.
     pub(crate) fn insert(&mut self, place: Point, thing: T) {
         let (column, row) = self.cell(place);
         let last = &mut self.last[row * self.columns + column];
@@ -44,7 +48,7 @@ impl<T> BucketGrid<T> {
         self.things.push(thing);
     }
 
-    /// Returns all items in the cell of a place and in the eight cells around it.
+    /// Returns all items in the cell to which `place` belongs and in the eight cells around it.
     pub(crate) fn near(&self, place: Point) -> impl Iterator<Item = &T> {
         let (column, row) = self.cell(place);
         let first = (column.saturating_sub(1), row.saturating_sub(1));
@@ -56,7 +60,8 @@ impl<T> BucketGrid<T> {
         self.block(self.cell(low), self.cell(high))
     }
 
-    /// Returns all items in a rectangle of cells, given by its first and last column and row.
+    /// Returns all items in the rectangle of cells from (column, row) `first` to `last`, both
+    /// included.
     fn block(&self, first: (usize, usize), last: (usize, usize)) -> impl Iterator<Item = &T> {
         let cells = (first.1..=last.1)
             .flat_map(move |row| &self.last[row * self.columns + first.0..=row * self.columns + last.0]);

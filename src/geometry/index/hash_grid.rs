@@ -3,10 +3,12 @@ use std::collections::HashMap;
 /// Column and row of a cell, which may be negative.
 type Cell = (i64, i64);
 
-/// Points of the unbounded plane in square cells, for finding the points nearer than a cell's side.
+/// Points of the unbounded plane, sorted into square cells to find the points nearer than a cell's
+/// side.
 pub(crate) struct HashGrid {
+    /// Side of a cell.
     side: f64,
-    /// Index and place of each point, by cell.
+    /// Index and position of each point, by cell.
     cells: HashMap<Cell, Vec<(usize, [f64; 2])>>,
 }
 
@@ -16,10 +18,12 @@ impl HashGrid {
         Self { side: reach, cells: HashMap::new() }
     }
 
+    /// Returns the cell that contains a point.
     fn cell(&self, [x, y]: [f64; 2]) -> Cell {
         ((x / self.side).floor() as i64, (y / self.side).floor() as i64)
     }
 
+    /// Adds a point with an index by which the caller knows it.
     pub(crate) fn insert(&mut self, index: usize, point: [f64; 2]) {
         self.cells.entry(self.cell(point)).or_default().push((index, point));
     }
@@ -37,7 +41,7 @@ impl HashGrid {
     }
 }
 
-/// Returns the distance between two places.
+/// Returns the distance between two points.
 pub(crate) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     let (dx, dy) = (a[0] - b[0], a[1] - b[1]);
     // lengths here are in spacings, so no square can overflow

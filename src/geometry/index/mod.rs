@@ -1,5 +1,5 @@
-//! Spatial indices that find the points near a place: one for each kind of query that a
-//! time-critical loop needs.
+//! Spatial indices that find the points near a position: one for each kind of query in a loop whose
+//! speed matters.
 
 mod bucket_grid;
 mod hash_grid;

@@ -3,9 +3,13 @@ use kiddo::kd_tree::ConstructionError;
 use kiddo::{Chebyshev, ImmutableKdTree, SquaredEuclidean};
 use std::num::NonZero;
 
-/// k-d tree of points, for finding those nearest to a place, by the short way round on a torus.
+/// k-d tree of points, for finding the points nearest to a position; on a torus, distances are
+/// those of the short way round.
 pub(crate) struct NeighbourTree {
+    /// Tree of the points relative to `origin`.
     tree: ImmutableKdTree<f64, 2>,
+    /// Upper left corner of the window's bounds, as periodic queries need coordinates that begin at
+    /// 0.
     origin: [f64; 2],
     /// Sides of the torus, or `None` in the open plane.
     period: Option<[f64; 2]>,
@@ -30,11 +34,13 @@ impl NeighbourTree {
         Self::at([bounds.x0(), bounds.y0()], period, points)
     }
 
+    /// Builds a tree of points relative to `origin`.
     fn at(origin: [f64; 2], period: Option<[f64; 2]>, points: &[Point]) -> Result<Self, ConstructionError> {
         let places: Vec<[f64; 2]> = points.iter().map(|p| [p.x - origin[0], p.y - origin[1]]).collect();
         Ok(Self { tree: ImmutableKdTree::new_from_slice(&places)?, origin, period })
     }
 
+    /// Returns the position of a point relative to `origin`.
     fn place(&self, p: Point) -> [f64; 2] {
         [p.x - self.origin[0], p.y - self.origin[1]]
     }
@@ -53,8 +59,8 @@ impl NeighbourTree {
         found.into_iter().map(|f| (f.item as usize, f.distance))
     }
 
-    /// Returns the indices of at most `n` points, the nearest ones at a squared distance of at most
-    /// `limit`.
+    /// Returns the indices of the points nearest to `place`, at most `n` of them, whose squared
+    /// distance is at most `limit`.
     ///
     /// The search does not go round a torus, so it is meant for the open plane.
     pub(crate) fn nearest_within(
@@ -68,7 +74,7 @@ impl NeighbourTree {
         found.into_iter().map(|f| f.item as usize)
     }
 
-    /// Returns the indices of the points at most `half` away from a place along x and along y, in
+    /// Returns the indices of the points at most `half` away from `place` along x and along y, in
     /// no particular order.
     pub(crate) fn in_square(&self, place: Point, half: f64) -> impl Iterator<Item = usize> {
         let at = self.place(place);

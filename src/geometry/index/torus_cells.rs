@@ -1,8 +1,10 @@
 /// Points on the torus `[0, width) × [0, height)`, sorted into cells to find whether any point is
-/// near a place.
+/// near a position.
 ///
-/// Cells are no smaller than the largest distance asked for.
+/// Cells are no smaller than the largest distance of a query, so only the cells around a position
+/// are searched.
 pub(crate) struct TorusCells {
+    /// Width and height of the torus.
     sides: [f64; 2],
     columns: usize,
     rows: usize,
@@ -20,11 +22,13 @@ impl TorusCells {
         Self { sides, columns, rows, cells: vec![Vec::new(); columns * rows] }
     }
 
+    /// Returns the column and row of the cell that contains a point.
     fn cell(&self, [x, y]: [f64; 2]) -> (usize, usize) {
         let along = |v: f64, side: f64, number: usize| ((v / side * number as f64) as usize).min(number - 1);
         (along(x, self.sides[0], self.columns), along(y, self.sides[1], self.rows))
     }
 
+    /// Adds a point of the torus.
     pub(crate) fn insert(&mut self, point: [f64; 2]) {
         let (column, row) = self.cell(point);
         self.cells[row * self.columns + column].push(point);
@@ -36,6 +40,7 @@ impl TorusCells {
     pub(crate) fn any_nearer(&self, place: [f64; 2], distance: f64) -> bool {
         let (column, row) = self.cell(place);
         let around = |at: usize, number: usize| {
+            // with fewer than three cells around the torus, each is searched once
             let (from, count) = if number < 3 { (0, number) } else { (at + number - 1, 3) };
             (from..from + count).map(move |k| k % number)
         };

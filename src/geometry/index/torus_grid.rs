@@ -1,8 +1,8 @@
 /// Points on the torus `[0, width) × [0, height)` in the cells of a grid, at most one per cell.
 ///
-/// A cell's diagonal is at most the Poisson-disk radius, so no cell can hold two points. Empty
-/// cells hold infinity, which is farther than any distance asked for, so they need no test of their
-/// own.
+/// The diagonal of a cell is at most the smallest distance between two points, so no cell can
+/// contain two points. The coordinates of an empty cell are infinite, so it is farther away than
+/// any distance asked for and needs no test of its own.
 pub(crate) struct TorusGrid {
     width: f64,
     height: f64,
@@ -10,13 +10,15 @@ pub(crate) struct TorusGrid {
     rows: usize,
     cell_width: f64,
     cell_height: f64,
+    /// Point of each cell, row by row, or [`EMPTY`].
     cells: Vec<[f64; 2]>,
 }
 
-/// Content of a cell without a point.
+/// Coordinates that mark a cell without a point.
 const EMPTY: [f64; 2] = [f64::INFINITY; 2];
 
 impl TorusGrid {
+    /// Creates an empty grid for points no two of which are nearer to each other than `radius`.
     pub(crate) fn new(width: f64, height: f64, radius: f64) -> Self {
         let cells_along = |side: f64| ((side * 2f64.sqrt() / radius).ceil() as usize).max(1);
         let (columns, rows) = (cells_along(width), cells_along(height));
@@ -47,14 +49,17 @@ impl TorusGrid {
         self.cells.fill(EMPTY);
     }
 
+    /// Adds a point to its cell, which must be empty.
     pub(crate) fn insert(&mut self, x: f64, y: f64) {
         let column = ((x / self.cell_width) as usize).min(self.columns - 1);
         let row = ((y / self.cell_height) as usize).min(self.rows - 1);
         self.cells[row * self.columns + column] = [x, y];
     }
 
-    /// Collects in `near` all images of points, in the plane around (x, y), that are nearer to (x,
-    /// y) than `reach`.
+    /// Collects in `near` all points nearer to (x, y) than `reach`.
+    ///
+    /// The torus is repeated periodically in the plane, and a point is collected at each position
+    /// at which it is repeated.
     #[inline]
     pub(crate) fn gather(&self, x: f64, y: f64, reach: f64, near: &mut Nearby) {
         let reach2 = reach * reach;
@@ -88,15 +93,19 @@ impl TorusGrid {
     }
 }
 
-/// Number of points that are tested at once.
+/// Number of points that are tested at once, without a branch, so that the processor's vector
+/// instructions can be used.
 const LANES: usize = 16;
 
-/// Points gathered around a place, padded with infinity so that [`LANES`] of them are tested at
+/// Points gathered around a position, padded with infinity so that [`LANES`] of them are tested at
 /// once.
 #[derive(Default)]
 pub(crate) struct Nearby {
+    /// Horizontal coordinates; only the first `length` count.
     xs: Vec<f64>,
+    /// Vertical coordinates; only the first `length` count.
     ys: Vec<f64>,
+    /// Number of points, without the padding.
     length: usize,
 }
 
@@ -111,10 +120,10 @@ impl Nearby {
         }
     }
 
-    /// Writes the point in any case, but counts it only if it is kept.
+    /// Writes the point in any case, but counts it only if `kept` is `true`.
     ///
-    /// This avoids a branch that would be mispredicted: few cells hold a point that is near enough,
-    /// and it is unpredictable which cells do.
+    /// This avoids a branch that would be mispredicted: few cells contain a point that is near
+    /// enough, and it is unpredictable which cells do.
     #[inline]
     fn push_if(&mut self, kept: bool, x: f64, y: f64) {
         self.xs[self.length] = x;
@@ -147,8 +156,8 @@ impl Nearby {
         false
     }
 
-    /// Returns whether the disk of any single point, of squared radius `radius2`, covers a
-    /// rectangle.
+    /// Returns whether a rectangle lies in the disk around a single point; `radius2` is the squared
+    /// radius of the disks.
     ///
     /// The rectangle is centred on (x, y), and its sides are 2 × `half`.
     #[inline]

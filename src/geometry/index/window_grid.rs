@@ -6,17 +6,19 @@ use crate::geometry::{Point, Rectangle, Window};
 pub(crate) struct WindowGrid<'a> {
     points: &'a [Point],
     bounds: Rectangle,
+    /// `true` if the pattern continues beyond the edges.
     torus: bool,
     columns: usize,
     rows: usize,
-    /// Index in `indices` at which each cell starts, and the end of the last cell.
+    /// Index in `indices` at which the points of each cell start; one more entry is the end of
+    /// `indices`.
     starts: Vec<usize>,
     /// Indices of the points, cell by cell.
     indices: Vec<usize>,
 }
 
 impl<'a> WindowGrid<'a> {
-    /// Sorts finite points into cells.
+    /// Sorts points, whose coordinates must be finite, into cells.
     pub(crate) fn new(points: &'a [Point], window: &Window) -> Self {
         let bounds = window.bounds();
         let side = (bounds.area() / points.len().max(1) as f64).sqrt();
@@ -53,8 +55,8 @@ impl<'a> WindowGrid<'a> {
         grid
     }
 
-    /// Returns the column and row of the cell that holds a place, or of the nearest cell if the
-    /// place lies outside.
+    /// Returns the column and row of the cell that contains a position, or of the nearest cell if
+    /// the position lies outside.
     fn cell(&self, p: Point) -> (usize, usize) {
         let b = &self.bounds;
         let column = (p.x - b.x0()) / b.width() * self.columns as f64;
@@ -62,8 +64,8 @@ impl<'a> WindowGrid<'a> {
         ((column as usize).min(self.columns - 1), (row as usize).min(self.rows - 1))
     }
 
-    /// Returns the index of the nearest point if that point certainly lies in the 5 × 5 cells
-    /// around a place, so that no other point can be nearer.
+    /// Returns the index of the point nearest to `place`, if the search of the 5 × 5 cells around
+    /// `place` proves that no other point is nearer.
     ///
     /// Returns `None` otherwise, and near the edges of a torus, beyond which the pattern continues.
     pub(crate) fn nearest(&self, place: Point) -> Option<usize> {

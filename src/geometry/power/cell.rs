@@ -1,18 +1,18 @@
-/// Label of an edge on the border of the domain, which belongs to no other site.
+/// Label of an edge on the border of the domain, in place of the index of a site.
 pub(super) const NO_SITE: u32 = u32::MAX;
 
-/// Smallest depth of a cut, as a fraction of the cell's radius. Shallower cuts change nothing and
-/// are not made, as rounding would repeat them again and again.
+/// Smallest depth of a cut that is made, as a fraction of the cell's radius. Shallower cuts would
+/// change nothing, and rounding would repeat them again and again.
 const ROUNDING: f64 = 1e-14;
 
-/// Corner of a cell, relative to the cell's site, with a label for the edge from this corner to the
+/// Corner of a cell relative to the cell's site, with a label for the edge from this corner to the
 /// next.
-///
-/// The label `site` is the other site whose bisector with the cell's site the edge lies on.
 #[derive(Clone, Copy)]
 pub(super) struct Corner {
     pub(super) x: f64,
     pub(super) y: f64,
+    /// Label of the edge: the index of the other site, whose bisector with the cell's site contains
+    /// the edge, or [`NO_SITE`].
     pub(super) site: u32,
     /// Distance from the cell's site to `site` or, on a torus, to the image of `site` that makes
     /// the edge.
@@ -33,7 +33,8 @@ pub(super) struct Clip {
 }
 
 impl Clip {
-    /// Starts a cell from the corners of the domain, whose edges are labelled `site`.
+    /// Starts a cell from the corners of the domain, relative to the site; their edges get the
+    /// label `site`.
     pub(super) fn begin(&mut self, corners: impl Iterator<Item = [f64; 2]>, site: u32) {
         self.corners.clear();
         self.corners.extend(corners.map(|[x, y]| Corner { x, y, site, distance: 0. }));
@@ -59,16 +60,17 @@ impl Clip {
         self.radius2 = 0.;
     }
 
+    /// Computes the distance of the farthest corner anew.
     fn measure(&mut self) {
         self.radius2 = self.corners.iter().map(|c| c.x * c.x + c.y * c.y).fold(0., f64::max);
     }
 
-    /// Cuts off the part of the cell whose power distance to another site is less than to the
-    /// cell's own.
+    /// Cuts off the part of the cell that belongs to another site, because its power distance to
+    /// that site is less than to the cell's own site.
     ///
-    /// The other site is at (dx, dy), relative to the cell's own site. `excess` is the weight of
-    /// the own site minus the weight of the other. Each corner is judged by itself, so rounding may
-    /// leave a corner too many but never lose the cell.
+    /// The other site is at (dx, dy), relative to the cell's own site, and its index is `site`.
+    /// `excess` is the weight of the own site minus the weight of the other. Each corner is judged
+    /// by itself, so rounding may leave a corner too many but never lose the cell.
     pub(super) fn cut(&mut self, dx: f64, dy: f64, excess: f64, site: u32) {
         let square = dx * dx + dy * dy;
         let distance = square.sqrt();

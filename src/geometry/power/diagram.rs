@@ -3,7 +3,7 @@ use super::grid::Grid;
 use super::{Domain, Raster};
 use rayon::prelude::*;
 
-/// Number of sites whose cells one thread makes in one go.
+/// Number of sites whose cells are computed as one task of a thread.
 const CHUNK: usize = 512;
 
 /// Mass, centroid and spread of the cell of one site.
@@ -14,8 +14,8 @@ pub struct PowerCell {
     pub mass: f64,
     /// Centre of mass of the cell, or the site itself if the site has no cell.
     ///
-    /// On a torus, the image of the centre nearest to the site is given, which may lie beyond the
-    /// edges.
+    /// On a torus, the cell is measured in one piece around its site, so its centre may lie beyond
+    /// the edges.
     pub centroid: [f64; 2],
     /// Second moment of the cell's area about its own centroid, divided by the square of the area,
     /// whatever the density.
@@ -62,7 +62,7 @@ impl PowerDiagram {
     }
 }
 
-/// Sites at fixed places, for power diagrams with one set of weights after another.
+/// Sites at fixed positions, for power diagrams with one set of weights after another.
 pub struct PowerSites<'a> {
     domain: &'a Domain,
     density: Option<&'a Raster>,
@@ -80,7 +80,7 @@ impl<'a> PowerSites<'a> {
         Self { domain, density, sites, grid }
     }
 
-    /// Returns the sites; on a torus, moved into `[0, width) × [0, height)`.
+    /// Returns the sites; those of a torus are moved into `[0, width) × [0, height)`.
     pub fn sites(&self) -> &[[f64; 2]] {
         &self.sites
     }
@@ -93,8 +93,7 @@ impl<'a> PowerSites<'a> {
         self.grid.order().collect()
     }
 
-    /// Computes the cells for the given weights, one weight per site, in squared units of the
-    /// coordinates.
+    /// Computes the cells for `weights`, one weight per site, in squared units of the coordinates.
     ///
     /// `before` may be the diagram of the same sites with other weights, or of sites nearby in the
     /// same order. The neighbours in `before` are tried first, which saves time and changes the
@@ -134,7 +133,10 @@ impl<'a> PowerSites<'a> {
         whole
     }
 
-    /// Computes the cell of a site in `clip`, by cutting the domain down.
+    /// Computes the cell of site `i` in `clip`, by cutting down the domain.
+    ///
+    /// `greatest` is the largest weight of a site. `hints` are the facets of a similar cell, whose
+    /// sites are tried first.
     fn clip(&self, i: usize, weights: &[f64], greatest: f64, hints: &[Facet], clip: &mut Clip) {
         let site = self.sites[i];
         let [x, y] = site;
@@ -191,7 +193,7 @@ impl<'a> PowerSites<'a> {
         }
     }
 
-    /// Appends the measurements of a finished cell to `into`.
+    /// Appends the mass, centroid, spread and facets of the finished cell of site `i` to `into`.
     fn measure(&self, i: usize, clip: &Clip, into: &mut PowerDiagram) {
         let site = self.sites[i];
         let corners = clip.corners();

@@ -11,7 +11,7 @@ pub enum Domain {
         /// Height of the torus, in units of the coordinates.
         height: f64,
     },
-    /// Convex polygon, given by its corners in order.
+    /// Convex polygon, as the list of its corners in order.
     Convex(Vec<[f64; 2]>),
 }
 
@@ -52,7 +52,7 @@ impl Domain {
         }
     }
 
-    /// Returns the least and the largest coordinates.
+    /// Returns the smallest and the largest coordinates.
     pub(super) fn bounds(&self) -> [[f64; 2]; 2] {
         match self {
             Self::Torus { width, height } => [[0., 0.], [*width, *height]],
@@ -69,7 +69,7 @@ impl Domain {
         matches!(self, Self::Torus { .. })
     }
 
-    /// Moves a place on a torus into `[0, width) × [0, height)`; in other domains, the place is
+    /// Moves a point on a torus into `[0, width) × [0, height)`; in other domains, the point is
     /// returned unchanged.
     pub fn wrapped(&self, p: [f64; 2]) -> [f64; 2] {
         let wrap = |v: f64, side: f64| {
@@ -94,10 +94,10 @@ impl Domain {
         }
     }
 
-    /// Starts a cell as the entire domain, relative to the site.
+    /// Starts the cell of `site` as the entire domain, relative to the site.
     ///
-    /// On a torus, the cell starts as the rectangle of places nearer to the site than to the site's
-    /// own images.
+    /// On a torus, the cell starts as the rectangle of points that are nearer to the site than to
+    /// the periodic images of the site.
     pub(super) fn begin(&self, site: [f64; 2], clip: &mut Clip) {
         match self {
             Self::Torus { width, height } => {

@@ -1,6 +1,6 @@
 use super::Domain;
 
-/// Copy of a site, kept by the grid for fast access.
+/// Copy of a site with its weight, kept by the grid for fast access.
 #[derive(Clone, Copy)]
 pub(super) struct Entry {
     pub(super) x: f64,
@@ -9,7 +9,8 @@ pub(super) struct Entry {
     pub(super) site: u32,
 }
 
-/// Sites sorted by the cells of a grid, about one per cell.
+/// Sites sorted into the cells of a grid, about one per cell. These are not the cells of the power
+/// diagram.
 pub(super) struct Grid {
     columns: usize,
     rows: usize,
@@ -18,15 +19,16 @@ pub(super) struct Grid {
     /// Sides of a cell of the grid.
     size: [f64; 2],
     torus: bool,
-    /// Index in `entries` at which each cell of the grid starts, and the end of the last cell.
+    /// Index in `entries` at which the sites of each cell start; one more entry is the end of
+    /// `entries`.
     starts: Vec<u32>,
     /// Sites, cell by cell.
     entries: Vec<Entry>,
 }
 
 impl Grid {
-    /// Sorts the sites into cells. Sites that are not finite are left out; those outside the domain
-    /// belong to the nearest cell.
+    /// Sorts the sites into cells. Sites with a coordinate that is not finite are left out; sites
+    /// outside the domain belong to the nearest cell.
     pub(super) fn new(domain: &Domain, sites: &[[f64; 2]]) -> Self {
         let [low, high] = domain.bounds();
         let (width, height) = (high[0] - low[0], high[1] - low[1]);
@@ -81,21 +83,22 @@ impl Grid {
         self.size[0].max(self.size[1])
     }
 
+    /// Returns the index of the cell that contains a point, or of the nearest cell.
     fn place(&self, p: [f64; 2]) -> usize {
         let inside = |axis: usize, most: usize| {
-            // casts saturate, so what lies below the domain goes to cell 0
+            // casts saturate, so a point below the domain belongs to cell 0
             (((p[axis] - self.low[axis]) / self.size[axis]) as usize).min(most - 1)
         };
         inside(1, self.rows) * self.columns + inside(0, self.columns)
     }
 
     /// Calls `take` for all sites at most `reach` away from (x, y) along both axes, and for some
-    /// beyond.
+    /// that are farther away.
     ///
-    /// `take` is given a slice of entries and the shift to add to their x and y. On a torus, all
-    /// images of a site are visited, each with its own shift, and (x, y) must lie in the domain.
-    /// Only images in the domain and its eight neighbours are visited, as a cell can need no
-    /// others.
+    /// The arguments of `take` are a slice of entries and the shifts to add to their x and y. On a
+    /// torus, all images of a site are visited, each with its own shift, and (x, y) must lie in the
+    /// domain. Only images in the domain and its eight neighbours are visited, as a cell can need
+    /// no others.
     #[inline]
     pub(super) fn visit(&self, x: f64, y: f64, reach: f64, mut take: impl FnMut(&[Entry], f64, f64)) {
         let cells = |v: f64, axis: usize, count: usize| {

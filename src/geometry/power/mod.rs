@@ -1,10 +1,11 @@
-//! Power diagrams (Aurenhammer 1987, <https://doi.org/10.1137/0216006>): the cell of a site holds
-//! the places whose squared distance to the site, less the site's weight, is least. With equal
-//! weights this is the Voronoi diagram.
+//! Power diagrams (Aurenhammer 1987, <https://doi.org/10.1137/0216006>): the cell of a site
+//! contains the points whose squared distance to that site, less the weight of the site, is less
+//! than for any other site. With equal weights this is the Voronoi diagram.
 //!
 //! 1. Each cell starts as the entire domain.
 //! 2. It is cut by the bisectors of the sites near enough to matter, which a grid finds.
-//! 3. A bound on the distance of sites that could still cut the cell shows when no site is missing.
+//! 3. A bound on the distance of sites that could still cut the cell tells when all sites that
+//!    matter have been used.
 //!
 //! Cells thus need no triangulation and are made in parallel, and coincident, collinear or hidden
 //! sites are no special cases. The work per site is constant where sites are spread evenly.

@@ -4,17 +4,17 @@ use thiserror::Error;
 /// Reason why values do not make a density.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum RasterError {
-    /// The number of values is not columns × rows.
+    /// Number of values that is not columns × rows.
     #[error("a density of {columns} × {rows} cells was given {values} values: expected one value per cell")]
     Shape {
         /// Number of cells along x.
         columns: usize,
         /// Number of cells along y.
         rows: usize,
-        /// Number of values given.
+        /// Number of values passed.
         values: usize,
     },
-    /// A value is negative or not finite.
+    /// Value that is negative or not finite.
     #[error(
         "the density at column {column}, row {row} (counted from 0) is {value}: expected a finite number, \
          0 or more"
@@ -24,10 +24,10 @@ pub enum RasterError {
         column: usize,
         /// Row of the value, from 0.
         row: usize,
-        /// Value that was given.
+        /// Value that was passed.
         value: f64,
     },
-    /// The density is 0 everywhere.
+    /// Density that is 0 everywhere.
     #[error(
         "the density is 0 everywhere, so no point can be placed: give a density that is above 0 somewhere"
     )]
@@ -43,9 +43,12 @@ pub enum RasterError {
 pub struct Raster {
     columns: usize,
     rows: usize,
+    /// Width and height of a cell of the raster.
     size: [f64; 2],
+    /// Smallest coordinates of the domain.
     low: [f64; 2],
     torus: bool,
+    /// Densities row by row, divided by the largest one.
     density: Vec<f64>,
     /// Integrals ∫ρ dx and ∫ρ x dx from the left edge of the domain to each edge of a column; there
     /// are (columns + 1) entries per row.
@@ -103,7 +106,7 @@ impl Raster {
         Sums { raster: self, origin, mass: 0., x: 0., y: 0. }
     }
 
-    /// Returns ρ, ∫ρ dx and ∫ρ x dx at x, which lies in the given cell of the raster.
+    /// Returns ρ, ∫ρ dx and ∫ρ x dx at `x`, which lies in the cell (`column`, `row`) of the raster.
     ///
     /// The integrals begin at the left edge of the domain. On a torus, the cell may lie beyond the
     /// domain.
@@ -136,10 +139,11 @@ impl Raster {
     }
 }
 
-/// Integrals over a polygon, summed along its outline; edges are given relative to the site.
+/// Integrals over a polygon, summed along its outline; the coordinates of edges are relative to the
+/// site.
 pub(super) struct Sums<'a> {
     raster: &'a Raster,
-    /// Position of the site relative to the corner of the domain's bounds with the least
+    /// Position of the site relative to the corner of the domain's bounds with the smallest
     /// coordinates.
     origin: [f64; 2],
     mass: f64,
@@ -148,7 +152,8 @@ pub(super) struct Sums<'a> {
 }
 
 impl Sums<'_> {
-    /// Adds an edge, given relative to the site, and returns the integral of the density along it.
+    /// Adds an edge, with coordinates relative to the site, and returns the integral of the density
+    /// along it.
     pub(super) fn edge(&mut self, from: [f64; 2], to: [f64; 2]) -> f64 {
         let (a, b) = (self.absolute(from), self.absolute(to));
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
@@ -171,6 +176,7 @@ impl Sums<'_> {
         along
     }
 
+    /// Converts a point relative to the site to one relative to that corner.
     fn absolute(&self, p: [f64; 2]) -> [f64; 2] {
         [self.origin[0] + p[0], self.origin[1] + p[1]]
     }
@@ -189,7 +195,8 @@ impl Sums<'_> {
         (next * size - start) / d
     }
 
-    /// Adds a piece within one cell of the raster and returns the density there.
+    /// Adds a piece of an edge that lies within one cell of the raster, and returns the density
+    /// there.
     fn piece(&mut self, from: [f64; 2], to: [f64; 2]) -> f64 {
         let raster = self.raster;
         let middle = [(from[0] + to[0]) / 2., (from[1] + to[1]) / 2.];

@@ -13,7 +13,7 @@ fn total(diagram: &PowerDiagram) -> f64 {
     diagram.cells().iter().map(|c| c.mass).sum()
 }
 
-/// Returns the site with the least power distance to a place, by comparing all sites.
+/// Returns the site with the least power distance to the point `p`, by comparing all sites.
 fn owner(domain: &Domain, sites: &[[f64; 2]], weights: &[f64], p: [f64; 2]) -> usize {
     let power = |i: usize| {
         let [dx, dy] = domain.towards(sites[i], p);

@@ -1,8 +1,8 @@
 //! Weights for which all power cells have the same mass, by a damped Newton method.
 //!
-//! 1. Solve the Laplacian of the cells for the change of the weights that removes the missing
-//!    masses.
-//! 2. Halve the step until no cell becomes too small and the deviation falls as it should.
+//! 1. Solve a linear system, with the Laplacian of the cells, for the change of weights that brings
+//!    all masses to the target.
+//! 2. Halve this step until no cell becomes too small and the masses deviate less from the target.
 //! 3. Repeat until all masses are within the tolerance.
 //!
 //! Sources: de Goes et al. (2012), <https://doi.org/10.1145/2366145.2366190>; Kitagawa, Mérigot and
@@ -12,13 +12,15 @@ use super::laplacian::Laplacian;
 use super::multigrid::{Multigrid, centre};
 use crate::geometry::power::{PowerDiagram, PowerSites};
 
-/// Largest number of Newton steps in one solve.
+/// Largest number of Newton steps in one solve, so that it ends.
 const MOST_STEPS: usize = 60;
-/// Largest number of times that one Newton step is halved before the solve is given up.
+/// Largest number of times that one Newton step is halved. If no step succeeds, rounding stands in
+/// the way, and the solve ends.
 const MOST_HALVINGS: usize = 30;
 /// Largest number of rounds of conjugate gradients in one Newton step.
 const MOST_ROUNDS: usize = 400;
-/// Largest relative residual with which the linear system of a Newton step is solved.
+/// Largest residual that the linear system of a Newton step may be left with, relative to its
+/// right-hand side. A more exact step would cost more rounds.
 const STEP_TOLERANCE: f64 = 0.1;
 
 /// Power diagram whose cells have nearly equal masses.
@@ -28,15 +30,17 @@ pub(super) struct Solved {
     pub(super) error: f64,
 }
 
-/// Finds weights for which every cell has the mass `target` within `tolerance` (relative).
+/// Finds weights for which every cell has the mass `target` within the relative deviation
+/// `tolerance`.
 ///
-/// The damping is that of Kitagawa, Mérigot and Thibert (2019): a step is halved until no cell is
-/// smaller than half the smallest one at the start and the deviation falls as it should, which
-/// makes convergence certain.
+/// A Newton step is halved until no cell is smaller than half the smallest one at the start and the
+/// deviation falls in proportion to the step. This is the damping of Kitagawa, Mérigot and Thibert
+/// (2019), for which convergence is proved.
 ///
 /// The search starts from `weights`. If a cell is nearly empty with them, the search starts from a
-/// half, a quarter or an eighth of the weights, and at last from zero. It ends early if rounding
-/// lets no step succeed; [`Solved::error`] then holds the deviation that is left.
+/// half, a quarter or an eighth of the weights, and at last from zero. The search ends early if
+/// rounding lets no step succeed; [`Solved::error`] is then the deviation that is left. `hints` is
+/// a diagram of nearby sites or other weights, which saves time.
 pub(super) fn solve(
     sites: &mut PowerSites<'_>,
     weights: &mut Vec<f64>,
@@ -87,16 +91,18 @@ pub(super) fn solve(
     Solved { diagram: state.diagram, error: state.error }
 }
 
-/// Smallest mass of a cell, as a share of the target, at which the Newton steps may start.
+/// Smallest mass of a cell, as a fraction of the target, with which the Newton steps start.
 ///
 /// With a smaller cell the steps would be too short, so the weights are shrunk first.
 const SMALLEST: f64 = 0.02;
 
-/// Power diagram for one trial of the weights, with the deviations of its masses from the target.
+/// Power diagram for one choice of the weights, with the deviations of its masses from the target.
 struct State {
     diagram: PowerDiagram,
+    /// Smallest mass of a cell.
     least: f64,
     error: f64,
+    /// Square root of the summed squares of the deviations from the target.
     norm: f64,
 }
 

@@ -3,8 +3,8 @@
 use crate::geometry::power::PowerDiagram;
 use rayon::prelude::*;
 
-/// Smallest number of rows per thread: fewer rows are done sooner than handed over to another
-/// thread.
+/// Smallest number of rows that are given to one thread. With fewer, handing them over would take
+/// longer than computing them.
 const ROWS: usize = 8192;
 
 /// Weighted Laplacian L of a graph: row i is Σ_j c_ij (x_i − x_j), with c_ij = c_ji > 0 for
@@ -13,8 +13,9 @@ const ROWS: usize = 8192;
 /// L is symmetric and positive, except that it maps constants to 0.
 #[derive(Default)]
 pub(super) struct Laplacian {
-    /// End of each node's row in `neighbours`.
+    /// Index in `neighbours` at which each node's row ends.
     ends: Vec<u32>,
+    /// Neighbour j and coefficient c_ij, row by row.
     neighbours: Vec<(u32, f64)>,
     /// Sum Σ_j c_ij of each row i.
     diagonal: Vec<f64>,
@@ -30,7 +31,7 @@ impl Laplacian {
     /// (2019), <https://doi.org/10.4171/JEMS/889>.
     pub(super) fn of(diagram: &PowerDiagram) -> Self {
         let n = diagram.cells().len();
-        // 7 is a little more than the six neighbours that a cell has on average
+        // A cell has six neighbours on average; 7 leaves some room.
         let mut new = Self::with_room(n, 7 * n);
         for site in 0..n {
             for facet in diagram.facets(site).iter().filter(|f| f.distance > 0.) {
@@ -49,6 +50,7 @@ impl Laplacian {
         }
     }
 
+    /// Ends the current row, whose neighbours have been appended, and computes its diagonal entry.
     fn end_row(&mut self) {
         let begin = self.ends.last().map_or(0, |&end| end as usize);
         self.diagonal.push(self.neighbours[begin..].iter().map(|(_, c)| c).sum());
@@ -64,7 +66,7 @@ impl Laplacian {
         &self.neighbours[begin..self.ends[i] as usize]
     }
 
-    /// Computes Σ_j c_ij x_j for row i.
+    /// Computes Σ_j c_ij x_j for row `i`.
     #[inline]
     fn gathered(&self, i: usize, x: &[f64]) -> f64 {
         self.row(i).iter().map(|&(j, c)| c * x[j as usize]).sum()
@@ -80,7 +82,7 @@ impl Laplacian {
         }
     }
 
-    /// Solves row i of L x = b for x_i and leaves all other x as they are.
+    /// Solves row `i` of L x = b for x_i and leaves all other x as they are.
     #[inline]
     fn relax(&self, i: usize, b: &[f64], x: &mut [f64]) {
         let diagonal = self.diagonal[i];
@@ -106,6 +108,7 @@ impl Laplacian {
     ///
     /// Source: Vaněk, Mandel and Brezina (1996), <https://doi.org/10.1007/BF02238511>.
     pub(super) fn groups(&self) -> (Vec<u32>, usize) {
+        // marks a node that belongs to no group yet
         const NONE: u32 = u32::MAX;
         let mut groups = vec![NONE; self.len()];
         let mut count = 0;

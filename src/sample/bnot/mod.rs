@@ -1,5 +1,5 @@
-//! Blue noise through optimal transport (BNOT): power cells of equal mass with the points at their
-//! centroids.
+//! Blue noise through optimal transport (BNOT): points at the centroids of power cells of equal
+//! mass.
 //!
 //! The solver for the weights is in `capacity.rs`, with the linear systems in `multigrid.rs`; the
 //! alternation of weights and moves is in `relaxation.rs`.
@@ -18,17 +18,18 @@ use rand::Rng;
 /// Points whose power cells have equal masses and whose positions are the centroids of the cells.
 ///
 /// 1. Place n points at random and move each once to the centroid of its Voronoi cell.
-/// 2. Find weights for which all power cells have the same mass, by damped Newton steps. Masses may
-///    differ by 1 % or, if that is less, by the last move divided by the spacing.
+/// 2. Find weights for which all power cells have the same mass, by damped Newton steps. The
+///    relative deviation allowed is 1 % or, if that is less, the length of the last move in
+///    spacings.
 /// 3. Move every point to the centroid of its cell. Repeat from 2 for a number of steps, or until
 ///    the points rest.
-/// 4. Find weights once more, for masses equal within 10⁻⁶.
+/// 4. Find weights once more, for masses that are equal within 10⁻⁶.
 ///
-/// The number of steps decides how regular the pattern is. In the unit square the regularity index
-/// (all points, population deviation; means of 5 to 60 seeds) is 12.6 at n = 1050 after 3 steps,
-/// 17.8 after 9, and 22.1 after the 20 that reproduce the paper's tables. At n = 1024 it is 25.4 at
-/// rest with the tolerance of .00285 spacings (some 61 steps), and 26.3 with .001 (some 200 steps).
-/// `run` and `compare` use 20 steps.
+/// The number of steps decides how regular the pattern is. In the unit square (all points,
+/// population standard deviation; means of 5 to 60 seeds), the regularity index of 1050 points is
+/// 12.6 after 3 steps, 17.8 after 9, and 22.1 after the 20 steps that reproduce the paper's tables.
+/// The index of 1024 points at rest is 25.4 with a tolerance of .00285 spacings (some 61 steps),
+/// and 26.3 with .001 (some 200 steps). `run` and `compare` use 20 steps.
 ///
 /// Source: de Goes, Breeden, Ostromoukhov and Desbrun (2012),
 /// <https://doi.org/10.1145/2366145.2366190>.
@@ -56,7 +57,8 @@ pub struct Bnot {
 impl Bnot {
     /// Default setting: steps are repeated until the points rest.
     pub const CONVERGED: Self = Self { steps: None, tolerance: 2.85e-3, breaks: 0, density: None };
-    /// Setting of 20 steps, which reproduces the paper's tables of cone mosaics and samplers.
+    /// Setting of 20 steps, with which the published tables of cone mosaics and samplers are
+    /// reproduced.
     pub const PAPER: Self = Self { steps: Some(20), ..Self::CONVERGED };
 }
 
@@ -66,7 +68,7 @@ impl Default for Bnot {
     }
 }
 
-/// Largest number of steps, after which the points count as being at rest in any case.
+/// Largest number of steps, so that every run ends; after it, the points count as being at rest.
 const MOST_STEPS: usize = 1000;
 
 impl Sampler for Bnot {

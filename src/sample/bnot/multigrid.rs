@@ -1,20 +1,23 @@
 //! Solver of graph Laplacians: conjugate gradients, preconditioned by aggregation multigrid.
 //!
 //! 1. Group the nodes of the graph, and the groups again, down to a small graph.
-//! 2. In each round, sweep once, remove the smooth part of the error by a correction from the
-//!    grouped graph, and sweep back. The result improves the direction of conjugate gradients.
+//! 2. In each round, make a Gauss–Seidel sweep, remove the smooth part of the error by a correction
+//!    from the grouped graph, and sweep back. The result is the preconditioned residual of
+//!    conjugate gradients.
 //!
 //! Sources: Vaněk, Mandel and Brezina (1996), <https://doi.org/10.1007/BF02238511>; Notay (2010).
 
 use super::laplacian::Laplacian;
 
-/// Largest number of nodes for which a system is solved by sweeps alone.
+/// Largest number of nodes for which a system is solved by sweeps alone, without further grouping.
 const SMALL: usize = 24;
-/// Number of pairs of sweeps, down and up, that solve a system of at most [`SMALL`] nodes.
+/// Number of pairs of Gauss–Seidel sweeps, down and up, that solve a system of at most [`SMALL`]
+/// nodes.
 const SWEEPS: usize = 12;
 /// Factor by which corrections from a coarser level are enlarged.
 ///
-/// A correction that is constant on each group has too much energy, so it comes out too small.
+/// A correction that is constant on each group has too much energy for its size, so the coarse
+/// system makes it too small.
 const OVERCORRECTION: f64 = 1.6;
 
 /// Hierarchy of Laplacians, each of larger groups of nodes than the one before.
@@ -24,7 +27,7 @@ pub(super) struct Multigrid {
     levels: Vec<Level>,
 }
 
-/// One Laplacian of the hierarchy, with the working memory for its cycle.
+/// Laplacian of one level of the hierarchy, with the working memory for its cycle.
 struct Level {
     matrix: Laplacian,
     /// Group to which each node belongs; the group is a node of the next level.

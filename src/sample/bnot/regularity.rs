@@ -5,14 +5,15 @@ use crate::sample::relaxed_region::Region;
 use rand::Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-/// Threshold for regular cells: a six-sided cell is regular if its spread differs from the spreads
-/// of its neighbours by less than this on average.
+/// Largest mean difference between the spread of a six-sided cell and the spreads of its neighbours
+/// at which the cell counts as regular.
 ///
 /// The spread of a cell is its second moment divided by its squared area. Measured at n = 2000 on
 /// the torus: less than 1 % of six-sided cells are regular after 20 steps, and a quarter of them at
 /// rest.
 const REGULAR: f64 = 5e-4;
-/// Standard deviation of the random displacement of a point along each axis, in hexagonal spacings.
+/// Standard deviation of the random displacement of a point along each axis, in hexagonal spacings;
+/// chosen here.
 const SHAKE: f64 = 0.5;
 
 /// Displaces the points of regular cells and of their neighbours at random, and returns whether
@@ -20,8 +21,8 @@ const SHAKE: f64 = 0.5;
 ///
 /// A point that would leave the region stays where it is. The measure of regularity is that of de
 /// Goes et al. (2012, <https://doi.org/10.1145/2366145.2366190>), the mean absolute difference of a
-/// cell's second moment to those of its neighbours; the threshold and the size of the displacement
-/// are chosen here.
+/// cell's second moment to those of its neighbours; the threshold [`REGULAR`] and the size of the
+/// displacement, [`SHAKE`], are chosen here.
 pub(super) fn shake(
     points: &mut [[f64; 2]],
     diagram: &PowerDiagram,

@@ -1,5 +1,5 @@
 //! Relaxation of points: the masses of the cells are made equal and the points moved to the
-//! centroids, in turn; see [`Bnot`] for the steps.
+//! centroids, in turn. See [`Bnot`] for the steps.
 
 use super::capacity::{Solved, solve};
 use super::{Bnot, MOST_STEPS, Region, Watch, regularity};
@@ -8,27 +8,28 @@ use crate::sample::{SampleError, Sampler};
 use rand::Rng;
 use std::f64::consts::TAU;
 
-/// Largest relative deviation of a cell's mass that is allowed between moves.
+/// Largest relative deviation of a cell's mass that is allowed between moves; the next move changes
+/// the masses anyway.
 const LOOSE: f64 = 1e-2;
-/// Largest relative deviation of a cell's mass that is allowed at the end.
+/// Largest relative deviation of a cell's mass that is allowed in the final pattern.
 const EXACT: f64 = 1e-6;
-/// Number of steps after crystals were broken up: enough to even out distances, too few for new
-/// crystals to form.
+/// Number of steps that follow each break-up of crystals: enough to even out distances, too few for
+/// new crystals to form.
 const AFTER_BREAK: usize = 20;
-/// Distance, in spacings, by which a point without a cell is moved; such a point coincides with
-/// another one.
+/// Distance, in spacings, by which a point without a cell is moved. Such a point coincides with
+/// another one, so a small distance parts them.
 const NUDGE: f64 = 1e-3;
-/// Largest number of attempts to give every point a cell.
+/// Largest number of times that points without a cell are moved, to give every point a cell.
 const NUDGES: usize = 8;
 
 impl Bnot {
-    /// Relaxes the points `start` of the region, and returns them with their cells.
+    /// Relaxes the points `start` in `region`, and returns them with their cells.
     ///
     /// The points are returned in the order of `start`, the cells in another order. On a torus,
     /// points may lie beyond [0, width) × [0, height).
     ///
     /// # Errors
-    /// If the masses cannot be made equal within [`EXACT`].
+    /// Fails if the masses cannot be made equal within [`EXACT`].
     pub(super) fn relax(
         &self,
         start: &[[f64; 2]],
@@ -87,7 +88,7 @@ struct State<'a> {
     region: &'a Region,
     points: Vec<[f64; 2]>,
     weights: Vec<f64>,
-    /// Mass that each cell is to have.
+    /// Mass that each cell is to get: the mean of all masses.
     target: f64,
     diagram: PowerDiagram,
 }
@@ -97,7 +98,8 @@ impl State<'_> {
         PowerSites::new(&self.region.domain, self.region.density.as_ref(), &self.points)
     }
 
-    /// Computes Voronoi cells and the target mass, and moves points that have no cell a little.
+    /// Computes Voronoi cells and their mean mass, the target; points that have no cell are moved a
+    /// little, at most [`NUDGES`] times, until they have one.
     fn begin(&mut self, spacing: f64) {
         for attempt in 0..NUDGES {
             self.diagram = self.sites().diagram(&self.weights, None);
@@ -113,6 +115,7 @@ impl State<'_> {
                 // points part.
                 let [dx, dy] = self.region.domain.towards(self.points[i], centre);
                 let away = dx.hypot(dy).max(f64::MIN_POSITIVE);
+                // multiples of the golden ratio are spread evenly round the circle
                 let angle = TAU * 0.618_034 * (i * NUDGES + attempt) as f64;
                 self.points[i][0] += NUDGE * spacing * (dx / away + 0.7 * angle.cos());
                 self.points[i][1] += NUDGE * spacing * (dy / away + 0.7 * angle.sin());

@@ -1,13 +1,15 @@
-//! Bridson's Poisson-disk sampling: new points are sought around those placed before.
+//! Bridson's Poisson-disk sampling: new points are sought around points placed before.
 
 use crate::geometry::Point;
 use crate::geometry::index::{Nearby, TorusGrid};
 use crate::sample::{Frame, SampleError, Sampler};
 use rand::{Rng, RngExt};
 
-/// Disk radius in hexagonal spacings, chosen so that the method places about n points.
+/// Smallest distance between two points, in hexagonal spacings; with this value the method places
+/// about n points.
 const RADIUS: f64 = 0.7306;
-/// Number of candidates tried around a point before it is no longer active.
+/// Number of candidates tried around a point before it is no longer active; the k = 30 of Bridson
+/// (2007).
 const CANDIDATES: usize = 30;
 /// Relative enlargement of the radius, so that rounding cannot bring points nearer than the radius.
 const MARGIN: f64 = 1e-9;
@@ -16,14 +18,14 @@ const MARGIN: f64 = 1e-9;
 ///
 /// 1. Place one point at random; it is active.
 /// 2. Pick an active point at random. Draw up to k = 30 candidates around it, uniform *by area* in
-///    the annulus from r to 2r, with r = .7306 hexagonal spacings.
+///    the annulus from r to 2r, where r is .7306 hexagonal spacings.
 /// 3. The first candidate that is at least r (on the torus) from every point becomes an active
 ///    point itself. If no candidate is, the picked point is no longer active. Repeat from 2 until
 ///    no point is active.
 ///
-/// The number of points varies by about 1 % at n = 1024, and is smaller than asked for in windows a
-/// few radii wide. In windows narrower than r it is the number of disks that fill a line, which may
-/// be far from n.
+/// The number of points varies by about 1 % at n = 1024, and is smaller than n in windows a few
+/// radii wide. In windows narrower than r it is the number of disks that fill a line, which may be
+/// far from n.
 ///
 /// Source: Bridson (2007), <https://doi.org/10.1145/1278780.1278807>.
 #[derive(Clone, Copy, Debug)]
@@ -81,14 +83,16 @@ impl Sampler for Bridson {
     }
 }
 
-/// Supply of random places, uniform by area in the annulus between the radii 1 and 2 around the
+/// Supply of random offsets, uniform by area in the annulus between the radii 1 and 2 around the
 /// origin.
 ///
 /// Darts are thrown into the square around the annulus, and those that hit the annulus are kept.
-/// The places do not depend on the points around which they are used, so many are drawn at once.
+/// The offsets do not depend on the points around which they are used, so many are drawn at once.
 #[derive(Default)]
 struct Offsets {
+    /// Offsets that have not been used yet.
     ready: Vec<[f64; 2]>,
+    /// Buffer for random bytes.
     bits: Vec<u8>,
 }
 

@@ -6,19 +6,22 @@ use crate::geometry::index::TorusGrid;
 use crate::sample::{Frame, SampleError, Sampler};
 use rand::Rng;
 
-/// Disk radius in hexagonal spacings of n points.
+/// Smallest distance between two points, in hexagonal spacings of n points. Random darts leave no
+/// room for n points from about .777 spacings on.
 const RADIUS: f64 = 0.75;
 /// Relative enlargement of the radius, so that rounding cannot bring points nearer than the radius.
 const MARGIN: f64 = 1e-9;
-/// Largest number of attempts; each attempt ends early if the torus is full before the last point.
+/// Largest number of attempts to place n points; an attempt ends early if the torus is full before
+/// the last point.
 const ATTEMPTS: usize = 200;
 
-/// Uniform darts, each kept if no dart kept before is nearer than r, until exactly n are kept.
+/// Uniform darts, each kept if it is at least the distance r from every dart kept before, until
+/// exactly n are kept.
 ///
 /// r is .75 hexagonal spacings of n points, distances are those of the torus, and points are not
-/// relaxed afterwards. No darts are thrown at places nearer than r to a kept dart, which changes
-/// only the running time. If no other place is left, the window is full and a new pattern is begun,
-/// up to 200 times.
+/// relaxed afterwards. No darts are thrown at positions nearer than r to a kept dart, which changes
+/// only the running time. If no other position is left, the window is full, and a new pattern is
+/// begun, up to 200 times.
 ///
 /// Sources: Cook (1986), <https://doi.org/10.1145/7529.8927>; White, Cline and Egbert (2007),
 /// <https://doi.org/10.1109/RT.2007.4342600>.

@@ -2,25 +2,27 @@
 //!
 //! 1. Choose a square with a probability proportional to its area, and throw a uniform dart into
 //!    it.
-//! 2. A dart that is at least the radius from every point becomes a point, and the square is
-//!    finished.
-//! 3. Otherwise the square is cut in four, and the quarters that one disk covers are dropped.
+//! 2. A dart that is at least the disk radius from every point becomes a point, and the square is
+//!    dropped.
+//! 3. Otherwise the square is cut in four, and each quarter that lies in the disk around a single
+//!    point is dropped.
 //!
-//! No dart in a dropped square could have become a point, and the dart within the remaining squares
-//! is uniform, so the points have exactly the distribution of plain dart throwing.
+//! No dart in a dropped square could become a point, and the darts are uniform over the remaining
+//! squares, so the points have exactly the distribution of plain dart throwing.
 //!
 //! Source: White, Cline and Egbert (2007), <https://doi.org/10.1109/RT.2007.4342600>.
 
 use crate::geometry::index::{Nearby, TorusGrid};
 use rand::{Rng, RngExt};
 
-/// Number of halvings after which a square counts as covered: its area is then below 2⁻⁵⁰ of the
-/// total.
+/// Number of halvings after which a square counts as covered. Its area is then 2⁻⁵⁰ of that of a
+/// cell of the grid, so the lost room does not matter.
 const DEEPEST: usize = 25;
 
 /// Throws darts until `n` of them are kept, or until the torus is full, and returns the kept darts.
 ///
-/// No two kept darts are nearer than `radius` on the torus. `grid` is emptied first.
+/// No two kept darts are nearer to each other than `radius` on the torus. `grid` is emptied first,
+/// and then contains the kept darts.
 pub(super) fn throw(n: usize, radius: f64, grid: &mut TorusGrid, rng: &mut dyn Rng) -> Vec<[f64; 2]> {
     grid.clear();
     let radius2 = radius * radius;
@@ -61,10 +63,13 @@ pub(super) fn throw(n: usize, radius: f64, grid: &mut TorusGrid, rng: &mut dyn R
 ///
 /// Strictly, they are rectangles with the proportions of the grid's cells.
 struct Squares {
+    /// Upper left corners of the squares, by the number of halvings.
     corners: Vec<Vec<[f64; 2]>>,
-    /// Deepest level that ever held a square.
+    /// Largest number of halvings of any square so far.
     deepest: usize,
+    /// Width of a square that was not halved, which is a cell of the grid.
     width: f64,
+    /// Height of a square that was not halved.
     height: f64,
 }
 
@@ -80,18 +85,22 @@ impl Squares {
         Self { corners, deepest: 0, width, height }
     }
 
+    /// Returns the width and height of a square that was halved `level` times.
     fn size(&self, level: usize) -> (f64, f64) {
         let scale = 0.5f64.powi(level as i32);
         (self.width * scale, self.height * scale)
     }
 
+    /// Adds a square that was halved `level` times, by its upper left corner.
     fn put(&mut self, level: usize, corner: [f64; 2]) {
         self.corners[level].push(corner);
         self.deepest = self.deepest.max(level);
     }
 
-    /// Removes a square chosen with probability proportional to its area, and returns its level and
-    /// upper left corner.
+    /// Removes a square chosen with probability proportional to its area.
+    ///
+    /// Returns the number of times it was halved and its upper left corner, or `None` if no square
+    /// is left.
     fn take(&mut self, rng: &mut dyn Rng) -> Option<(usize, [f64; 2])> {
         let mut areas = [0.; DEEPEST + 1];
         let (mut total, mut share) = (0., 1.);

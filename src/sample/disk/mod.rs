@@ -1,4 +1,4 @@
-//! Samplers that keep points at least a given distance apart: dart throwing and its faster
+//! Samplers that keep points at least a minimal distance apart: dart throwing and its faster
 //! variants.
 
 mod bridson;

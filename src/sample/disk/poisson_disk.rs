@@ -1,4 +1,4 @@
-//! Maximal Poisson-disk sampling: darts are thrown until no further one finds room.
+//! Maximal Poisson-disk sampling: darts are thrown until there is no room for another.
 
 use super::darts::throw;
 use crate::geometry::Point;
@@ -6,19 +6,21 @@ use crate::geometry::index::TorusGrid;
 use crate::sample::{Frame, SampleError, Sampler};
 use rand::Rng;
 
-/// Share of the plane that disks of half the radius cover when no further dart finds room.
+/// Fraction of the plane that disks whose diameter is the smallest distance cover when there is no
+/// room for another.
 ///
 /// Source: Feder (1980), <https://doi.org/10.1016/0022-5193(80)90358-6>: .547.
 const JAMMED: f64 = 0.547;
 /// Relative enlargement of the radius, so that rounding cannot bring points nearer than the radius.
 const MARGIN: f64 = 1e-9;
 
-/// Maximal Poisson disks: darts are thrown until no place is left for another one.
+/// Maximal Poisson disks: darts are thrown until there is no room for another.
 ///
-/// No two points are nearer than r on the torus. With r = √(4 · .547/(π n/A)) = .7766 hexagonal
-/// spacings, where A is the area, the window is full at about n points. The number varies by about
-/// 1 % at n = 1024. In windows narrower than r, it is the number of disks that fill a line, which
-/// may be far from n. The area that remains uncovered is smaller than 2⁻⁵⁰ of that of a disk.
+/// No two points are nearer to each other than r on the torus. With r = √(4 · .547/(π n/A)) = .7766
+/// hexagonal spacings, where A is the area, the window is full at about n points. The number varies
+/// by about 1 % at n = 1024. In windows narrower than r, it is the number of disks that fill a
+/// line, which may be far from n. The area that remains uncovered is smaller than 2⁻⁵⁰ of that of a
+/// disk.
 ///
 /// Sources: Ebeida et al. (2011) for the term, <https://doi.org/10.1145/2010324.1964944>; White,
 /// Cline and Egbert (2007) for the quadtree, <https://doi.org/10.1109/RT.2007.4342600>.
@@ -26,10 +28,9 @@ const MARGIN: f64 = 1e-9;
 pub struct PoissonDisk;
 
 impl PoissonDisk {
-    /// Returns the disk radius for about `n` points, in the frame's unit.
+    /// Returns the smallest distance between two points for about `n` points, in the frame's unit.
     ///
-    /// No two points are nearer than the radius, and no place is farther than the radius from every
-    /// point.
+    /// No position is farther than this distance from every point.
     fn radius(n: usize, frame: &Frame) -> f64 {
         (4. * JAMMED * frame.width * frame.height / (std::f64::consts::PI * n as f64)).sqrt()
     }

@@ -5,11 +5,11 @@ use crate::sample::{Frame, Setting};
 use rand::{Rng, RngExt};
 use rand_distr::StandardNormal;
 
-/// Number of random offsets tried in a bounded window to bring the number of points near n.
+/// Largest number of random offsets tried in a bounded window to bring the number of points near n.
 const OFFSETS: usize = 32;
 
 /// Width of the strip around a bounded window from which jitter may carry points into it, in
-/// standard deviations of the jitter.
+/// standard deviations of the jitter. Larger displacements are too rare to matter.
 const CARRIED: f64 = 5.;
 
 /// Returns the parameter `jitter`, which all lattices share.
@@ -33,9 +33,13 @@ pub(super) const fn jitter<S>(get: fn(&S) -> Option<f64>, set: fn(&mut S, f64)) 
 /// deviation `jitter` in x and y. All lengths are in the frame's unit.
 #[derive(Clone, Copy)]
 pub(in crate::sample) struct Lattice {
+    /// Distance between successive points of a row.
     pub(in crate::sample) step: f64,
+    /// Distance between successive rows.
     pub(in crate::sample) row_step: f64,
+    /// Displacement of every other row along itself, in steps.
     pub(in crate::sample) shift: f64,
+    /// Standard deviation of a point's random displacement in x and y.
     pub(in crate::sample) jitter: f64,
 }
 
@@ -93,6 +97,7 @@ impl Lattice {
             .collect()
     }
 
+    /// Displaces a point at random.
     fn jittered(self, [x, y]: [f64; 2], rng: &mut dyn Rng) -> [f64; 2] {
         if self.jitter == 0. {
             return [x, y];
@@ -101,8 +106,8 @@ impl Lattice {
         [x + self.jitter * dx, y + self.jitter * dy]
     }
 
-    /// Returns the first x, the y and the number of points of each row in a window of the given
-    /// width and height.
+    /// Returns the first x, the y and the number of points of each row in a window of size `[width,
+    /// height]`.
     ///
     /// `(x, y)` is a point of the lattice, in a row that is not shifted.
     fn rows(self, x: f64, y: f64, [width, height]: [f64; 2]) -> impl Iterator<Item = (f64, f64, usize)> {
@@ -133,6 +138,8 @@ impl Lattice {
                 continue;
             }
             for c in around(columns) {
+                // The score adds the deviation of the number of points and that of the lattice's
+                // proportions.
                 let number = ((c * r) as f64 / n as f64).ln().abs();
                 let shape = ((c as f64 / columns) / (r as f64 / rows)).ln().abs();
                 if number + shape < best.0 {

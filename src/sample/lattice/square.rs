@@ -3,7 +3,7 @@ use crate::geometry::Point;
 use crate::sample::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use rand::Rng;
 
-/// Square lattice of about n points at a random offset, with jitter if asked for.
+/// Square lattice of about n points at a random offset, with optional jitter.
 #[derive(Clone, Copy, Debug)]
 pub struct Square {
     /// Standard deviation of each point's displacement in x and y, in hexagonal spacings.

@@ -3,8 +3,8 @@ use crate::geometry::Point;
 use crate::sample::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use rand::Rng;
 
-/// Triangular lattice (hexagonal packing) of about n points at a random offset, with jitter if
-/// asked for.
+/// Triangular lattice (hexagonal packing) of about n points at a random offset, with optional
+/// jitter.
 ///
 /// Rows lie along x. On a torus, rows and columns must close on themselves, which stretches the
 /// lattice by a few per cent.

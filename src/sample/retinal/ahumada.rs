@@ -1,8 +1,8 @@
 //! Cone mosaic as discs packed outward from a centre, after Ahumada and Poirson (1987).
 //!
 //! 1. Put a disc of random radius in the centre, and another one that touches it.
-//! 2. Keep a queue of pockets, the nearest to the centre first. A pocket is a place where a further
-//!    disc would touch two discs.
+//! 2. Keep a queue of pockets, the nearest to the centre first. A pocket is a position at which a
+//!    further disc would touch two discs.
 //! 3. Put the next disc into the first pocket if it fits there; otherwise drop the pocket. Repeat
 //!    until the window is full.
 //! 4. Displace the centres at random.
@@ -19,9 +19,11 @@ use std::collections::BinaryHeap;
 use std::f64::consts::TAU;
 
 /// Largest deviation of a radius from the mean, in standard deviations. Radii beyond are drawn
-/// again, so that all stay positive and bounded.
+/// again, so that all stay positive and bounded: at the largest `radius_sd`, 0.3, the smallest is
+/// 0.1.
 const DEVIATIONS: f64 = 3.;
-/// Approximate number of discs per squared mean radius: random discs cover 84 % of the plane.
+/// Approximate number of discs per squared mean radius, as random discs cover about 84 % of the
+/// plane.
 const DENSITY: f64 = 0.84 / std::f64::consts::PI;
 /// Distance beyond the window up to which discs are packed, in mean radii, so that the edge of the
 /// packing does not show.
@@ -38,16 +40,16 @@ const BEYOND: f64 = 6.;
 /// eccentricity, and were fitted to a macaque's fovea out to 1.6°.
 ///
 /// **Not available, so chosen here**: the fitted values and their change with eccentricity; that
-/// radii are normal; that the next disc goes where it touches two earlier ones and lies nearest to
-/// the centre, and that a place where it does not fit stays empty. The defaults, .1 mean radii and
-/// .07 mean diameters, give a regularity index of 10, within the range of real mosaics (8 to 12).
-/// The mean radius follows from n.
+/// radii are normal; that the next disc goes to the position nearest to the centre at which it
+/// touches two earlier ones; and that a position where it does not fit stays empty. The defaults, a
+/// standard deviation of .1 mean radii and a jitter of .07 mean diameters, give a regularity index
+/// of 10, within the range of real mosaics (8 to 12). The mean radius follows from n.
 ///
-/// **Eccentricity**: if it is given, the middle of the window lies at that distance from the fovea
-/// (in mm), with the fovea to the left. The mean radius then follows the density of human cones
-/// from place to place (Curcio et al. 1990, mean of four meridians), and n determines the size of
-/// the window. Two things are chosen here: the other two parameters stay the same shares of the
-/// mean radius, and packing goes outward from the middle of the window, which is the fovea at 0 mm.
+/// **Eccentricity**: if it is set, the middle of the window lies at that distance from the fovea
+/// (in mm), with the fovea to the left. The mean radius then varies as the density of human cones
+/// does (Curcio et al. 1990, mean of four meridians), and n determines the size of the window. Two
+/// things are chosen here: the other two parameters stay the same shares of the mean radius, and
+/// packing goes outward from the middle of the window, which is the fovea at 0 mm.
 ///
 /// Exactly n points are made. Opposite edges of a torus do not fit together, as the model has a
 /// centre.
@@ -130,15 +132,18 @@ impl Settable for Ahumada {
 }
 
 #[derive(Clone, Copy)]
+/// Disc of one cone; lengths are in mean radii in the middle of the window.
 struct Disc {
     centre: [f64; 2],
     radius: f64,
 }
 
-/// Pocket between two discs, on one side of them, that another disc could fill.
+/// Pocket between two discs that another disc could fill: distance from the centre, indices of the
+/// two discs, and the side of the line between them, as the argument `left` of [`touching_both`]
+/// gives it.
 ///
-/// The pocket nearest to the centre comes first: the first entry holds the bits of the distance,
-/// and bits of positive numbers sort as the numbers do.
+/// In a heap of pockets, the nearest to the centre comes first. The distance is kept as the bits of
+/// a positive number, which sort as the numbers do.
 type Pocket = Reverse<(u64, usize, usize, bool)>;
 
 impl Ahumada {
@@ -149,7 +154,7 @@ impl Ahumada {
 
     /// Packs discs from the middle outward over |x| ≤ `half[0]` and |y| ≤ `half[1]`.
     ///
-    /// The mean radius is 1 in the middle.
+    /// The mean radius is 1 in the middle, and elsewhere follows `retina`.
     fn pack(&self, half: [f64; 2], retina: &Retina, rng: &mut dyn Rng) -> Vec<Disc> {
         let widest = (1. + DEVIATIONS * self.radius_sd) * retina.largest(half);
         let first = self.radius(rng);
@@ -168,7 +173,8 @@ impl Ahumada {
         radius = self.radius(rng);
         while let Some(Reverse((_, a, b, side))) = packing.pockets.pop() {
             let (a, b) = (packing.discs[a], packing.discs[b]);
-            // The mean radius at the pocket is the mean of those at the two discs.
+            // The mean radius at the pocket is taken as the average of the mean radii at the two
+            // discs.
             let scaled = radius * (retina.size(a.centre) + retina.size(b.centre)) / 2.;
             let Some(centre) = touching_both(a, b, scaled, side) else {
                 continue;
@@ -186,12 +192,15 @@ impl Ahumada {
 /// Discs packed so far, and the pockets between them.
 struct Packing<'a> {
     discs: Vec<Disc>,
+    /// Centres of the discs, by their indices.
     grid: HashGrid,
+    /// Pockets that were not tried yet, the nearest to the centre first.
     pockets: BinaryHeap<Pocket>,
     retina: &'a Retina,
 }
 
 impl Packing<'_> {
+    /// Returns whether the disc overlaps no disc packed so far.
     fn has_room(&self, disc: Disc) -> bool {
         self.grid.near(disc.centre).all(|(k, centre)| {
             // The disc touches two others exactly, and rounding must not count that as overlap.
@@ -199,8 +208,8 @@ impl Packing<'_> {
         })
     }
 
-    /// Adds a disc. Also queues the pockets that it forms with each earlier disc, if a third disc
-    /// of the local mean radius can touch both.
+    /// Adds a disc, and queues its pockets with earlier discs: positions at which a third disc of
+    /// the local mean radius would touch both.
     fn put(&mut self, disc: Disc) {
         let new = self.discs.len();
         let mean = self.retina.size(disc.centre);
@@ -217,8 +226,8 @@ impl Packing<'_> {
     }
 }
 
-/// Returns the centre of the disc of the given radius that touches both `a` and `b`, or `None` if
-/// no such disc touches both.
+/// Returns the centre of the disc of radius `radius` that touches both `a` and `b`, or `None` if no
+/// such disc touches both.
 ///
 /// There is one such disc on each side of the line from `a` to `b`; `left` chooses between them.
 fn touching_both(a: Disc, b: Disc, radius: f64, left: bool) -> Option<[f64; 2]> {

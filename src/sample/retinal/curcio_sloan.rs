@@ -12,8 +12,8 @@ use std::f64::consts::SQRT_2;
 /// The array is stretched along the other diagonal so that its density stays, and the points are
 /// then displaced.
 ///
-/// **Published** (the abstract): a compressed-jittered model was fitted at seven places along six
-/// meridians of a human retina; the mosaic is least compressed and jittered at the edge of the
+/// **Published** (the abstract): a compressed-jittered model was fitted at seven positions along
+/// six meridians of a human retina; the mosaic is least compressed and jittered at the edge of the
 /// foveal rod-free zone; spacing is 10–15 % less in one direction, and greater along meridians than
 /// across them.
 ///
@@ -25,8 +25,8 @@ use std::f64::consts::SQRT_2;
 /// jitter in sides of the uncompressed cell.
 ///
 /// **Eccentricity**: there is no such parameter, as the abstract gives no numbers for the
-/// dependence on the place. Set `compression` and `jitter` for the place; they hold over the entire
-/// window.
+/// dependence on eccentricity. Set `compression` and `jitter` for the eccentricity in question;
+/// they apply to the entire window.
 ///
 /// Rows lie along the compressed diagonal, which is along x, at a random offset. The number of
 /// points is near n. On a torus rows and columns must close, which stretches the array by a few per

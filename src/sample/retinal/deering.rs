@@ -1,6 +1,6 @@
 //! Cone mosaic of cells that attract and repel each other, after Deering (2005).
 //!
-//! 1. Add a ring of cells of random size around those that exist.
+//! 1. Add a ring of cells of random size around the existing cells.
 //! 2. Move the cells of the last rings by the forces between neighbours, for some rounds.
 //! 3. Repeat until the window is covered.
 
@@ -13,17 +13,18 @@ use crate::sample::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use rand::Rng;
 use std::collections::VecDeque;
 
-/// Distance between successive rings, in mean diameters: that between the rows of a triangular
-/// lattice.
+/// Distance between successive rings, in mean diameters: √3/2, the distance between the rows of a
+/// triangular lattice.
 const RING: f64 = 0.866_025_403_784_438_6;
-/// Number of cells per squared mean diameter.
+/// Number of cells per squared mean diameter: that of a triangular lattice.
 const DENSITY: f64 = 1. / RING;
-/// Number of outermost rings whose cells still move; cells farther in have found their place.
+/// Number of outermost rings whose cells still move; cells farther in have found their position.
 const MOBILE: usize = 5;
 /// Largest deviation of a radius from the mean, in standard deviations; radii beyond are drawn
-/// again.
+/// again, so that all stay positive.
 const DEVIATIONS: f64 = 3.;
-/// Distance at which attraction ends, in units of the distance at which two cells touch.
+/// Distance at which the attraction of two cells ends, in units of the distance at which they
+/// touch.
 const ATTRACTION_ENDS: f64 = 1.5;
 /// Strongest attraction, as a share of the repulsion between coincident cells.
 const ATTRACTION: f64 = 0.1;
@@ -32,10 +33,11 @@ const ATTRACTION: f64 = 0.1;
 const RATE: f64 = 0.3;
 /// Margin beyond the range of the forces within which cells count as neighbours, in mean diameters.
 ///
-/// Two cells may approach each other by this much during the rounds of one ring. Cells that are
-/// farther apart are not looked at.
+/// Neighbours are found once per ring, so two cells may approach each other by this much before a
+/// force is missed.
 const SLACK: f64 = 0.5;
-/// Distance beyond the window up to which cells are grown, in mean diameters.
+/// Distance beyond the window up to which cells are grown, in mean diameters, so that the edge of
+/// the pattern does not show.
 const BEYOND: f64 = 4.;
 
 /// Model of Deering (2005): cells of random target size, added in rings around the fovea.
@@ -44,12 +46,12 @@ const BEYOND: f64 = 4.;
 ///
 /// **Published** (the author's slides): cones are added in concentric rings outward, with target
 /// sizes that vary; an equation gives the forces between them; the borders of the cells are formed
-/// anew, and there is a final touch-up; densities by eccentricity and meridian are mostly those of
-/// Curcio et al. (1990).
+/// anew, and there is a final touch-up; most densities by eccentricity and meridian are from Curcio
+/// et al. (1990).
 ///
-/// **As understood here**: target radii are perturbed at random; cells repel each other when nearer
-/// than their radii ask for and attract each other when somewhat farther; only those near the
-/// growing edge move.
+/// **As understood here**: target radii are perturbed at random; cells repel each other if they are
+/// nearer than the sum of their radii and attract each other if they are somewhat farther apart;
+/// only cells near the growing edge move.
 ///
 /// **Not available, so chosen here**: the equation. Two cells at u times the distance at which they
 /// touch repel each other by 1 − u for u < 1, and attract each other by 1.6 (u − 1)(1.5 − u) for u
@@ -58,11 +60,11 @@ const BEYOND: f64 = 4.;
 /// by their distance alone. The deviation of radii gives a regularity index of 10, within the range
 /// of real mosaics (8 to 12).
 ///
-/// **Eccentricity**: without it, the mean radius is the same all over the window. If it is given,
-/// the middle of the window lies at that distance from the fovea (in mm), with the fovea to the
-/// left. The mean radius then follows the density of human cones (Curcio et al. 1990; the mean of
-/// the four meridians, where the original distinguishes them), and n determines the size of the
-/// window. The rings are around the fovea.
+/// **Eccentricity**: without it, the mean radius is the same all over the window. If it is set, the
+/// middle of the window lies at that distance from the fovea (in mm), with the fovea to the left.
+/// The mean radius then follows the density of human cones (Curcio et al. 1990; the mean of the
+/// four meridians, where the original distinguishes them), and n determines the size of the window.
+/// The rings are around the fovea.
 ///
 /// Exactly n points are made. Opposite edges of a torus do not fit together, as the model has a
 /// centre.
@@ -143,18 +145,19 @@ impl Settable for Deering {
 }
 
 #[derive(Clone, Copy)]
+/// Cell of one cone; lengths are in mean diameters in the middle of the window.
 struct Cell {
     centre: [f64; 2],
     radius: f64,
 }
 
 impl Deering {
-    /// Grows cells from the fovea outward and returns the centres of those cells.
+    /// Grows cells from the fovea outward and returns their centres.
     ///
     /// The cells cover |x| ≤ `half[0]` and |y| ≤ `half[1]` around the middle of the window, where
     /// the mean diameter is 1.
     fn grow(&self, half: [f64; 2], retina: &Retina, rng: &mut dyn Rng) -> Vec<[f64; 2]> {
-        // The rings are around the fovea, in the window or beside it; all places are relative to
+        // The rings are around the fovea, in the window or beside it; all positions are relative to
         // the window's middle.
         let fovea = retina.fovea();
         let seen = |[x, y]: [f64; 2]| [x - fovea, y];

@@ -1,4 +1,4 @@
-//! Cone mosaic by the minimal-spacing rule: random places, refused near earlier cells.
+//! Cone mosaic by the minimal-spacing rule: random positions, refused near earlier cells.
 
 use super::retina::{FARTHEST, cones_per_mm2};
 use crate::geometry::Point;
@@ -8,32 +8,32 @@ use crate::sample::normal_deviate::truncated;
 use crate::sample::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use rand::{Rng, RngExt};
 
-/// Largest deviation of a minimal distance from the mean, in standard deviations; larger deviations
-/// are drawn again.
+/// Largest deviation of a minimal distance from the mean, in standard deviations. Larger deviations
+/// are drawn again, so that the distance is bounded and neighbours can be sought in a grid.
 const DEVIATIONS: f64 = 4.;
 /// Smallest distance between human cones in the periphery, in mm: the middle of the 6–8 µm of
 /// Curcio and Sloan (1992).
 const PERIPHERAL: f64 = 0.007;
-/// Number of places tried for one cell before the window counts as full.
+/// Number of random positions tried for one cell before the window counts as full.
 const TRIALS: usize = 100_000;
 
 /// Minimal-spacing rule (d_min, exclusion zone): cells are placed at random, one after the other.
 ///
-/// A place is refused if an earlier cell is nearer than d_min, which is a normal deviate.
+/// A position is refused if an earlier cell is nearer than d_min, which is a normal deviate.
 ///
 /// **Published**: the rule, and that d_min ~ N(μ, σ).
 ///
 /// **Chosen here**: d_min is in hexagonal spacings of n cells, so that one value serves any
-/// density. It is drawn anew for each place tried, not once per cell; negative values and those
-/// beyond four standard deviations are drawn again. Distances are those of the torus. Values fitted
-/// to mosaics were not at hand: μ = .7 is near the most that random placement can fill (the limit
-/// is .777), and σ is a tenth of it.
+/// density. It is drawn anew for each position tried, not once per cell; values that are negative
+/// or beyond four standard deviations are drawn again. Distances are those of the torus. Values
+/// fitted to mosaics were not at hand: μ = .7 is near the largest distance with which random
+/// placement finds room for n cells, .777, and σ is a tenth of μ.
 ///
 /// **Eccentricity**: no dependence was published with the rule. Curcio and Sloan (1992) found the
 /// least distance between human cones constant, 6–8 µm, across the peripheral retina, while the
-/// spacing of the cones grows. If an eccentricity is given (distance from the fovea in mm), μ is 7
-/// µm in hexagonal spacings of human cones there (Curcio et al. 1990, mean of four meridians), but
-/// at most .7. The limit of .7 holds within some 2 mm of the fovea.
+/// spacing of the cones grows. If an eccentricity is set (distance from the fovea in mm), μ is 7 µm
+/// divided by the hexagonal spacing of human cones there (Curcio et al. 1990, mean of four
+/// meridians), but at most .7. The limit of .7 applies within some 2 mm of the fovea.
 ///
 /// Exactly n points are made. No two points are nearer than μ − 4σ.
 ///
@@ -53,13 +53,14 @@ impl MinimalSpacing {
     /// Default setting, chosen here; see [`MinimalSpacing`] for the reason.
     pub const DEFAULT: Self = Self { mean: 0.7, sd: 0.07 };
 
-    /// Returns the mean of d_min for human cones at the given eccentricity, in hexagonal spacings.
+    /// Returns the mean of d_min for human cones at `eccentricity` mm from the fovea, in hexagonal
+    /// spacings.
     ///
-    /// The eccentricity is the distance from the fovea, in mm. The mean is 7 µm there, but at most
-    /// .7 spacings.
+    /// The mean is 7 µm, converted to spacings at that eccentricity, but at most .7 spacings.
     pub fn mean_at(eccentricity: f64) -> f64 {
         let most = Self::DEFAULT.mean;
-        // The cones of a square metre are a number large enough to be rounded without harm.
+        // The number of cones of a square metre is large enough to be rounded to an integer without
+        // harm.
         let spacing = hexagonal_spacing((1e6 * cones_per_mm2(eccentricity)) as usize, 1e6);
         spacing.map_or(most, |mm| (PERIPHERAL / mm).min(most))
     }

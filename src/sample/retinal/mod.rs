@@ -1,7 +1,7 @@
 //! Models of the cone mosaic from the literature.
 //!
-//! Each model's doc tells what is published, what is understood from the source, and what is chosen
-//! here.
+//! The documentation of each model tells what is published, what is understood from the source, and
+//! what is chosen here.
 
 mod ahumada;
 mod curcio_sloan;

@@ -8,8 +8,8 @@ use crate::sample::{Frame, SampleError};
 use rand::{Rng, RngExt};
 use std::f64::consts::{PI, TAU};
 
-/// Factors for the sides of the grown pattern: its excess over the window that should hold n points
-/// in the first attempt, and its growth in each further attempt.
+/// Factors for the sides of the grown pattern. The first is the excess, in the first attempt, over
+/// the window that should contain n points; the second is the growth in each further attempt.
 const BEYOND: [f64; 2] = [1.1, 1.3];
 /// Largest number of attempts before the pattern counts as too small.
 const ATTEMPTS: usize = 12;
@@ -17,12 +17,12 @@ const ATTEMPTS: usize = 12;
 /// Returns exactly `n` points of a pattern around the middle of the frame.
 ///
 /// `grow` makes the pattern in its own unit of length, with about `density` points per squared
-/// unit. It is given half of the sides, `half`, and the pattern must be complete where |x| ≤
+/// unit. Its argument `half` is half of the two sides, and the pattern must be complete where |x| ≤
 /// `half[0]` and |y| ≤ `half[1]`. The window is the rectangle around the centre, with the frame's
-/// proportions, that holds n points; it is scaled to the frame.
+/// proportions, that contains n points; it is scaled to the frame.
 ///
 /// # Errors
-/// If the pattern of the last attempt still has too few points.
+/// Fails if the pattern of the last attempt still has too few points.
 pub(super) fn exactly(
     n: usize,
     frame: &Frame,
@@ -40,7 +40,8 @@ pub(super) fn exactly(
     for _ in 0..ATTEMPTS {
         let half = [frame.width, frame.height].map(|side| beyond * unit * side);
         let points = grow(half);
-        // size of the rectangle that just holds a point, as a share of the half sides
+        // size of the smallest rectangle around the centre that contains the point, as a fraction
+        // of the half sides
         let out = |&[x, y]: &[f64; 2]| (x.abs() / half[0]).max(y.abs() / half[1]);
         let mut order: Vec<(f64, usize)> = points.iter().map(out).zip(0..).filter(|o| o.0 <= 1.).collect();
         placed = placed.max(order.len());
@@ -64,10 +65,10 @@ pub(super) fn exactly(
     Err(SampleError::NoRoom { sampler, n, placed, attempts: ATTEMPTS })
 }
 
-/// Returns places on the circle of the given radius around the centre, about `step` apart.
+/// Returns positions on the circle of radius `radius` around the centre, about `step` apart.
 ///
-/// The places are at equal distances and begin at a random angle. Places with |x| > `half[0]` or
-/// |y| > `half[1]` are left out.
+/// The positions are at equal distances and begin at a random angle. Positions with |x| > `half[0]`
+/// or |y| > `half[1]` are left out.
 pub(super) fn ring(radius: f64, step: f64, half: [f64; 2], rng: &mut dyn Rng) -> Vec<[f64; 2]> {
     let number = (TAU * radius / step).round().max(1.);
     let turn = TAU / number;
@@ -77,7 +78,7 @@ pub(super) fn ring(radius: f64, step: f64, half: [f64; 2], rng: &mut dyn Rng) ->
     let high = (half[1] / radius).min(1.).asin();
     let mut places = Vec::new();
     for (from, to) in [(low, high), (PI - high, PI - low), (PI + low, PI + high), (TAU - high, TAU - low)] {
-        // half-open intervals, so that a place on an axis counts once
+        // half-open intervals, so that a position on an axis counts once
         let (mut k, end) = (((from - first) / turn).ceil(), (to - first) / turn);
         while k < end {
             let angle = first + k * turn;

@@ -1,4 +1,4 @@
-//! Sizes of cones from place to place on the human retina, for the models that follow them.
+//! Sizes of cones on the human retina as a function of position, for the models that follow them.
 
 use crate::mosaic::RetinalPlace;
 use crate::sample::Setting;
@@ -21,7 +21,8 @@ pub(super) const fn eccentricity<S>(get: fn(&S) -> Option<f64>, set: fn(&mut S, 
     }
 }
 
-/// Returns the cones per mm² at the given eccentricity (in mm), as the mean of the four meridians.
+/// Returns the number of cones per mm² at `eccentricity` mm from the fovea, as the mean of the four
+/// meridians.
 ///
 /// Beyond [`FARTHEST`], the density at [`FARTHEST`] is returned.
 pub(super) fn cones_per_mm2(eccentricity: f64) -> f64 {
@@ -29,10 +30,11 @@ pub(super) fn cones_per_mm2(eccentricity: f64) -> f64 {
     at(eccentricity.min(FARTHEST)).unwrap_or(f64::NAN)
 }
 
-/// Sizes of cells on the retina from place to place, relative to the middle of the window.
+/// Sizes of cells as a function of position on the retina, relative to the size in the middle of
+/// the window.
 ///
 /// Lengths are in the unit of a model, in which cells in the middle have size 1. The fovea lies to
-/// the left.
+/// the left of the middle, or in it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Retina {
     /// Eccentricity of the window's middle in mm, and the model's unit of length in mm.
@@ -42,7 +44,7 @@ pub(super) struct Retina {
 }
 
 impl Retina {
-    /// Creates the sizes around a place at the given eccentricity, in mm, or equal sizes for
+    /// Creates the sizes around a point at `eccentricity` mm from the fovea, or equal sizes for
     /// `None`.
     ///
     /// `density` is the number of cells of size 1 that the model makes per squared unit of length.
@@ -56,7 +58,7 @@ impl Retina {
         self.place.map_or(0., |(mm, unit)| mm / unit)
     }
 
-    /// Returns the size of a cell at a place relative to the middle of the window.
+    /// Returns the size of a cell at a position relative to the middle of the window.
     pub(super) fn size(&self, [x, y]: [f64; 2]) -> f64 {
         let Some((mm, unit)) = self.place else { return 1. };
         (cones_per_mm2(mm) / cones_per_mm2((mm + x * unit).hypot(y * unit))).sqrt()
@@ -65,7 +67,7 @@ impl Retina {
     /// Returns an upper bound for the size of the cells with |x| ≤ `half[0]` and |y| ≤ `half[1]`.
     pub(super) fn largest(&self, half: [f64; 2]) -> f64 {
         // Densities rise again by a few per cent in the far periphery, so the corner need not have
-        // the largest cell.
+        // the largest cell. The factor covers this.
         const RISE: f64 = 1.02;
         if self.place.is_some() { RISE * self.size(half) } else { 1. }
     }

@@ -7,13 +7,16 @@ use crate::sample::normal_deviate::displaced;
 use crate::sample::{Configure, Frame, SampleError, Sampler, Settable, Setting};
 use rand::Rng;
 
-/// Distance between successive rings, in spacings: that between the rows of a triangular lattice.
+/// Distance between successive rings, in spacings: √3/2, the distance between the rows of a
+/// triangular lattice.
 const RING: f64 = 0.866_025_403_784_438_6;
-/// Number of cones per squared spacing.
+/// Number of cones per squared spacing: that of a triangular lattice.
 const DENSITY: f64 = 1. / RING;
-/// Number of displacements drawn for one cone before the cone is left out.
+/// Largest number of displacements drawn for one cone; if none leaves the minimal spacing, the cone
+/// is left out.
 const DRAWS: usize = 100;
-/// Distance beyond the window up to which rings are made, in spacings.
+/// Distance beyond the window up to which rings are made, in spacings, so that the edge of the
+/// array does not show.
 const BEYOND: f64 = 3.;
 
 /// Model of Wang et al. (2001): a polar array around the fovea, Gaussian jitter, and a minimal
@@ -25,11 +28,11 @@ const BEYOND: f64 = 3.;
 ///
 /// **As understood here**: the model consists of a polar array, a jitter and a minimal spacing.
 ///
-/// **Not available, so chosen here**: rings are √3/2 spacings apart and hold one cone per spacing,
-/// from a random angle on. A cone whose displacement brings it nearer than the minimal spacing to
-/// one placed before is displaced anew, and left out after 100 draws. The defaults, a jitter of .1
-/// and a minimal spacing of .65 spacings of the array, give a regularity index of 10, within the
-/// range of real mosaics (8 to 12).
+/// **Not available, so chosen here**: rings are √3/2 spacings apart, and each has one cone per
+/// spacing of its length, beginning at a random angle. A cone whose displacement brings it nearer
+/// than the minimal spacing to one placed before is displaced anew, and left out after 100 draws.
+/// The defaults, a jitter of .1 and a minimal spacing of .65 spacings of the array, give a
+/// regularity index of 10, within the range of real mosaics (8 to 12).
 ///
 /// **Eccentricity**: there is no such parameter. The model is one of the fovea, and no dependence
 /// is known to have been published.

@@ -1,9 +1,9 @@
-//! Target curves: pair correlation functions that a pattern is to have, made from a measured
+//! Target curves: pair correlation functions that a pattern is to get, made from a measured
 //! function or from a spectrum.
 //!
-//! - A measured function was smoothed by a kernel; the smoothing is undone by van Cittert's
+//! - A measured function was smoothed by a kernel. The smoothing is undone by van Cittert's
 //!   iteration.
-//! - A spectrum becomes a pair correlation function by the Hankel transform.
+//! - A spectrum is converted to a pair correlation function by the Hankel transform.
 //!
 //! Sources: van Cittert (1931), <https://doi.org/10.1007/BF01391351>; Heck, Schlömer and Deussen
 //! (2013), <https://doi.org/10.1145/2487228.2487233>.
@@ -16,11 +16,11 @@ const STEP: f64 = 0.02;
 /// Longest distance at which pairs are controlled, in hexagonal spacings; the numbers of more
 /// distant pairs are left to chance.
 pub(super) const REACH: f64 = 6.;
-/// Range of distances, in spacings, over which a measured pair correlation function gives way to
-/// the function that follows from the spectrum.
+/// Range of distances, in spacings, over which a target from tables changes from the measured pair
+/// correlation function to the function that follows from the spectrum.
 const BLEND: [f64; 2] = [2., 2.4];
-/// Standard deviation of the kernel that smooths measured functions, in spacings
-/// ([`crate::stats::PcfOptions`]).
+/// Standard deviation of the Gaussian kernel by which measured functions were smoothed, in
+/// spacings: the default of [`crate::stats::PcfOptions`].
 const SIGMA: f64 = 0.1;
 /// Number of rounds of deconvolution.
 ///
@@ -31,32 +31,31 @@ const ROUNDS: usize = 5;
 /// about a pattern.
 const SHORTEST: f64 = 1.;
 
-/// Pair correlation function g(r) that a pattern is to have, with r in hexagonal spacings s =
-/// √(2/(√3 λ)).
+/// Pair correlation function g(r) that a pattern is to get.
 ///
-/// λ is the density of the points.
+/// r is in hexagonal spacings √(2/(√3 λ)), where λ is the density of the points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TargetCurve {
     /// Samples of g, without smoothing, at multiples of [`STEP`].
     g: Vec<f64>,
-    /// Rows of frequency (in √λ) and power, or `None` if the spectrum is not known.
+    /// Rows of frequency, in √λ, and power, or `None` if the spectrum is not known.
     ///
     /// The power is constant below the first row and 1 above the last.
     spectrum: Option<Vec<[f64; 2]>>,
 }
 
 impl TargetCurve {
-    /// Creates a target from a measured pair correlation function, given as rows of r and g.
+    /// Creates a target from a measured pair correlation function; `rows` are pairs of r and g.
     ///
     /// r is in hexagonal spacings and rises from row to row. g is smoothed as by
     /// [`crate::stats::pcf`] with its default kernel. Below the first r, g is constant; above the
-    /// last r, or above 6 spacings, g is left to chance. The smoothing by the kernel k, Ĝ(r) = ∫ d
-    /// g(d) k(r − d) dd / r, is undone by the iteration of van Cittert (1931),
+    /// last r, or above 6 spacings, g is left to chance. A kernel k smooths g to Ĝ(r) = ∫ d g(d)
+    /// k(r − d) dd / r. This is undone by the iteration of van Cittert (1931),
     /// <https://doi.org/10.1007/BF01391351>.
     ///
     /// # Errors
-    /// If there are fewer than two rows, r does not rise from 0 or more to 1 or more, or g is
-    /// negative or not finite.
+    /// Fails if there are fewer than two rows, r does not rise, begins below 0 or ends below 1, or
+    /// g is negative or not finite.
     pub fn from_pcf(rows: &[[f64; 2]]) -> Result<Self, SampleError> {
         check(rows, "a target pair correlation function", "r", "g", SHORTEST)?;
         let last = rows[rows.len() - 1][0].min(REACH);
@@ -64,19 +63,19 @@ impl TargetCurve {
         Ok(Self { g: sharpened(&measured, rows[0][0], last, last), spectrum: None })
     }
 
-    /// Creates a target from a power spectrum, given as rows of frequency f and power S(f).
+    /// Creates a target from a power spectrum; `rows` are pairs of frequency f and power S(f).
     ///
-    /// f is in units of √λ, that is √n in a unit square, and rises from row to row. S is the power
-    /// of the periodogram |Σ exp(−2πi k·x)|²/n. Below the first f, S is constant; above the last it
-    /// is 1, as for independent points.
+    /// f is in units of √λ, which is √n for n points in a unit square, and rises from row to row. S
+    /// is the power of the periodogram |Σ exp(−2πi k·x)|²/n. Below the first f, S is constant;
+    /// above the last it is 1, as for independent points.
     ///
     /// g(r) = 1 + 2π ∫ (S(f) − 1) J₀(2πfr) f df with λ = 1, a Hankel transform (Heck et al. 2013,
-    /// eq. 3, <https://doi.org/10.1145/2487228.2487233>). Where no point process has that spectrum,
-    /// g comes out negative and is cut to 0.
+    /// eq. 3, <https://doi.org/10.1145/2487228.2487233>). If no point process has that spectrum, g
+    /// comes out negative in places and is set to 0 there.
     ///
     /// # Errors
-    /// If there are fewer than two rows, f does not rise from 0 or more, or S is negative or not
-    /// finite.
+    /// Fails if there are fewer than two rows, f does not rise or begins below 0, or S is negative
+    /// or not finite.
     pub fn from_spectrum(rows: &[[f64; 2]]) -> Result<Self, SampleError> {
         check(rows, "a target spectrum", "frequency", "power", f64::MIN_POSITIVE)?;
         Ok(Self { g: transformed(rows), spectrum: Some(rows.to_vec()) })
@@ -106,8 +105,8 @@ impl TargetCurve {
     /// Creates a target from tables of a measured pair correlation function and of the spectrum of
     /// the same patterns.
     ///
-    /// `pcf` holds g at .15, .244, … spacings, smoothed as [`TargetCurve::from_pcf`] expects it.
-    /// `spectrum` holds the power at .05, .1, … √λ. Between 2 and 2.4 spacings, the measured g
+    /// `pcf` lists g at .15, .244, … spacings, smoothed as [`TargetCurve::from_pcf`] expects it.
+    /// `spectrum` lists the power at .05, .1, … √λ. Between 2 and 2.4 spacings, the measured g
     /// gives way to the g that follows from the spectrum.
     pub(in super::super) fn from_tables(pcf: &[f64], spectrum: &[f64]) -> Self {
         let rows = |values: &[f64], first: f64, step: f64| -> Vec<[f64; 2]> {
@@ -137,7 +136,7 @@ impl TargetCurve {
         Some(if beyond { 1. } else { interpolate(rows, frequency) })
     }
 
-    /// Returns the longest distance at which g is given, in spacings.
+    /// Returns the longest distance at which g is known, in spacings.
     pub fn reach(&self) -> f64 {
         (self.g.len() - 1) as f64 * STEP
     }
@@ -202,7 +201,8 @@ fn sampled(g: &[f64], r: f64) -> f64 {
     }
 }
 
-/// Returns samples, from 0 to `end`, of the function that becomes `measured` when it is smoothed.
+/// Returns samples, [`STEP`] apart from 0 to `end`, of the function that becomes `measured` when it
+/// is smoothed.
 ///
 /// The smoothing is undone between `first` and `last`; below `first`, the correction found at
 /// `first` is used.
@@ -218,7 +218,8 @@ fn sharpened(measured: &dyn Fn(f64) -> f64, first: f64, last: f64, end: f64) -> 
             let near = i.saturating_sub(width)..=i + width;
             near.map(|k| kernel[k.abs_diff(i)] * r(k) * g[k.min(samples - 1)]).sum::<f64>() * norm / r(i)
         };
-        // At shorter distances the kernel would extend far into negative distances.
+        // At shorter distances the kernel would extend far into negative distances, where g is not
+        // defined.
         let from = (first.max(1.5 * SIGMA) / STEP).ceil() as usize;
         let to = samples.min((last / STEP) as usize + 1);
         let mut change = vec![0.; samples];
@@ -230,16 +231,18 @@ fn sharpened(measured: &dyn Fn(f64) -> f64, first: f64, last: f64, end: f64) -> 
     g
 }
 
-/// Returns the hexagonal spacing in units of 1/√λ.
+/// Returns the hexagonal spacing in units of 1/√λ: √(2/√3).
 fn unit() -> f64 {
     (2. / 3f64.sqrt()).sqrt()
 }
 
-/// Computes samples of g from the rows of a radial power spectrum.
+/// Computes samples of g, [`STEP`] apart, from the rows of a radial power spectrum.
 fn transformed(rows: &[[f64; 2]]) -> Vec<f64> {
-    /// Number of frequencies summed per period of the Bessel function at the longest distance.
+    /// Number of frequencies summed per period of the Bessel function at the longest distance,
+    /// where it oscillates fastest.
     const PER_WAVE: f64 = 24.;
     let last = rows[rows.len() - 1][0];
+    // the bounds keep narrow spectra accurate and wide ones affordable
     let steps = (PER_WAVE * last * REACH * unit()).ceil().clamp(400., 20_000.) as usize;
     let step = last / steps as f64;
     let terms: Vec<[f64; 2]> = (0..steps)

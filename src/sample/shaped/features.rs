@@ -1,8 +1,8 @@
-//! Features of a pattern that are brought to given values, and the derivatives of the features with
-//! respect to the positions of the points.
+//! Features of a pattern that are brought to target values, and the derivatives of the features
+//! with respect to the positions of the points.
 //!
-//! The features are numbers of pairs by distance, smoothed by a spline; two moments of the
-//! nearest-neighbour distances; and the power of long waves.
+//! The features are the numbers of pairs by distance, smoothed by a spline; the mean and the mean
+//! square of the nearest-neighbour distances; and the power of long waves.
 
 use super::curve::TargetCurve;
 use super::neighbours::NeighbourList;
@@ -10,12 +10,12 @@ use super::spline;
 use super::waves::LongWaves;
 use std::f64::consts::TAU;
 
-/// Distance between the spline's nodes along r, in spacings.
+/// Distance between neighbouring nodes of the spline along r, in spacings.
 const NODE: f64 = 0.1;
 /// Distance, in spacings, below which pairs are weighted as if they were at this distance.
 ///
-/// The weight of an excess of pairs is one over their distance, but nearer pairs are too few for
-/// that.
+/// The weight of an excess of pairs is one over their distance. At shorter distances there are too
+/// few pairs for such large weights.
 const NEAR: f64 = 0.15;
 
 /// Mean and standard deviation of nearest-neighbour distances, in hexagonal spacings.
@@ -29,15 +29,19 @@ pub struct NearestTarget {
 
 /// Goals for the features of a pattern, with one weight per feature.
 ///
-/// The weights bring all features to about the unit of g (the pair correlation function), so that a
+/// The weights convert all features to about the unit of the pair correlation function g, so that a
 /// miss of .01 means the same for each feature. Slot 0 of `goal` and `weight` belongs to the
 /// spline's node at −[`NODE`], and slot k + 1 to node k; slots of nodes that are not controlled
 /// have weight 0. The mean and the mean square of the nearest-neighbour distances follow, and then
 /// the annuli of waves.
 pub(super) struct Features {
+    /// Value that each feature is to get.
     goal: Vec<f64>,
+    /// Factor by which the difference between a feature and its goal is multiplied.
     weight: Vec<f64>,
+    /// Number of slots of the spline's nodes.
     nodes: usize,
+    /// `true` if the nearest-neighbour distances are controlled.
     nearest: bool,
     waves: LongWaves,
 }
@@ -45,13 +49,16 @@ pub(super) struct Features {
 /// Nearest neighbour of a point, with the vector and the squared distance to the neighbour.
 #[derive(Clone, Copy)]
 struct Nearest {
+    /// Index of the neighbour.
     partner: usize,
+    /// Vector from the point to the neighbour.
     way: [f64; 2],
+    /// Squared distance to the neighbour.
     square: f64,
 }
 
 impl Features {
-    /// Creates the goals for `n` points on a torus with the given sides, in hexagonal spacings.
+    /// Creates the goals for `n` points on a torus with the sides `sides`, in hexagonal spacings.
     ///
     /// Only pairs nearer than `reach` are controlled.
     pub(super) fn new(
@@ -63,6 +70,7 @@ impl Features {
     ) -> Self {
         let waves = LongWaves::new(target, sides);
         let controlled = ((reach / NODE) as usize).saturating_sub(2);
+        // a spline extends two nodes to either side of its own
         let nodes = controlled + 4;
         let n = n as f64;
         let area = n * 0.75f64.sqrt();
@@ -157,11 +165,11 @@ impl Features {
         pull
     }
 
-    /// Calls `add(i, slot, derivatives, direction)` for each group of features that depends on
-    /// point i.
+    /// Calls `add(i, slot, derivatives, direction)` for each group of features that depends on the
+    /// position of point `i`.
     ///
-    /// If point i moves by a small vector, the features from `slot` on change by `derivatives`
-    /// times the scalar product of that vector and `direction`.
+    /// If point `i` moves by a small vector, the features from `slot` on change by `derivatives`
+    /// times the scalar product of the vector and `direction`.
     #[inline]
     fn derive(
         &self,
@@ -201,7 +209,7 @@ const NEAREST_WEIGHT: f64 = 2.;
 
 /// Weight of a miss of the power of an annulus, relative to a miss of g.
 ///
-/// The power of an annulus scatters by 1/√(number of waves).
+/// It is small, as the power of an annulus scatters by 1/√(number of waves).
 const WAVE_WEIGHT: f64 = 0.1;
 
 /// Returns the first of the four slots in which a pair at distance `d` counts, and the position of
@@ -215,11 +223,12 @@ fn place(d: f64) -> (usize, f64) {
     (node, at - node as f64)
 }
 
-/// Computes ∫ 2πd g(d) B((d − r)/h) dd / h, with B the spline and h = [`NODE`].
+/// Computes ∫ 2πd g(d) B((d − r)/h) dd / h, where B is the spline and h = [`NODE`].
 ///
 /// The result is the number of pairs per length that the spline at r counts if the density of
 /// points is 1.
 fn pairs_per_length(target: &TargetCurve, r: f64) -> f64 {
+    // number of equal parts in which the spline's range is integrated
     const PARTS: usize = 64;
     (0..PARTS)
         .map(|k| -2. + 4. * (k as f64 + 0.5) / PARTS as f64)

@@ -4,8 +4,8 @@ use std::sync::LazyLock;
 /// Pair correlation function g at .15, .244, …, 2.406 spacings, smoothed by a Gaussian of standard
 /// deviation .1.
 ///
-/// It is the mean over patterns of 512 and of 1024 points, made by a reference program, of the
-/// green noise of Ahmed et al. (2015, “AA patterns for point sets with controlled spectral
+/// It is the mean over patterns of 512 and of 1024 points that a reference program made. They are
+/// the green noise of Ahmed et al. (2015, “AA patterns for point sets with controlled spectral
 /// properties”).
 const PCF: [f64; 25] = [
     2.292, 2.064, 1.785, 1.439, 1.091, 0.803, 0.600, 0.478, 0.439, 0.477, 0.580, 0.735, 0.926, 1.120, 1.277,
@@ -24,6 +24,7 @@ const SPECTRUM: [f64; 17] =
 /// Lanaro et al. measured (means .343 and .352, ratios 1.376 and 1.425).
 const NEAREST: NearestTarget = NearestTarget { mean: 0.348, sd: 0.2495 };
 
+/// Sampler with the curves of green noise, created on first use.
 static SHAPED: LazyLock<Shaped> =
     LazyLock::new(|| Shaped { curve: TargetCurve::from_tables(&PCF, &SPECTRUM), nearest: Some(NEAREST) });
 

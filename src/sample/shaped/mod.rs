@@ -1,7 +1,7 @@
-//! Patterns with a given pair correlation function, and so with a given radial spectrum.
+//! Patterns with a prescribed pair correlation function, and so with a prescribed radial spectrum.
 //!
-//! `curve.rs` holds the function to reach, `features.rs` and `waves.rs` measure how far a pattern
-//! is from it, and `descent.rs` moves the points.
+//! `curve.rs` contains the function to reach, `features.rs` and `waves.rs` measure how far a
+//! pattern is from it, and `descent.rs` moves the points.
 
 mod curve;
 mod descent;
@@ -29,16 +29,17 @@ use rand::{Rng, RngExt};
 /// Uniform points, moved as little as possible until their pair correlation function g is `curve`.
 ///
 /// Öztireli and Gross (2012) and Heck et al. (2013) move points down the gradient of ∫ (g − g*)²,
-/// where g* is the function to reach. That takes hundreds of steps, since many points must move
-/// together to change g at large distances. Here the misses of g at all distances are removed at
-/// once. With e(x) the misses and J their Jacobian, x ← x − Jᵀ (J Jᵀ + μ)⁻¹ e is the shortest
-/// displacement that removes e to first order (Levenberg–Marquardt). J Jᵀ has only some sixty rows,
-/// one per distance, and each is a sum over all points, so some of the points are enough to
-/// estimate it. Ten steps suffice for any n, and the time of each is linear in n.
+/// where g* is the function to reach. Their method takes hundreds of steps, since many points must
+/// move together to change g at large distances. Here the misses of g at all distances are removed
+/// at once. Let e(x) be the misses at the positions x, and J their Jacobian. Then x ← x − Jᵀ (J Jᵀ
+/// + μ)⁻¹ e is the shortest displacement that removes e to first order (Levenberg–Marquardt, with
+/// the damping μ). J Jᵀ has only some sixty rows, one per distance, and each is a sum over all
+/// points, so some of the points are enough to estimate it. Ten steps suffice for any n, and the
+/// time of each is linear in n.
 ///
-/// Pairs determine g, and so the spectrum, except for waves longer than the distance of the pairs.
-/// Where the spectrum is given, the power of those waves is controlled in the same way (the longest
-/// 256 of them).
+/// Pairs determine g, and so the spectrum, except for waves longer than the controlled distances of
+/// pairs. If the spectrum is known, the power of these waves is controlled in the same way (the
+/// longest 256 of them).
 ///
 /// Distances are those of the torus in every window. They are controlled up to 6 spacings, or half
 /// the shorter side of the window if that is less; a window narrower than a spacing gets uniform
@@ -48,10 +49,10 @@ use rand::{Rng, RngExt};
 /// and Deussen (2013), <https://doi.org/10.1145/2487228.2487233>.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shaped {
-    /// Pair correlation function that the points are to have.
+    /// Pair correlation function that the points are to get.
     pub curve: TargetCurve,
-    /// Nearest-neighbour distances that the points are to have, as g alone does not determine them;
-    /// `None` leaves them free.
+    /// Nearest-neighbour distances that the points are to get, or `None` to leave them free. The
+    /// pair correlation function alone does not determine them.
     pub nearest: Option<NearestTarget>,
 }
 
@@ -84,8 +85,8 @@ impl Sampler for Shaped {
         let filled = (n as f64 * bounds.area() / polygon.area()).round() as usize;
         let frame = Frame::new(filled, &Window::Rectangle(bounds))?;
         let points = self.moved(filled, &frame, rng);
-        // The pattern of a torus is the same process wherever the polygon lies on it, so one
-        // pattern serves all tries.
+        // All positions on a torus are alike, so one pattern, turned round the torus at random,
+        // serves all tries.
         nearest_in_number(n, CUTS, || {
             let turn = [rng.random::<f64>() * frame.width, rng.random::<f64>() * frame.height];
             let turned = points.iter().map(|p| {
@@ -99,10 +100,11 @@ impl Sampler for Shaped {
     }
 }
 
-/// Largest number of positions on the pattern at which the polygon is tried.
+/// Largest number of random positions on the pattern at which a polygon is tried, to bring the
+/// number of points in it near n.
 const CUTS: usize = 64;
 /// Smallest width of a window, in spacings, for which points are moved; in narrower windows they
-/// stay uniform.
+/// stay uniform, as distances are controlled only up to half the width.
 const NARROWEST: f64 = 1.;
 
 impl Shaped {

@@ -5,14 +5,18 @@
 ///
 /// Source: Verlet (1967), <https://doi.org/10.1103/PhysRev.159.98>.
 pub(super) struct NeighbourList {
-    /// Index in `partners` at which the partners of each point start; the last entry is the end of
+    /// Index in `partners` at which the partners of each point start; one more entry is the end of
     /// `partners`.
     starts: Vec<usize>,
+    /// Indices of the second points of all pairs.
     partners: Vec<u32>,
     /// Positions of the points when the list was made.
     made_at: Vec<[f64; 2]>,
+    /// Sides of the torus.
     sides: [f64; 2],
+    /// Distance below which pairs are visited.
     reach: f64,
+    /// Distance beyond `reach` up to which pairs are listed too.
     margin: f64,
 }
 
@@ -56,8 +60,9 @@ impl NeighbourList {
         [wrap(q[0] - p[0], self.sides[0]), wrap(q[1] - p[1], self.sides[1])]
     }
 
-    /// Calls `pair(i, j, dx, dy, d²)` once for every pair nearer than `reach`, with (dx, dy) the
-    /// vector from point i to point j.
+    /// Calls `pair(i, j, dx, dy, d²)` once for every pair nearer than `reach`.
+    ///
+    /// (dx, dy) is the vector from point i to point j, and d its length.
     #[inline]
     pub(super) fn visit(&self, points: &[[f64; 2]], mut pair: impl FnMut(usize, usize, f64, f64, f64)) {
         let reach2 = self.reach * self.reach;
@@ -73,8 +78,10 @@ impl NeighbourList {
         }
     }
 
+    /// Makes the list for `points`, with a grid of cells.
     fn make(&mut self, points: &[[f64; 2]]) {
         let far = self.reach + self.margin;
+        // at most 4096 cells along a side, which bounds the memory
         let along = |side: f64| ((2. * side / far) as usize).clamp(1, 4096);
         let (columns, rows) = (along(self.sides[0]), along(self.sides[1]));
         let cell = |v: f64, side: f64, cells: usize| ((v / side * cells as f64) as usize).min(cells - 1);

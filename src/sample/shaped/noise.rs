@@ -4,7 +4,8 @@ use crate::sample::{Frame, SampleError, Sampler, Watch};
 use rand::Rng;
 use std::sync::LazyLock;
 
-/// Noise with a known pair correlation function and spectrum: [`Shaped`] under a name of its own.
+/// Noise with a known pair correlation function and spectrum, made by [`Shaped`] but listed under
+/// its own name.
 #[derive(Debug)]
 pub struct Noise {
     /// Name that users type, see [`Sampler::name`].

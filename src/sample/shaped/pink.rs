@@ -4,8 +4,9 @@ use std::sync::LazyLock;
 /// Pair correlation function g at .15, .244, …, 2.406 spacings, smoothed by a Gaussian of standard
 /// deviation .1.
 ///
-/// It is the mean over patterns of 512 and of 1024 points, made by a reference program, of the pink
-/// noise of Ahmed et al. (2015, “AA patterns for point sets with controlled spectral properties”).
+/// It is the mean over patterns of 512 and of 1024 points that a reference program made. They are
+/// the pink noise of Ahmed et al. (2015, “AA patterns for point sets with controlled spectral
+/// properties”).
 const PCF: [f64; 25] = [
     2.475, 2.333, 2.208, 2.069, 1.916, 1.757, 1.592, 1.421, 1.275, 1.165, 1.077, 1.016, 0.979, 0.956, 0.949,
     0.956, 0.977, 0.997, 1.008, 1.013, 1.017, 1.016, 1.009, 0.999, 0.987,
@@ -24,6 +25,7 @@ const SPECTRUM: [f64; 17] =
 /// and 1.50) and that of the mean over many patterns.
 const NEAREST: NearestTarget = NearestTarget { mean: 0.376, sd: 0.2615 };
 
+/// Sampler with the curves of pink noise, created on first use.
 static SHAPED: LazyLock<Shaped> =
     LazyLock::new(|| Shaped { curve: TargetCurve::from_tables(&PCF, &SPECTRUM), nearest: Some(NEAREST) });
 

@@ -1,8 +1,7 @@
-//! Cubic B-spline on nodes 1 apart: its values at the nodes sum to 1, its standard deviation is
-//! 1/√3.
+//! Cubic B-spline on nodes 1 apart. The values of a spline at the nodes sum to 1, and its standard
+//! deviation is 1/√3.
 
-/// Returns the values at the nodes −1, 0, 1 and 2 of a spline centred `u` beyond node 0, with 0 ≤ u
-/// < 1.
+/// Returns the values, at the nodes −1, 0, 1 and 2, of a spline centred at `u`, where 0 ≤ u < 1.
 #[inline]
 pub(super) fn weights(u: f64) -> [f64; 4] {
     let v = 1. - u;

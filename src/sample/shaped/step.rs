@@ -4,7 +4,7 @@ use crate::sample::{Configure, Frame, SampleError, Sampler, Settable, Setting, W
 use rand::Rng;
 use std::f64::consts::FRAC_2_SQRT_PI;
 
-/// Highest possible frequency of the step, in √n: 1/√π, at which g(0) = 1 − π f² is 0.
+/// Highest possible frequency of the step, in √n: 1/√π, with which g(0) = 1 − π f² is 0.
 ///
 /// A higher frequency would need a negative g (Heck et al. 2013, §4).
 const HIGHEST: f64 = 0.5 * FRAC_2_SQRT_PI;
@@ -25,6 +25,7 @@ impl Step {
     /// Setting with the step at the highest possible frequency, 1/√π √n.
     pub const HIGHEST: Self = Self { frequency: HIGHEST };
 
+    /// Returns the sampler that moves points until the spectrum has the step.
     fn shaped(&self) -> Shaped {
         Shaped { curve: TargetCurve::below(self.frequency), nearest: None }
     }

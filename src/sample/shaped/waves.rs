@@ -6,10 +6,11 @@ use std::f64::consts::TAU;
 
 /// Highest frequency of a controlled wave, in cycles per hexagonal spacing.
 ///
-/// Waves up to this frequency are longer than the controlled distances of pairs, so g does not
-/// determine them; it determines all shorter waves.
+/// The numbers of pairs by distance determine all shorter waves. Waves up to this frequency are
+/// about as long as the controlled distances or longer, so their power is controlled by itself.
 const HIGHEST: f64 = 0.25;
-/// Largest number of waves that are controlled, since the number of long waves grows with n.
+/// Largest number of waves that are controlled, as the number of long waves grows with n, and with
+/// it the time.
 ///
 /// The longest waves are taken, annulus by annulus; the first annulus is taken in any case.
 const MOST: usize = 256;
@@ -17,19 +18,24 @@ const MOST: usize = 256;
 /// Long waves on a torus, grouped in annuli of similar frequency, with the power wanted for each
 /// annulus.
 ///
-/// The hexagonal spacing is 1. With A the area of the torus, annulus k holds the waves whose
-/// frequency, times √A, rounds to k.
+/// Lengths are in hexagonal spacings. Annulus k contains the waves whose frequency, times the
+/// square root of the torus's area, rounds to k.
 pub(super) struct LongWaves {
-    /// Integer wave numbers (kx, ky), annulus by annulus. Of two opposite waves, only one is
-    /// listed.
+    /// Integer wave numbers (kx, ky), annulus by annulus. Two opposite waves have the same power,
+    /// so only one of them is listed.
     waves: Vec<(usize, isize)>,
     annuli: Vec<Annulus>,
+    /// Sides of the torus.
     sides: [f64; 2],
+    /// Largest |kx| and largest |ky| in `waves`.
     highest: [usize; 2],
 }
 
+/// Waves of similar frequency.
 struct Annulus {
+    /// Indices of the waves in [`LongWaves::waves`].
     waves: std::ops::Range<usize>,
+    /// Mean power that the waves are to get.
     power: f64,
 }
 
@@ -68,16 +74,18 @@ impl LongWaves {
         long
     }
 
+    /// Returns the number of annuli.
     pub(super) fn annuli(&self) -> usize {
         self.annuli.len()
     }
 
-    /// Returns the power that annulus `a` is to have.
+    /// Returns the mean power that the waves of annulus `a` are to get.
     pub(super) fn goal(&self, a: usize) -> f64 {
         self.annuli[a].power
     }
 
-    /// Computes the mean power |Σ exp(−2πi k·x)|²/n of each annulus.
+    /// Computes the mean power |Σ exp(−2πi k·x)|²/n of each annulus, with the sum over the n
+    /// points.
     pub(super) fn power(&self, points: &[[f64; 2]]) -> Vec<f64> {
         let sums = self.sums(points);
         let n = points.len() as f64;
@@ -126,14 +134,18 @@ impl LongWaves {
     }
 }
 
-/// Values of exp(−2πi kx x/w) and exp(−2πi ky y/h) at one point, for all kx and ky ≥ 0 in use.
+/// Values of exp(−2πi kx x/w) and exp(−2πi ky y/h) at one point of a torus of w × h, for all kx and
+/// ky ≥ 0 in use.
 #[derive(Default)]
 struct Turns {
+    /// Values for kx = 0, 1, ….
     across: Vec<Complex64>,
+    /// Values for ky = 0, 1, ….
     down: Vec<Complex64>,
 }
 
 impl Turns {
+    /// Computes the values at point `p`.
     fn set(&mut self, waves: &LongWaves, p: [f64; 2]) {
         let powers = |out: &mut Vec<Complex64>, axis: usize| {
             let turn = Complex64::cis(-TAU * p[axis] / waves.sides[axis]);
@@ -148,6 +160,7 @@ impl Turns {
     }
 
     #[inline]
+    /// Returns exp(−2πi k·x) of the wave (kx, ky) at the point.
     fn at(&self, kx: usize, ky: isize) -> Complex64 {
         let down = self.down[ky.unsigned_abs()];
         self.across[kx] * if ky < 0 { down.conj() } else { down }
