@@ -37,7 +37,7 @@ pub const TREND_LEVEL: f64 = 0.01;
 /// varies by 2 %.
 pub const TREND_TOLERANCE: f64 = 0.1;
 
-/// Smallest number of points for which a trend is tested; for fewer points, [`trend`](fn@trend)
+/// Smallest number of points for which a trend is tested; for fewer points, [`trend()`]
 /// returns no values.
 const FEWEST: usize = 20;
 /// Numbers of half-periods across the window of the noise waves that vary along x only, and
