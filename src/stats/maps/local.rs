@@ -30,8 +30,8 @@ pub enum LocalFlag {
     /// The local window extends beyond the window of the mosaic, so the cells in it lie mainly on
     /// one side of the cone.
     Edge,
-    /// There is no local window: the mosaic has fewer bound cells than requested or none at all, or
-    /// the local window would be wider than the torus.
+    /// Missing local window: the mosaic has fewer bound cells than requested or none at all, or the
+    /// local window would be wider than the torus.
     Few,
 }
 
@@ -93,7 +93,7 @@ struct Member {
     area: f64,
     inter_cell: f64,
     nearest: f64,
-    /// Modulus of ψ6.
+    /// Modulus of ψ6, the bond-orientational order.
     psi6: f64,
     /// `true` if the cell has six sides.
     six: bool,
