@@ -1,5 +1,5 @@
-/// Returns the median: the middle value, or the mean of the two middle values; `None` if there are
-/// no values.
+/// Returns the median: the middle value, or the mean of the two middle values. Returns `None` if
+/// there are no values.
 ///
 /// The values are sorted in place.
 pub(crate) fn median(values: &mut [f64]) -> Option<f64> {

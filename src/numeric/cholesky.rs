@@ -1,4 +1,5 @@
-//! Cholesky decomposition of a symmetric matrix into L Lᵀ. Rows may depend linearly on each other.
+//! Cholesky decomposition of a symmetric matrix into L Lᵀ, which also works if rows depend linearly
+//! on each other.
 
 /// Lower triangular factor L of a symmetric matrix L Lᵀ.
 ///
@@ -9,15 +10,15 @@ pub(crate) struct Cholesky {
     n: usize,
     /// Entries of L, row by row, with zeros above the diagonal.
     lower: Vec<f64>,
-    /// `true` for every row that is linearly independent of the rows before it.
+    /// One flag per row: `true` if the row is linearly independent of the rows before it.
     own: Vec<bool>,
 }
 
 impl Cholesky {
-    /// Decomposes the n × n matrix whose entry in row i and column k is `matrix(i, k)`.
+    /// Decomposes the `n` × `n` matrix whose entry in row i and column k is `matrix(i, k)`.
     ///
-    /// A row counts as dependent on earlier rows if, after their parts are subtracted, at most the
-    /// fraction `least` (0–1) of its diagonal entry is left.
+    /// Earlier rows are projected out of each row in turn. A row counts as dependent on them if at
+    /// most the fraction `least` (0–1) of its diagonal entry is left.
     pub(crate) fn new(n: usize, least: f64, matrix: impl Fn(usize, usize) -> f64) -> Self {
         let mut lower = vec![0.; n * n];
         let mut own = vec![true; n];
@@ -33,6 +34,7 @@ impl Cholesky {
             let dot: f64 = row[..i].iter().map(|x| x * x).sum();
             let rest = matrix(i, i) - dot;
             own[i] = rest > least * matrix(i, i);
+            // The entry 1 for a dependent row keeps the divisions by diagonal entries defined.
             row[i] = if own[i] { rest.sqrt() } else { 1. };
         }
         Self { n, lower, own }

@@ -2,8 +2,9 @@ use super::cholesky::Cholesky;
 
 /// Solves (A + μI) y = b for y by Cholesky decomposition; A is symmetric and positive semidefinite.
 ///
-/// `a` holds A row by row. The damping μ is `damping` times the mean of the diagonal of A. Returns
-/// `None` if a pivot of the decomposition is not positive and finite.
+/// `a` contains A row by row. The damping μ is `damping` times the mean of the diagonal of A. It
+/// keeps equations solvable that depend almost linearly on each other. Returns `None` if a pivot of
+/// the decomposition is not positive and finite.
 pub(crate) fn solve(a: &[f64], damping: f64, b: &[f64]) -> Option<Vec<f64>> {
     let n = b.len();
     let trace: f64 = (0..n).map(|i| a[i * n + i]).sum();

@@ -17,8 +17,8 @@ pub(crate) fn linear_quantile(rising: &[f64], share: f64) -> Option<f64> {
 /// Returns the smallest value v such that at least the fraction `share` (0–1) of all values is at
 /// most v: type 1 of Hyndman and Fan (1996).
 ///
-/// This is the inverse of the empirical distribution function. `rising` must be in rising order;
-/// the result is NaN if it is empty.
+/// This is the inverse of the empirical distribution function. `rising` must be in rising order.
+/// The result is NaN if `rising` is empty.
 pub(crate) fn stepped_quantile(rising: &[f64], share: f64) -> f64 {
     let index = (share * rising.len() as f64).ceil() as usize;
     rising.get(index.saturating_sub(1)).copied().unwrap_or(f64::NAN)
@@ -26,7 +26,7 @@ pub(crate) fn stepped_quantile(rising: &[f64], share: f64) -> f64 {
 
 /// Returns the value whose index is nearest to `share` (0–1) times the highest index.
 ///
-/// `rising` must be in rising order; the result is `None` if it is empty.
+/// `rising` must be in rising order. Returns `None` if `rising` is empty.
 pub(crate) fn nearest_rank(rising: &[f64], share: f64) -> Option<f64> {
     let highest = rising.len().checked_sub(1)?;
     rising.get((highest as f64 * share).round() as usize).copied()

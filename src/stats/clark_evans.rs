@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Number of distances at which the distribution G of nearest-neighbour distances is evaluated for
-/// [`ClarkEvans::cdf`], as in spatstat.
+/// [`ClarkEvans::cdf`], as in spatstat, so that values can be compared digit by digit.
 const ROWS: usize = 513;
 
 /// Aggregation index of Clark & Evans (1954), <https://doi.org/10.2307/1931034>.
@@ -19,8 +19,8 @@ pub struct ClarkEvans {
     /// Index of all points without correction for the border. It is too large, because neighbours
     /// beyond the border are not seen.
     pub naive: Option<f64>,
-    /// Index of Donnelly (1978), who corrects the expected mean for the border: 1/(2√λ) + (.0514 +
-    /// .0412/√n) · perimeter/n for n points.
+    /// Index of Donnelly (1978): the mean nearest-neighbour distance divided by an expected mean
+    /// that is corrected for the border, 1/(2√λ) + (.0514 + .0412/√n) · perimeter/n for n points.
     ///
     /// Donnelly found the correction by simulation in rectangles. In polygons, for which spatstat
     /// gives no value, the correction is an approximation. `None` on a torus.
@@ -28,9 +28,9 @@ pub struct ClarkEvans {
     /// Index from the mean of the Kaplan–Meier estimate of G, the distribution of nearest-neighbour
     /// distances.
     ///
-    /// G is evaluated at 513 distances from 0 to √(ln 10⁵/(πλ)). Its rise between two distances
-    /// counts at the smaller of the two. Also `None` if no point is nearer to its nearest neighbour
-    /// than to the border.
+    /// G is evaluated at 513 distances from 0 to √(ln 10⁵/(πλ)), where G of independent points is 1
+    /// − 10⁻⁵. Its rise between two distances counts at the smaller of the two, as in spatstat.
+    /// Also `None` if no point is at least as far from the border as from its nearest neighbour.
     pub cdf: Option<f64>,
 }
 

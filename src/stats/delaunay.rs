@@ -4,7 +4,8 @@
 use crate::geometry::{Point, Rectangle};
 use spade::{DelaunayTriangulation, Point2};
 
-/// Delaunay triangulation in scaled coordinates: the longer side of the window has length 1.
+/// Delaunay triangulation in scaled coordinates, in which the window begins at (0, 0) and its
+/// longer side has length 1.
 pub(super) struct Delaunay {
     /// Index of the point at each vertex, and its position in the scaled coordinates.
     pub(super) sites: Vec<(usize, [f64; 2])>,
@@ -17,8 +18,9 @@ pub(super) struct Delaunay {
 /// Returns `None` if the library that triangulates refuses the points.
 pub(super) fn delaunay(points: &[Point], bounds: &Rectangle) -> Option<Delaunay> {
     let side = bounds.width().max(bounds.height());
-    // The triangulation accepts a limited range of numbers only. So the window is scaled into the
-    // unit square, and numbers nearer to 0 than 10⁻³⁰ become 0.
+    // The library accepts only 0 and numbers whose absolute value is neither too small nor too
+    // large. So the window is scaled into the unit square, numbers nearer to 0 than 10⁻³⁰ become 0,
+    // and points beyond 10³⁰ are left out.
     let unit = |v: f64, low: f64| {
         let t = (v - low) / side;
         if t.abs() < 1e-30 { 0. } else { t }

@@ -4,7 +4,8 @@
 //! 1. Count the pairs of points by distance, in annuli of equal width.
 //! 2. Divide each count by the area of its annuli that lies in the window.
 //! 3. Sum the points that are missing, compared with the mean density, up to the first annulus that
-//!    exceeds it. The effective radius is the radius of an empty disk that lacks as many points.
+//!    is denser than the mean. The effective radius is the radius of an empty disk that lacks as
+//!    many points.
 
 use super::StatsError;
 use super::edge_weight::{EdgeWeights, MAX_WEIGHT};
@@ -16,7 +17,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Requests for more annuli than this are refused, because each would hold almost no points.
+/// Largest number of annuli; requests for more are refused, because each annulus would contain
+/// almost no points.
 const MOST_BINS: f64 = 100_000.;
 /// Smallest number of points for which the rows of the search grid are processed in parallel.
 const PARALLEL_FROM: usize = 8192;
@@ -25,13 +27,13 @@ const PARALLEL_FROM: usize = 8192;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BinWidth {
-    /// Width w with which Rodieck's reliability factor k = D·w·√(πA) has the given value, .1–1000.
+    /// Width w that makes Rodieck's reliability factor k = D·w·√(πA) equal to this number, .1–1000.
     /// D is the mean density and A the area of the window.
     ///
-    /// For independent points, the first annuli around all points together hold k² other points on
-    /// average. The program Metricks uses k = 4.
+    /// For independent points, the first annuli around all points together contain k² other points
+    /// on average. The program Metricks uses k = 4.
     Reliability(f64),
-    /// Width as given, in the unit of the coordinates; it must be positive.
+    /// Width set directly, in the unit of the coordinates; it must be positive.
     Length(f64),
 }
 
@@ -39,7 +41,8 @@ pub enum BinWidth {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DensityRecoveryOptions {
-    /// Width of the annuli. The default, reliability 4, is 2.1/√n hexagonal spacings for n points.
+    /// Width of the annuli. The default is a reliability factor of 4, as in the program Metricks,
+    /// which gives a width of 2.1/√n hexagonal spacings for n points.
     pub bin_width: BinWidth,
     /// Largest distance of the profile, in hexagonal spacings of the pattern: .5–50, default 4.
     pub r_max: f64,
@@ -55,7 +58,7 @@ impl DensityRecoveryOptions {
     /// Checks that every option is in its range.
     ///
     /// # Errors
-    /// Returns [`StatsError::Option`] with the permitted range if an option is outside it.
+    /// Fails if an option is out of its range; the error names the permitted range.
     pub fn validate(&self) -> Result<(), StatsError> {
         let check = |ok: bool, option, value, range| {
             if ok { Ok(()) } else { Err(StatsError::Option { option, value, range }) }
@@ -83,7 +86,7 @@ impl DensityRecoveryOptions {
 /// Lengths are in the unit of the coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DensityRecovery {
-    /// Width w of the annuli: annulus i holds distances from iw up to but excluding (i + 1)w.
+    /// Width w of the annuli: annulus i contains distances from iw up to but excluding (i + 1)w.
     pub bin_width: f64,
     /// Radius in the middle of each annulus.
     pub r: Vec<f64>,
@@ -94,7 +97,7 @@ pub struct DensityRecovery {
     /// large distances.
     pub mean_density: f64,
     /// Effective radius √(V/(πD)): the radius of an empty disk that lacks as many points V as the
-    /// dip of the profile.
+    /// dip of the profile near distance 0.
     ///
     /// V is the number of points that are missing, compared with the mean density D, in all annuli
     /// before the first one that exceeds D. `None` if no annulus exceeds D.
@@ -114,21 +117,21 @@ pub struct DensityRecovery {
 ///
 /// For each distance, the number of other points in the annuli around all points is divided by the
 /// area of these annuli that lies in the window. This area is the full area of the annuli times the
-/// isotropised set covariance of the window at the middle radius r. In a w × h rectangle, the
-/// covariance is Rodieck's equation, 1 − 2r(w+h)/(πwh) + r²/(πwh); in a polygon, it is computed
-/// from the outline; on a torus, it is 1.
+/// isotropised set covariance of the window at the middle radius r: the share of the window that
+/// overlaps with a copy shifted by r, averaged over directions. In a w × h rectangle, the
+/// covariance is given by Rodieck's equation, 1 − 2r(w+h)/(πwh) + r²/(πwh); in a polygon, it is
+/// computed from the outline; on a torus, it is 1.
 ///
-/// The profile ends at `r_max` or earlier: at the shorter side of a rectangle or torus, beyond
-/// which the equation does not hold, and in a polygon, where the covariance falls to .01, so that
-/// hardly any pair fits. With few points, so few annuli may remain that none exceeds the mean
-/// density; then there is no effective radius. Points that coincide are at distance 0, in the first
-/// annulus.
+/// The profile ends at `r_max` or earlier: in a rectangle or torus, at its shorter side, beyond
+/// which the equation is not valid; in a polygon, where the covariance falls to .01, so that hardly
+/// any pair fits. With few points, so few annuli may remain that none exceeds the mean density;
+/// then there is no effective radius. Points that coincide are at distance 0, in the first annulus.
 ///
 /// The time is linear in n, since pairs are counted up to the end of the profile only.
 ///
 /// # Errors
-/// Returns [`StatsError`] if an option is out of its range or asks for more than 10⁵ annuli, if
-/// there are fewer than two points, or if a point is not inside the window.
+/// Fails if an option is out of its range or asks for more than 10⁵ annuli, if there are fewer than
+/// two points, or if a point is not inside the window.
 pub fn density_recovery(
     points: &[Point],
     window: &Window,
@@ -163,7 +166,7 @@ pub fn density_recovery(
         .take_while(|&r| r <= weights.covariance_reach() && covariance(r) > 1. / MAX_WEIGHT)
         .collect();
 
-    // Every pair was visited once but counts from both of its ends, hence the factor 2.
+    // Every pair was visited once but counts from both of its ends, hence the factor 2 below.
     let counts = counts(points, window, width, r.len());
     let annulus = |bin: usize| PI * width * width * (2 * bin + 1) as f64;
     let density: Vec<f64> = r

@@ -1,7 +1,8 @@
 //! Edge corrections for pairs of points: weights that compensate for pairs hidden beyond the border
 //! of the window.
 //!
-//! - Set covariance: one factor per distance, averaged over directions.
+//! - Set covariance: one factor per distance r, the share of the window that overlaps with a copy
+//!   shifted by r, averaged over directions.
 //! - Translation: one weight per pair, from the vector between its points (Ohser & Stoyan 1981,
 //!   <https://doi.org/10.1002/bimj.4710230602>).
 //! - Isotropic: one weight per pair, from the circles around both points (Ripley 1976,
@@ -35,10 +36,10 @@ impl<'a> EdgeWeights<'a> {
         }
     }
 
-    /// Returns the set covariance at distance `r`, averaged over directions, as a share of the area
-    /// of the window.
+    /// Returns the set covariance at distance `r`: the share of the window that overlaps with a
+    /// copy shifted by `r`, averaged over all directions of the shift.
     ///
-    /// For a rectangle this is 1 − 2r(w+h)/(πwh) + r²/(πwh).
+    /// For a w × h rectangle this is 1 − 2r(w+h)/(πwh) + r²/(πwh).
     pub(super) fn covariance(&self, r: f64) -> f64 {
         match self.window {
             Window::Polygon(polygon) => polygon.covariance().isotropised(r).max(1. / MAX_WEIGHT),
@@ -49,8 +50,8 @@ impl<'a> EdgeWeights<'a> {
         }
     }
 
-    /// Returns the area of the window divided by the area of its overlap with a copy of itself that
-    /// is shifted by (dx, dy).
+    /// Returns the translation weight: the area of the window divided by the area of its overlap
+    /// with a copy of itself that is shifted by (dx, dy).
     #[inline]
     pub(super) fn translation(&self, dx: f64, dy: f64) -> f64 {
         let seen = match self.window {
@@ -63,8 +64,9 @@ impl<'a> EdgeWeights<'a> {
         1. / seen.max(1. / MAX_WEIGHT)
     }
 
-    /// Returns the inverse of the share of a circle of radius `d` that lies in the window, averaged
-    /// over the circles around both points.
+    /// Returns the isotropic weight of the pair of points `a` and `b` at distance `d`: the inverse
+    /// of the share of a circle of radius `d` that lies in the window, averaged over the circles
+    /// around both points.
     pub(super) fn isotropic(&self, a: Point, b: Point, d: f64) -> f64 {
         let weight = |p: Point| 1. / self.share_of_circle(p, d).max(1. / MAX_WEIGHT);
         0.5 * (weight(a) + weight(b))
@@ -85,8 +87,9 @@ impl<'a> EdgeWeights<'a> {
 
 /// Returns the share of the circle of radius `d` around a point that lies in a rectangle.
 ///
-/// `sides` are the point's distances to the four sides, in order around the rectangle. Each side
-/// nearer than `d` hides an arc, and the arcs of adjacent sides may overlap.
+/// `sides` are the point's distances to the four sides, in order around the rectangle. A side
+/// nearer than `d` hides an arc of the circle. The arcs of adjacent sides may overlap; the overlap
+/// is then counted once.
 fn share_of_circle(d: f64, sides: [f64; 4]) -> f64 {
     let half = sides.map(|side| if side < d { (side.max(0.) / d).acos() } else { 0. });
     let hidden: f64 = half.iter().map(|a| 2. * a).sum();

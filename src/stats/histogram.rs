@@ -29,6 +29,8 @@ impl Histogram {
         };
         let range = high - low;
         if !(range > f64::EPSILON * high.abs().max(low.abs()) && range.is_finite()) {
+            // If all values are equal, the bin is 1 % of the value wide, because a bin needs a
+            // width.
             let half = (low.abs() * 0.005).max(f64::MIN_POSITIVE);
             return Self { edges: vec![low - half, low + half], counts: vec![sorted.len()] };
         }

@@ -2,7 +2,8 @@
 //! function and K, and the pair correlation function of locally scaled distances.
 //!
 //! 1. Estimate the intensity λ at every point.
-//! 2. Visit all pairs up to the largest distance that matters, each with its translation weight.
+//! 2. Visit all pairs up to the largest distance from which the kernel extends to a bin, each with
+//!    its translation weight.
 //! 3. For g and K divide the weight by λ_i λ_j; for the locally scaled g divide the distance by the
 //!    local spacing instead.
 
@@ -17,7 +18,8 @@ use crate::mosaic::hexagonal_spacing;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// Smallest number of points that is accepted; fewer points do not determine an intensity.
+/// Smallest number of points that is accepted; fewer points do not determine how the intensity
+/// varies.
 const FEWEST: usize = 20;
 
 /// Pair correlation and K functions of a pattern whose density varies across the window.
@@ -29,8 +31,9 @@ pub struct Inhomogeneous {
     pub g: Vec<f64>,
     /// Inhomogeneous K, in squared units of the coordinates: πr² for independent points.
     pub k: Vec<f64>,
-    /// Pair correlation function of distances that are measured in *local* spacings. It suits
-    /// mosaics whose spacing follows their density.
+    /// Pair correlation function of locally scaled distances: each distance is divided by the
+    /// hexagonal spacing at the density around the pair. It suits mosaics whose spacing follows
+    /// their density.
     pub g_scaled: Vec<f64>,
     /// Hexagonal spacing at the mean density, in units of the coordinates.
     pub spacing: f64,
@@ -52,7 +55,7 @@ impl Inhomogeneous {
 ///
 /// Let λ_i be the intensity at point i, estimated from the other points with a Gaussian kernel and
 /// edge correction. The kernel's standard deviation is `bandwidth`, in units of the coordinates; it
-/// must be at least one hexagonal spacing. The default is an eighth of the window's shorter side,
+/// must be at least one hexagonal spacing. `None` gives an eighth of the window's shorter side, but
 /// at least 2.5 spacings. The intensity is scaled so that Σ 1/λ_i is the area A of the window. Then
 ///
 /// g(r) = A Σ_{i≠j} k_σ(r − |x_i − x_j|) w_ij/(λ_i λ_j) / ((A² − Σ 1/λ_i²) 2πr),
@@ -67,8 +70,8 @@ impl Inhomogeneous {
 /// scaled processes: Hahn, Jensen, van Lieshout & Nielsen 2003).
 ///
 /// # Errors
-/// Returns [`StatsError`] if an option is out of range, there are fewer than 20 points, or a point
-/// is not inside the window.
+/// Fails if an option is out of range, there are fewer than 20 points, or a point is not inside the
+/// window.
 pub fn inhomogeneous(
     points: &[Point],
     window: &Window,
@@ -94,9 +97,11 @@ pub fn inhomogeneous(
     // Local spacings may be wider than the mean spacing, so the search must extend farther.
     let mean = n as f64 / area;
     let widest = (mean / least).sqrt().max(1.);
+    // Largest distance of a pair that is visited.
     let reach = spacing * widest * (options.r_max + options.kernel.reach() * options.bandwidth);
     let bounds = window.bounds();
-    // On a torus each pair counts once, along the shortest way.
+    // On a torus, distances up to half the shorter side are used, so that each pair counts once,
+    // along the shortest way.
     let reach = if window.is_torus() { reach.min(0.5 * bounds.width().min(bounds.height())) } else { reach };
     let grid = PairGrid::new(points, window, window.is_torus(), reach);
     let intensity = grid.sorted(&intensity);

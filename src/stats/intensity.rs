@@ -1,10 +1,10 @@
-//! Kernel estimate of the intensity (density that varies from place to place) at the points of a
-//! pattern.
+//! Kernel estimate of the intensity, which is a density that varies with position, at the points of
+//! a pattern.
 //!
 //! 1. Spread each point linearly over the four nearest nodes of a grid with six nodes per
 //!    bandwidth.
-//! 2. Smooth the grid with a Gaussian, and likewise the share of each node's cell that lies in the
-//!    window.
+//! 2. Smooth the grid with a Gaussian. Smooth likewise the share of each node's cell that lies in
+//!    the window.
 //! 3. Read both at each point, subtract the point's own contribution and divide by the smoothed
 //!    share (edge correction of Diggle 1985, <https://doi.org/10.2307/2347366>).
 //! 4. Raise values below 1 % of the mean density to 1 %, then scale all values so that Σ 1/λ is the
@@ -15,16 +15,19 @@ use crate::mosaic::hexagonal_spacing;
 
 /// Default bandwidth as a share of the window's shorter side, as in spatstat.
 const SHARE_OF_SIDE: f64 = 1. / 8.;
-/// Smallest default bandwidth, in hexagonal spacings; a smaller one would follow single points.
+/// Smallest default bandwidth, in hexagonal spacings. A narrower kernel would follow single points.
 const LEAST_SPACINGS: f64 = 2.5;
-/// Number of grid nodes per bandwidth.
+/// Number of grid nodes per bandwidth, along either axis. With it, the error of the estimated
+/// intensity is below 1 %.
 const NODES: f64 = 6.;
-/// Distance at which the kernel is cut off, in bandwidths.
+/// Distance at which the kernel is cut off, in bandwidths. There it has fallen to .03 % of its
+/// peak.
 const REACH: f64 = 4.;
 /// Number of horizontal lines per grid cell along which the share of the cell that lies in the
 /// window is integrated.
 const ROWS: usize = 8;
-/// Lower bound on the intensity, as a share of the mean density.
+/// Lower bound on the intensity, as a share of the mean density. Statistics divide by the
+/// intensity, so a value near 0 would let a single point dominate them.
 const LEAST_SHARE: f64 = 0.01;
 
 /// Returns the default standard deviation of the kernel that estimates the intensity of `n` points,
@@ -39,10 +42,11 @@ pub fn default_intensity_bandwidth(n: usize, window: &Window) -> f64 {
 
 /// Estimates the intensity λ(x) at every point from the *other* points, in points per squared unit.
 ///
-/// The kernel is a Gaussian of standard deviation `bandwidth`. It is divided by the share of it
-/// that lies in the window (Diggle 1985). Leaving out the point itself follows Baddeley, Møller &
-/// Waagepetersen (2000), <https://doi.org/10.1111/1467-9574.00144>. Values below 1 % of the mean
-/// density are raised to 1 %. All values are then scaled so that Σ 1/λ is the area of the window.
+/// The kernel is a Gaussian of standard deviation `bandwidth`. The sum of kernels at a point is
+/// divided by the share of the kernel around this point that lies in the window (Diggle 1985).
+/// Leaving out the point itself follows Baddeley, Møller & Waagepetersen (2000),
+/// <https://doi.org/10.1111/1467-9574.00144>. Values below 1 % of the mean density are raised to 1
+/// %. All values are then scaled so that Σ 1/λ is the area of the window.
 ///
 /// The sums are taken on a grid of six nodes per bandwidth, in time linear in the number of points;
 /// the error is below 1 %.
@@ -70,32 +74,40 @@ pub(super) fn intensity_at_points(points: &[Point], window: &Window, bandwidth: 
     intensity
 }
 
-/// Returns the contribution of a point to the value read at its own place, along one axis.
+/// Returns the contribution of a point to the smoothed value that is read at its own position,
+/// along one axis.
 ///
 /// The point lies at the fraction `t` of the way between two nodes. It is spread over both nodes,
-/// smoothed, and read from both nodes again.
+/// smoothed with `kernel`, and read from both nodes again.
 fn own_share(kernel: &[f64], t: f64) -> f64 {
     let next = kernel.get(1).copied().unwrap_or_default();
     ((1. - t) * (1. - t) + t * t) * kernel[0] + 2. * t * (1. - t) * next
 }
 
-/// Grid of nodes over the window's bounds, with one more node on every side; on a torus it is
-/// periodic.
+/// Grid of nodes over the window's bounds. It is periodic on a torus; otherwise it has one more
+/// node on every side.
 struct Grid {
+    /// Coordinates x and y of the first node.
     origin: (f64, f64),
+    /// Distance between nodes along x and along y.
     step: (f64, f64),
+    /// Number of nodes per row.
     columns: usize,
+    /// Number of rows of nodes.
     rows: usize,
+    /// `true` if the grid is periodic.
     torus: bool,
-    /// Kernel weights at distances of 0, 1, 2 … nodes along x and along y. Over both directions of
-    /// an axis they sum to 1.
+    /// Kernel weights at distances of 0, 1, 2 … nodes along x and along y. Along each axis, the
+    /// weights of all nodes on both sides sum to 1.
     kernel: (Vec<f64>, Vec<f64>),
 }
 
 /// Position of a point on the grid: the node before it and the fraction of the way to the next,
 /// along each axis.
 struct Place {
+    /// Column of the node to the left of the point, and fraction of the way to the next column.
     x: (usize, f64),
+    /// Row of the node above the point, and fraction of the way to the next row.
     y: (usize, f64),
 }
 
@@ -112,7 +124,7 @@ impl Place {
 }
 
 impl Grid {
-    /// Lays a grid over the window, fine enough for the bandwidth.
+    /// Lays a grid over the window, with at least [`NODES`] nodes per `bandwidth`.
     fn new(window: &Window, bandwidth: f64) -> Self {
         let bounds = window.bounds();
         let torus = window.is_torus();
@@ -191,7 +203,8 @@ impl Grid {
         down
     }
 
-    /// Returns the sum of kernel · value over the nodes around node `at`.
+    /// Returns the sum of kernel · value over the nodes around node `at`, along an axis with
+    /// `nodes` nodes.
     ///
     /// Nodes beyond the ends of a grid that is not periodic count as 0.
     fn weighed(&self, kernel: &[f64], at: usize, nodes: usize, value: impl Fn(usize) -> f64) -> f64 {

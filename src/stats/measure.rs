@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize, Serializer};
 /// Options for measuring a mosaic.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MeasureOptions {
-    /// Divisor for the variance of n values: n − 1 (default), or n as in the tables of Lanaro et
-    /// al. (2020).
+    /// Divisor for the variance of nearest-neighbour distances: n − 1 (default), or n as in the
+    /// tables of Lanaro et al. (2020). Statistics of Voronoi cells always use n − 1.
     pub deviation: Deviation,
     /// Options of the pair correlation function: kernel, distances and edge correction.
     pub pcf: PcfOptions,
@@ -19,12 +19,12 @@ pub struct MeasureOptions {
 
 /// All statistics of one mosaic: single numbers, values per point and curves.
 ///
-/// Lengths are in the mosaic's unit.
+/// Lengths are in the unit of the mosaic.
 #[derive(Clone, Debug, Serialize)]
 pub struct Measures {
     /// Every statistic that is a single number or a few numbers.
     pub summary: Summary,
-    /// Index of, and distance to, the nearest neighbour of every point.
+    /// Nearest neighbour of every point: its index and its distance.
     pub neighbours: NearestNeighbours,
     /// Distance of every point to the border, in the unit of the coordinates; infinite on a torus.
     pub borders: Vec<f64>,

@@ -3,21 +3,22 @@ use crate::geometry::{NearestNeighbours, Point, Window};
 use serde::{Deserialize, Serialize};
 use strum::{Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
 
-/// Returns, for each point, whether it is at least as far from the border as from its nearest
-/// neighbour.
+/// Returns, for each point, whether it is interior: at least as far from the border as from its
+/// nearest neighbour.
 ///
-/// A point for which this holds is called interior: no point beyond the border can be nearer than
-/// the neighbour that was found. On a torus all points are interior.
+/// No point beyond the border can be nearer to an interior point than the neighbour that was found.
+/// On a torus all points are interior.
 pub fn interior(points: &[Point], window: &Window, nearest: &NearestNeighbours) -> Vec<bool> {
     interior_by(&window.border_distances(points), nearest).collect()
 }
 
-/// Returns the same flags as [`interior`], from the distance of every point to the border.
+/// Returns the same flags as [`interior`]; `borders` contains the distance of every point to the
+/// border.
 pub(super) fn interior_by(borders: &[f64], nearest: &NearestNeighbours) -> impl Iterator<Item = bool> {
     borders.iter().zip(&nearest.distances).map(|(b, d)| b >= d)
 }
 
-/// Divisor for the variance of n values.
+/// Divisor for the variance of n values: n − 1 or n.
 #[derive(
     Clone,
     Copy,
@@ -43,8 +44,8 @@ pub enum Deviation {
     /// Divisor n − 1, for the variance of a sample.
     #[default]
     Sample,
-    /// Divisor n, for the variance of a population, as in the tables of Lanaro et al. (2020),
-    /// <https://doi.org/10.1088/2399-6528/ab8064>.
+    /// Divisor n, for the variance of an entire population, as in the tables of Lanaro et al.
+    /// (2020), <https://doi.org/10.1088/2399-6528/ab8064>.
     Population,
 }
 
@@ -68,13 +69,14 @@ pub struct Moments {
     ///
     /// Sources: Wässle & Riemann (1978), <https://doi.org/10.1098/rspb.1978.0026>; Cook (1996).
     ///
-    /// `None` without σ, or if σ is at most 10⁻¹² |μ|. Then all values are equal and σ is only
-    /// rounding error, as in a perfect lattice, whose index is not defined.
+    /// `None` if there is no σ, or if σ is at most 10⁻¹² |μ|. In the latter case all values are
+    /// equal and σ is only rounding error, as in a perfect lattice, whose index is not defined.
     pub ri: Option<f64>,
 }
 
 impl Moments {
-    /// Converts the moments from one divisor to the other.
+    /// Converts the moments from the divisor `from`, with which they were computed, to the divisor
+    /// `to`.
     ///
     /// `sd` and `ri` become `None` if either divisor is not positive.
     pub fn with_divisor(self, from: Deviation, to: Deviation) -> Self {
@@ -89,11 +91,14 @@ impl Moments {
     }
 }
 
-/// Values whose standard deviation is at most this fraction of their mean count as equal: the
-/// difference is only rounding error.
+/// Largest ratio of the standard deviation to the mean for which all values count as equal, because
+/// their differences are only rounding error.
 const ROUNDING: f64 = 1e-12;
 
-/// Computes the moments of `values`; all are `None` if a value is not finite.
+/// Computes the number, mean, standard deviation and mean/SD ratio of `values`.
+///
+/// `n` is always set. The other fields are `None` if there are no values or one of them is not
+/// finite.
 pub fn moments(values: &[f64], deviation: Deviation) -> Moments {
     let n = values.len();
     if n == 0 || values.iter().any(|v| !v.is_finite()) {

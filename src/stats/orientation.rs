@@ -2,8 +2,8 @@
 //! vectors to neighbouring cells, and the orientation of hexagons.
 //!
 //! 1. Take the axis from each interior point to its nearest neighbour, and the mean of exp(2iθ).
-//! 2. Test that mean with Rayleigh's test; points linked through nearest neighbours form one group,
-//!    since they share axes.
+//! 2. Test the mean with Rayleigh's test. Points that are linked through nearest neighbours share
+//!    axes, so they form one group.
 //! 3. Average the second moments of the vectors from bound cells to their neighbours, and convert
 //!    them to an ellipse.
 //! 4. Take the phase of ψ6 of each bound cell, and the phase of the mean of ψ6, as the orientation
@@ -13,27 +13,29 @@ use super::{NearestNeighbours, Voronoi};
 use crate::geometry::{Point, Window};
 use serde::{Deserialize, Serialize};
 
-/// Width of the bins of [`NearestAxes::counts`], in degrees.
+/// Width of the bins of [`NearestAxes::counts`], in degrees; it divides 180° evenly.
 pub const AXIS_BIN: f64 = 10.;
-/// Number of bins that cover 180°.
+/// Number of bins of width [`AXIS_BIN`] that cover 180°.
 const AXIS_BINS: usize = 18;
-/// Smallest number of groups of linked points for which a p-value is given. With fewer groups it
-/// would not be distributed like a p-value.
+/// Smallest number of groups of linked points for which a p-value is computed. With fewer groups,
+/// the p-value would not be uniform for independent points.
 const FEWEST_GROUPS: usize = 10;
-/// Differences and sums of directions count as 0 below this relative size, because they are only
-/// rounding error.
+/// Relative size below which sums and differences of direction vectors count as 0, because they are
+/// only rounding error.
 const ROUNDING: f64 = 1e-9;
 
 /// Directions in which a mosaic is ordered and in which it is stretched.
 ///
 /// All angles are in degrees, counter-clockwise from the positive x axis (to the right) as seen in
-/// the picture: although y points down in coordinates, 90° is up. An axis points both ways, so 0°
-/// and 180° are the same.
+/// the picture: although y points down in coordinates, 90° is up. This sense is opposite to that of
+/// [`Ellipse::degrees`](super::Ellipse::degrees). An axis points both ways, so 0° and 180° are the
+/// same.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Orientation {
     /// Axes from points to their nearest neighbours.
     pub nearest: NearestAxes,
-    /// Ellipse with the second moments of the vectors from cells to their neighbours.
+    /// Ellipse that describes the vectors from cells to their neighbours; it is elongated in the
+    /// direction in which the mosaic is stretched.
     ///
     /// `None` without bound cells, which are Voronoi cells strictly inside the window.
     pub ellipse: Option<NeighbourEllipse>,
@@ -46,7 +48,7 @@ pub struct Orientation {
     /// Orientation of the mean ψ6 over the cells strictly inside the window, 0–60°.
     ///
     /// The modulus of this mean ([`super::VoronoiSummary::psi6_global`]) tells how well the
-    /// orientations of the cells agree.
+    /// orientations of the cells agree. `None` if the mean is 0 or there is no such cell.
     pub hexagon_direction: Option<f64>,
 }
 
@@ -59,12 +61,12 @@ pub struct NearestAxes {
     /// neighbours are equally near, the axis to one of them is given; in a perfect lattice the axes
     /// are therefore arbitrary.
     pub degrees: Vec<Option<f64>>,
-    /// Number of axes from interior points. The other fields, except `degrees`, use only these
-    /// axes.
+    /// Number of axes from interior points. All other fields except `degrees` are computed from
+    /// these axes only.
     ///
-    /// An interior point is at least as far from the border as from its nearest neighbour. Nearer
-    /// to the border, neighbours beyond it are missed, and more of them in one direction than in
-    /// others.
+    /// An interior point is at least as far from the border as from its nearest neighbour. Points
+    /// nearer to the border are left out: their true nearest neighbour may lie beyond it, so axes
+    /// towards the border would be missing.
     pub n: usize,
     /// Numbers of axes from interior points in 0–10°, 10–20° … 170–180°.
     pub counts: [usize; AXIS_BINS],
@@ -82,8 +84,8 @@ pub struct NearestAxes {
     ///
     /// The p-value is that of Rayleigh's test, with the variance taken from groups of points.
     /// Points that are linked through nearest neighbours share axes (mutual nearest neighbours even
-    /// have the same axis), so all points that are linked form one group. Without links, this is
-    /// Rayleigh's test itself.
+    /// have the same axis), so all points that are linked form one group. If every axis were a
+    /// group of its own, this would be Rayleigh's test itself.
     ///
     /// The p-value is uniform for independent points. In a regular mosaic it is too often small,
     /// because the axes in an entire patch of lattice agree: in 200 simulated mosaics of some 320
@@ -92,11 +94,13 @@ pub struct NearestAxes {
     pub p_value: Option<f64>,
 }
 
-/// Ellipse with the second moments of the vectors from cells to their neighbours, averaged over the
-/// bound cells (Voronoi cells strictly inside the window).
+/// Ellipse that describes the vectors from cells to their neighbours.
 ///
-/// The neighbours are the points beyond the sides of a Voronoi cell. A bound cell may still miss a
-/// neighbour beyond the border.
+/// The second moments of a cell are the means of dx², dx·dy and dy² over the vectors (dx, dy) to
+/// its neighbours, which are the points beyond the sides of its Voronoi cell. They are averaged
+/// over the bound cells, which are Voronoi cells strictly inside the window. The axes of the
+/// ellipse are the directions in which the averaged moment is largest and smallest. A bound cell
+/// may still miss a neighbour beyond the border.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NeighbourEllipse {
     /// Number of bound cells over which the second moments are averaged.
@@ -115,13 +119,14 @@ pub struct NeighbourEllipse {
     /// mosaics of 320 cones without preferred direction, its median is 1.02 and its 95th percentile
     /// 1.045. It approaches 1 as 1/√n.
     pub anisotropy: f64,
-    /// Direction of the longer semi-axis, 0–180°; `None` if both semi-axes are equal.
+    /// Direction of the longer semi-axis, 0–180°, counter-clockwise from the positive x axis as
+    /// seen in the picture; `None` if both semi-axes are equal.
     pub direction: Option<f64>,
 }
 
 /// Computes the orientation and anisotropy of a mosaic.
 ///
-/// `nearest` holds the nearest neighbours of the points, `interior` the flags from
+/// `nearest` contains the nearest neighbours of the points, `interior` the flags from
 /// [`interior`](super::interior), and `cells` the Voronoi cells. The time is linear in n. The
 /// function never fails: values that are not defined are `None`.
 ///
@@ -145,9 +150,11 @@ pub fn orientation(
     }
 }
 
-/// Returns the phase of a sum of exp(i·fold·θ), divided by `fold`, as a counter-clockwise angle.
+/// Returns the phase of a sum of exp(i·`fold`·θ), divided by `fold`, in degrees: the mean
+/// direction, counter-clockwise as seen in the picture.
 ///
-/// The angle is from 0 to 360°/fold; `None` if the modulus of the sum is not above `least`.
+/// The sum is passed as real and imaginary part, with directions θ measured from +x towards +y. The
+/// result is from 0 to 360°/`fold`, or `None` if the modulus of the sum is not above `least`.
 fn phase([re, im]: [f64; 2], fold: f64, least: f64) -> Option<f64> {
     let turn = 360. / fold;
     // In coordinates y points down and angles run clockwise, hence the minus sign.
@@ -163,7 +170,7 @@ fn nearest_axes(
     nearest: &NearestNeighbours,
     interior: &[bool],
 ) -> NearestAxes {
-    // exp(2iθ), with θ clockwise as in coordinates.
+    // exp(2iθ), with θ from +x towards +y as in coordinates, that is clockwise in the picture.
     let axis = |i: usize| {
         let &j = nearest.indices.get(i)?;
         let [dx, dy] = window.displacement(points[i], *points.get(j)?);
@@ -188,6 +195,8 @@ fn nearest_axes(
         *group = [group[0] + re, group[1] + im];
     }
     let squared = |[re, im]: [f64; 2]| re * re + im * im;
+    // `linked` is the number of groups. `variance` is the expected squared length of `sum` if no
+    // direction is preferred.
     let linked = of_group.iter().flatten().count();
     let variance: f64 = of_group.into_iter().flatten().map(squared).sum();
     NearestAxes {
@@ -196,6 +205,7 @@ fn nearest_axes(
         counts,
         resultant: (n > 0).then(|| squared(sum).sqrt() / n as f64),
         direction: phase(sum, 2., ROUNDING * n as f64),
+        // If every axis were a group of its own, z would be the usual |sum|²/n.
         p_value: (linked >= FEWEST_GROUPS && variance > 0.)
             .then(|| rayleigh(linked as f64, squared(sum) / variance)),
     }
@@ -207,14 +217,16 @@ fn rayleigh(n: f64, z: f64) -> f64 {
     ((1. + 4. * n + 4. * n * (n - z).max(0.)).sqrt() - (1. + 2. * n)).exp().min(1.)
 }
 
-/// Averages the second moments of the bound cells and converts them to an ellipse; `None` without
-/// bound cells.
+/// Averages the second moments of the bound cells (Voronoi cells strictly inside the window) and
+/// converts them to an ellipse; `None` without bound cells.
 fn ellipse(cells: &Voronoi) -> Option<NeighbourEllipse> {
     let bound = || cells.cells.iter().filter(|c| c.bound).filter_map(|c| c.second_moments);
     let count = bound().count();
     let sum = bound().fold([0.; 3], |sum, m| std::array::from_fn(|k| sum[k] + m[k]));
     let [xx, xy, yy] = sum.map(|v| v / count as f64);
     let (mean, half) = ((xx + yy) / 2., ((xx - yy) / 2.).hypot(xy));
+    // In a triangular lattice of spacing 1 both eigenvalues are ½, so the factor 2 makes both
+    // semi-axes equal to the spacing.
     let [major, minor] = [mean + half, mean - half].map(|v| (2. * v).sqrt());
     (count > 0 && minor > 0.).then(|| NeighbourEllipse {
         cells: count,

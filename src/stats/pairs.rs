@@ -10,6 +10,9 @@
 use crate::geometry::{Point, Window};
 
 /// Number of grid cells per cut-off distance along either axis.
+///
+/// More cells follow the disk around a point more closely, so that fewer points beyond the cut-off
+/// distance are tried; fewer cells are looked up faster.
 const CELLS_PER_REACH: f64 = 3.;
 
 /// Points sorted by grid cell, so that all pairs up to a cut-off distance can be visited in time
@@ -19,26 +22,35 @@ const CELLS_PER_REACH: f64 = 3.;
 /// distance. The entire disk around each point is therefore covered, even if the cut-off distance
 /// exceeds half the window. A point is not paired with its own images.
 pub(super) struct PairGrid {
+    /// Left edge of the window's bounds.
     x0: f64,
+    /// Upper edge of the window's bounds.
     y0: f64,
     width: f64,
     height: f64,
+    /// `true` if points are also paired across the edges of the window.
     torus: bool,
+    /// Number of grid cells per row.
     columns: usize,
+    /// Number of rows of grid cells.
     rows: usize,
     /// Index of each cell's first point in sorted order, followed by the number of points.
     starts: Vec<usize>,
+    /// Coordinates x of the points in sorted order.
     xs: Vec<f64>,
+    /// Coordinates y of the points in sorted order.
     ys: Vec<f64>,
     /// Original index of each sorted point.
     given: Vec<usize>,
+    /// Cut-off distance: the largest distance of a pair.
     reach: f64,
 }
 
 impl PairGrid {
     /// Sorts the points into cells, to find pairs that are no farther apart than `reach`.
     ///
-    /// The points must lie in the window.
+    /// The points must lie in the window. `torus` is `true` if points are to be paired across the
+    /// edges of the window.
     pub(super) fn new(points: &[Point], window: &Window, torus: bool, reach: f64) -> Self {
         let bounds = window.bounds();
         let (x0, y0, width, height) = (bounds.x0(), bounds.y0(), bounds.width(), bounds.height());
@@ -77,9 +89,8 @@ impl PairGrid {
         self.rows
     }
 
-    /// Returns the values of the points in the sorted order of the grid.
-    ///
-    /// `of_points` holds one value per point, in the original order.
+    /// Returns one value per point in the sorted order of the grid, from `of_points`, the values in
+    /// the original order.
     pub(super) fn sorted<T: Copy>(&self, of_points: &[T]) -> Vec<T> {
         self.given.iter().map(|&index| of_points[index]).collect()
     }
@@ -89,13 +100,14 @@ impl PairGrid {
         Point::new(self.xs[i], self.ys[i])
     }
 
-    /// Visits, once each, the pairs whose first point lies in one of the cell rows `rows`.
+    /// Visits the pairs whose first point lies in one of the cell rows `rows`, each pair once.
     ///
     /// `pair` receives the indices of both points in sorted order and the vector from the first to
     /// the second.
     pub(super) fn visit(&self, rows: std::ops::Range<usize>, mut pair: impl FnMut(usize, usize, f64, f64)) {
         let (cell_width, cell_height) = (self.width / self.columns as f64, self.height / self.rows as f64);
-        // Rounding must not exclude a pair at exactly the cut-off distance.
+        // Cells are searched slightly farther than `reach`, because rounding must not exclude a
+        // pair at exactly that distance.
         let reach = self.reach * (1. + 1e-9);
         let reach2 = self.reach * self.reach;
         let mut scan = |from: usize, first: usize, last: usize, shift_x: f64, shift_y: f64| {

@@ -3,13 +3,14 @@
 use rand::Rng;
 use rand::seq::SliceRandom;
 
-/// Smallest number of pairs for which a correlation is tested: with 4 pairs, even a perfect
-/// correlation has p = 0.08.
+/// Smallest number of pairs for which a correlation is tested. With 4 pairs, even a perfect
+/// correlation has p = .08, so nothing could be significant.
 pub const FEWEST_PAIRS: usize = 5;
-/// Largest number of pairs for which every order of the values is tried. For more pairs, random
-/// orders are drawn.
+/// Largest number of pairs for which every order of the values is tried; 8 values have 40 320
+/// orders. For more pairs, random orders are drawn.
 const MOST_EXACT: usize = 8;
-/// Number of random orders that are drawn for more than [`MOST_EXACT`] pairs.
+/// Number of random orders that are drawn for more than [`MOST_EXACT`] pairs. With the observed
+/// order they are 10 000, so p-values are multiples of .0001.
 const PERMUTATIONS: usize = 9_999;
 
 /// Strength and significance of a monotonic relation between two quantities.
@@ -26,7 +27,7 @@ pub struct RankCorrelation {
 
 /// Computes Spearman's rank correlation and tests it by permutation, two-sided.
 ///
-/// All n! orders are tried for at most 8 pairs. With more pairs 9 999 orders are drawn from `rng`,
+/// With at most 8 pairs, all orders are tried. With more pairs, 9 999 orders are drawn from `rng`,
 /// and the observed order counts as one more.
 ///
 /// Returns `None` for fewer than [`FEWEST_PAIRS`] pairs, for values that are not finite, or if one

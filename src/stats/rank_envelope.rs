@@ -38,7 +38,8 @@ impl RankEnvelope {
 /// from the largest; a curve takes the smaller of its two ranks, and tied curves share their mean
 /// rank. The ranks of each curve are sorted in rising order, and curves are compared
 /// lexicographically by their sorted ranks: the smaller, the more extreme. The p-value is the share
-/// of curves that are at least as extreme as the observed curve.
+/// of curves, including the observed curve itself, that are at least as extreme as the observed
+/// curve.
 ///
 /// The most extreme curves, at most the share `level` of all, are then removed. The envelope is the
 /// range of the remaining curves in every bin. The observed curve lies within it in every bin if

@@ -1,23 +1,25 @@
-//! Regions of interest: boxes grown around a centre until they hold enough cells, and boxes that
+//! Regions of interest: boxes grown around a centre until they contain enough cells, and boxes that
 //! slide over a window.
 //!
 //! A box is grown in three steps:
 //!
-//! 1. Enlarge it by a factor of 1.2 until it holds enough bound cells.
+//! 1. Enlarge it by a factor of 1.2 until it contains enough bound cells.
 //! 2. If it leaves the window first, find the largest box that still fits.
 //! 3. Bisect the scale between the last box that was too small and the first that was large enough.
 
 use super::{StatsError, voronoi};
 use crate::geometry::{Point, Rectangle, Window};
 
-/// Factor by which a box is enlarged in each step, until it holds enough cells.
+/// Factor by which a box is enlarged in each step, until it contains enough cells. The exact size
+/// is then found by bisection.
 const STEP: f64 = 1.2;
-/// Relative precision of the final size of a grown box.
+/// Relative precision of the final size of a grown box, at which the bisection ends.
 const PRECISION: f64 = 1e-4;
-/// Largest number of sliding boxes; requests for more are refused.
+/// Largest number of sliding boxes. Requests for more are refused with the advice to choose a
+/// larger step.
 const MOST: f64 = 100_000.;
-/// A box counts as lying inside a polygon if at most this share of its area is outside, which is
-/// only rounding error.
+/// Largest share of the area of a box that may lie outside a polygon for the box to count as
+/// inside. So small a share is only rounding error.
 const ROUNDING: f64 = 1e-9;
 
 /// Rectangular region of interest that was grown about its centre.
@@ -25,20 +27,20 @@ const ROUNDING: f64 = 1e-9;
 pub struct Grown {
     /// Box to which the region has grown.
     pub frame: Rectangle,
-    /// `true` if the box holds at least the requested number of bound cells, which are Voronoi
+    /// `true` if the box contains at least the requested number of bound cells, which are Voronoi
     /// cells strictly inside the box.
     pub enough: bool,
 }
 
-/// Grows a box about its centre until it holds `needed` bound cells.
+/// Grows a box about its centre until it contains `needed` bound cells.
 ///
 /// The cells are the Voronoi cells of the points in the box alone, as if the box were a mosaic of
 /// its own; a cell is bound if it lies strictly inside the box. The sides of the box keep their
 /// proportion, and its size is exact to 1/10 000.
 ///
-/// A box that already holds enough cells stays as it is. A box that meets the border of the window
-/// before it holds enough cells ends there, and [`Grown::enough`] is `false`. A bound cell stays
-/// bound when a box grows, so the smallest sufficient box is well defined.
+/// A box that already contains enough cells stays as it is. A box that meets the border of the
+/// window before it contains enough cells ends there, and [`Grown::enough`] is `false`. A bound
+/// cell stays bound when a box grows, so the smallest sufficient box is well defined.
 pub fn grown(points: &[Point], window: &Window, frame: Rectangle, needed: usize) -> Grown {
     let bound = |frame: &Rectangle| bound_cells(points, window, frame);
     let enough = |frame: &Rectangle| bound(frame) >= needed;
@@ -65,7 +67,7 @@ pub fn grown(points: &[Point], window: &Window, frame: Rectangle, needed: usize)
             low = high;
             continue;
         }
-        // The box at scale `low` holds too few cells, the box at `high` enough.
+        // The box at scale `low` contains too few cells, the box at `high` enough.
         while high - low > PRECISION * low {
             let middle = (low + high) / 2.;
             if scaled(&frame, middle).is_some_and(|b| enough(&b)) { high = middle } else { low = middle }
@@ -77,7 +79,8 @@ pub fn grown(points: &[Point], window: &Window, frame: Rectangle, needed: usize)
 
 /// Returns the largest factor for which `holds` is true, found by bisection.
 ///
-/// `holds` must be true at `low` and false at `high`.
+/// `holds` must be true at `low` and false at `high`. The precision is a thousand times finer than
+/// that of a grown box.
 fn last(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     while high - low > PRECISION * 1e-3 * low {
         let middle = (low + high) / 2.;
@@ -120,15 +123,14 @@ fn bound_cells(points: &[Point], window: &Window, frame: &Rectangle) -> usize {
 /// is smaller than one box.
 ///
 /// # Errors
-/// Returns [`StatsError::Option`] if a length is not positive or there would be more than 100 000
-/// boxes.
+/// Fails if a length is not positive or there would be more than 100 000 boxes.
 pub fn sliding(bounds: &Rectangle, side: f64, step: f64) -> Result<Vec<([usize; 2], Rectangle)>, StatsError> {
     for (option, value) in [("side of the regions", side), ("step of the regions", step)] {
         if !(value.is_finite() && value > 0.) {
             return Err(StatsError::Option { option, value, range: "a positive length" });
         }
     }
-    // The small allowance lets the last box fit where `side` divides the window exactly.
+    // The small allowance for rounding keeps the last box if it ends exactly at the border.
     let along = |length: f64| ((length - side) / step + 1e-9).floor() + 1.;
     let (columns, rows) = (along(bounds.width()).max(0.), along(bounds.height()).max(0.));
     if columns * rows > MOST {

@@ -8,14 +8,14 @@ use serde::{Deserialize, Serialize};
 
 /// Statistics of a mosaic that are single numbers, not series.
 ///
-/// The numbers fill one row of `summary.csv` and one record of `metrics.json`. Lengths are in the
-/// unit of the mosaic.
+/// `metrics.json` contains all of them, and `summary.csv` one row of columns for those that have a
+/// `metric(…)` in `report/metrics`. Lengths are in the unit of the mosaic.
 ///
-/// A new statistic needs one field here and one line in `Summary::of`; records and files then
-/// contain it without further changes.
+/// To add a statistic, add a field here and a line in `Summary::of`; it is then part of
+/// `metrics.json`. A column of `summary.csv` also needs a `metric(…)` in `report/metrics`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
-    /// Density in points per squared unit of the mosaic.
+    /// Density: number of points divided by the area of the window, per squared unit of the mosaic.
     pub density: f64,
     /// Hexagonal spacing: the spacing of the triangular lattice that has the density of the mosaic.
     /// `None` without points.
@@ -36,34 +36,40 @@ pub struct Summary {
     pub clark_evans: ClarkEvans,
     /// Statistics of the Voronoi cells that lie strictly inside the window.
     pub voronoi: VoronoiSummary,
-    /// Effective radius and packing factor from the density recovery profile with the default
-    /// options; `None` for fewer than two points.
+    /// Effective radius, packing factor and reliability from the density recovery profile with the
+    /// default options; `None` for fewer than two points.
     pub density_recovery: Option<RecoverySummary>,
     /// Directions of nearest neighbours, anisotropy, and orientation of the hexagons.
     pub orientation: OrientationSummary,
-    /// First ring of the power spectrum of the points, and the spacing that belongs to it.
+    /// First ring of the power spectrum of the points, and the spacing of the triangular lattice
+    /// that has the same ring.
     ///
-    /// `None` if the spectrum has no ring or cannot be computed, as in a polygon.
+    /// `None` for fewer than 20 points, in a polygon, or if the spectrum has no ring.
     pub modal: Option<ModalSpacing>,
     /// Variation of the density across the window, and its significance.
     pub trend: Trend,
 }
 
-/// Single numbers that summarise a density recovery profile; [`DensityRecovery`] defines them.
-///
-/// Lengths are in the unit of the mosaic.
+/// Single numbers that summarise a density recovery profile, which is the density around the
+/// average point as a function of distance.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RecoverySummary {
-    /// Width of the annuli, in the unit of the mosaic.
+    /// Width of the annuli in which the profile is computed, in the unit of the mosaic.
     pub bin_width: f64,
-    /// Effective radius: the radius of an empty disk that lacks as many points as the profile does
-    /// near distance 0. `None` if no annulus exceeds the mean density.
+    /// Effective radius: the radius of an empty disk that lacks as many points as the dip of the
+    /// profile near distance 0, in the unit of the mosaic.
+    ///
+    /// Points are counted as missing, compared with the mean density, up to the first annulus that
+    /// exceeds it. `None` if no annulus does.
     pub effective_radius: Option<f64>,
     /// Packing factor, 0 for independent points and 1 for the triangular lattice; `None` if there
     /// is no effective radius.
     pub packing: Option<f64>,
     /// Rodieck's reliability factor k = D·w·√(πA), with D the mean density, w the width of the
     /// annuli and A the area of the window.
+    ///
+    /// For independent points, the first annuli around all points together contain k² other points
+    /// on average.
     pub reliability: f64,
 }
 
@@ -80,7 +86,9 @@ impl From<&DensityRecovery> for RecoverySummary {
 
 /// Single numbers that summarise an [`Orientation`].
 ///
-/// Angles are in degrees, counter-clockwise from the x axis as seen in the picture.
+/// Angles are in degrees, counter-clockwise from the positive x axis as seen in the picture. This
+/// sense is opposite to that of [`Ellipse::degrees`](super::Ellipse::degrees), which is used in
+/// maps.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OrientationSummary {
     /// Number of interior points for which the direction to the nearest neighbour is defined.
@@ -88,17 +96,28 @@ pub struct OrientationSummary {
     /// An interior point is at least as far from the border as from its nearest neighbour.
     pub axes: usize,
     /// Length of the mean of exp(2iθ), with θ the direction from an interior point to its nearest
-    /// neighbour: 0 for evenly spread directions, 1 for parallel ones. `None` without directions.
+    /// neighbour: 0 for evenly spread directions, 1 for parallel ones. `None` if `axes` is 0.
     pub resultant: Option<f64>,
     /// Mean axis from interior points to their nearest neighbours, 0–180°. `None` if `resultant` is
     /// 0 or `None`.
     pub direction: Option<f64>,
     /// Probability, if no direction is preferred, of a mean of exp(2iθ) at least as long as
-    /// `resultant`.
+    /// `resultant`, by Rayleigh's test.
+    ///
+    /// Points linked through nearest neighbours count as one group. `None` for fewer than 10
+    /// groups. In a regular mosaic, the p-value is too often small
+    /// ([`super::NearestAxes::p_value`]).
     pub p_value: Option<f64>,
-    /// Ellipse with the second moments of the vectors from cells to their neighbours.
+    /// Ellipse that describes the vectors from cells to their neighbours; it is elongated in the
+    /// direction in which the mosaic is stretched.
+    ///
+    /// `None` if no Voronoi cell lies strictly inside the window.
     pub ellipse: Option<NeighbourEllipse>,
-    /// Common orientation of the hexagons that the neighbours form around the cells, 0–60°.
+    /// Orientation of the mean ψ6 over the Voronoi cells strictly inside the window, 0–60°: the
+    /// common orientation of the hexagons that neighbours form.
+    ///
+    /// In a triangular lattice it is the direction of a neighbour. `None` if the mean of ψ6 is 0 or
+    /// there is no such cell.
     pub hexagon_direction: Option<f64>,
 }
 
@@ -115,7 +134,7 @@ impl From<&Orientation> for OrientationSummary {
     }
 }
 
-/// Values per point and curves from which a [`Summary`] is computed.
+/// Values per point and curves of one mosaic, from which its [`Summary`] is computed.
 pub(super) struct Series<'a> {
     /// Nearest neighbour of every point.
     pub neighbours: &'a NearestNeighbours,
@@ -126,7 +145,7 @@ pub(super) struct Series<'a> {
     pub interior: &'a [bool],
     /// Voronoi cell of every point.
     pub cells: &'a Voronoi,
-    /// Directions and anisotropy of the pattern.
+    /// Directions of nearest neighbours, anisotropy, and orientation of the hexagons.
     pub orientation: &'a Orientation,
     /// Density recovery profile; `None` if it could not be computed.
     pub recovery: Option<&'a DensityRecovery>,

@@ -15,15 +15,16 @@ use serde::{Deserialize, Serialize};
 use spade::handles::{VertexHandle, VoronoiVertex};
 use spade::{Point2, Triangulation};
 
-/// Voronoi vertices that are closer than this share of the hexagonal spacing are merged, because a
-/// side without length is no side.
+/// Distance, in hexagonal spacings, below which two Voronoi vertices are merged, because a side
+/// without length is no side. The side between them is only rounding error, as in a square lattice.
 const SAME_VERTEX: f64 = 1e-7;
 /// Smallest number of points for which cells are computed on all threads.
 const SPREAD_FROM: usize = 8192;
 /// Width of the margin around a torus, in hexagonal spacings, in which the pattern is first
-/// repeated.
+/// repeated. If the margin turns out to be too narrow for a cell, the entire pattern is repeated.
 const MARGIN: f64 = 5.;
 
+/// Vertex of the triangulation, which is a point of the pattern.
 type Vertex<'a> = VertexHandle<'a, Point2<f64>, (), (), ()>;
 
 /// Voronoi cell: the part of the plane nearer to one point than to any other.
@@ -31,8 +32,8 @@ type Vertex<'a> = VertexHandle<'a, Point2<f64>, (), (), ()>;
 pub struct Cell {
     /// Area in squared units of the coordinates, not clipped to the window.
     ///
-    /// `None` if the cell is infinite, or if the point coincides with an earlier point, which then
-    /// has the cell.
+    /// `None` if the cell is infinite, if the point is not finite, or if it coincides with an
+    /// earlier point, to which the cell then belongs.
     pub area: Option<f64>,
     /// Number of sides of positive length; 0 if `area` is `None`.
     pub sides: usize,
@@ -44,21 +45,23 @@ pub struct Cell {
     /// Area of the part of the cell inside the window, in squared units of the coordinates
     /// (Dirichlet area in spatstat).
     ///
-    /// Infinite cells have a clipped area too. `None` for a point that coincides with an earlier
-    /// point.
+    /// Infinite cells have a clipped area too. `None` for a point that is not finite or coincides
+    /// with an earlier point.
     pub clipped_area: Option<f64>,
-    /// Inter-cell distance: mean distance to the points beyond the cell's sides, its Delaunay
-    /// neighbours, in units of the coordinates.
+    /// Inter-cell distance: mean distance from the point to its Delaunay neighbours, the points
+    /// beyond the sides of its cell, in units of the coordinates. `None` without neighbours.
     pub inter_cell: Option<f64>,
-    /// Distance to the farthest Delaunay neighbour, in units of the coordinates.
+    /// Distance to the farthest Delaunay neighbour, in units of the coordinates; `None` without
+    /// neighbours.
     pub furthest: Option<f64>,
     /// Bond-orientational order ψ6: mean of exp(6iθ) over the directions θ to the Delaunay
-    /// neighbours, as real and imaginary part.
+    /// neighbours, as real and imaginary part. Directions are measured from +x towards +y. `None`
+    /// without neighbours.
     ///
     /// Source: Nelson & Halperin (1979), <https://doi.org/10.1103/PhysRevB.19.2457>.
     pub psi6: Option<[f64; 2]>,
-    /// Second moments of the vectors to the Delaunay neighbours: means of dx², dx·dy and dy², in
-    /// squared units of the coordinates.
+    /// Second moments of the vectors (dx, dy) to the Delaunay neighbours: means of dx², dx·dy and
+    /// dy², in squared units of the coordinates. `None` without neighbours.
     pub second_moments: Option<[f64; 3]>,
     /// Distances by which the cell extends from its point to the left, up, to the right and down,
     /// in units of the coordinates.
@@ -85,29 +88,31 @@ pub struct VoronoiSummary {
     pub bound: usize,
     /// Percentage of the bound cells that have six sides; `None` without bound cells.
     pub six_sided_percent: Option<f64>,
-    /// Areas of the bound cells, in squared units of the coordinates.
+    /// Moments of the areas of the bound cells, in squared units of the coordinates.
     pub area: Moments,
-    /// Coefficient of variation of the areas: standard deviation divided by mean.
+    /// Coefficient of variation of the areas of the bound cells: standard deviation divided by
+    /// mean.
     pub area_cv: Option<f64>,
-    /// Numbers of sides of the bound cells.
+    /// Moments of the numbers of sides of the bound cells.
     pub sides: Moments,
     /// Number of bound cells divided by their total area, in points per squared unit of the
     /// coordinates.
     pub density: Option<f64>,
-    /// Inter-cell distances of the bound cells, in units of the coordinates.
+    /// Moments of the inter-cell distances of the bound cells, in units of the coordinates.
     ///
-    /// The inter-cell distance of a cell is its mean distance to its Delaunay neighbours.
+    /// The inter-cell distance of a cell is the mean distance from its point to its Delaunay
+    /// neighbours.
     pub inter_cell: Moments,
-    /// Distances from the points of bound cells to their farthest Delaunay neighbours, in units of
-    /// the coordinates.
+    /// Moments of the distances from the points of bound cells to their farthest Delaunay
+    /// neighbours, in units of the coordinates.
     pub furthest: Moments,
-    /// Inter-cell distances of all cells, in units of the coordinates.
+    /// Moments of the inter-cell distances of all cells, in units of the coordinates.
     ///
     /// At the border, these distances include points along the convex hull that are not true
     /// neighbours.
     pub inter_cell_all: Moments,
-    /// Distances from all points to their farthest Delaunay neighbours, in units of the
-    /// coordinates.
+    /// Moments of the distances from all points to their farthest Delaunay neighbours, in units of
+    /// the coordinates.
     pub furthest_all: Moments,
     /// Mean modulus of the bond-orientational order ψ6 over the bound cells: 1 if every cell is a
     /// regular hexagon.
@@ -205,10 +210,12 @@ pub fn voronoi(points: &[Point], window: &Window) -> Voronoi {
 }
 
 /// Returns the cells of the first `n` points and the largest distance from a point to a vertex of
-/// its cell.
+/// its cell, which is infinite if one of the cells is infinite.
 ///
-/// The distance is infinite if one of the cells is infinite.
+/// `points` may continue with periodic images of these points. `spacing` is the hexagonal spacing,
+/// in units of the coordinates.
 fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell>, f64) {
+    /// Cell of a point that has none.
     const NONE: Cell = Cell {
         area: None,
         sides: 0,
@@ -227,7 +234,9 @@ fn cells(points: &[Point], n: usize, window: &Window, spacing: f64) -> (Vec<Cell
         return (cells, 0.);
     };
     let same = SAME_VERTEX * spacing / side;
-    // Returns the cell and the distance from its point to its farthest corner.
+    // Computes the cell of a point, and the distance from the point to its farthest corner.
+    // `adjacent` are all points with an edge of the triangulation to it, `beyond_sides` only those
+    // beyond a side of positive length.
     let cell_of = |(index, site): &(usize, [f64; 2]), vertex: Vertex| {
         let mut corners: Vec<[f64; 2]> = Vec::with_capacity(8);
         let mut finite = true;

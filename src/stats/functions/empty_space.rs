@@ -1,25 +1,26 @@
-//! Distances from a grid of test places to the nearest point, from which F is estimated.
+//! Distances from a grid of test locations to the nearest point, from which the distribution F is
+//! estimated.
 
 use crate::geometry::{Point, Window, distances_to_nearest};
 
-/// Number of test places along each side of the window's bounds, as in spatstat.
+/// Number of test locations along each side of the window's bounds, as in spatstat, so that its
+/// values of F can be compared digit by digit.
 const PLACES: usize = 128;
 
-/// Distances from test places to the nearest point and to the border.
+/// Distances from test locations to the nearest point and to the border.
 ///
-/// The test places are the centres of 128 × 128 pixels that cover the bounding box, as far as they
-/// lie in the window.
+/// The test locations are the centres of 128 × 128 pixels that cover the bounding box. Only those
+/// that lie in the window are used.
 pub(super) struct EmptySpace {
-    /// Distance from each test place to the nearest point; infinite without points.
+    /// Distance from each test location to the nearest point; infinite if there are no points.
     pub distances: Vec<f64>,
-    /// Distance from each test place to the border; infinite on a torus.
+    /// Distance from each test location to the border; infinite on a torus.
     pub borders: Vec<f64>,
-    /// Distances of the test places to the border in rising order, from which areas of eroded
-    /// polygons are counted.
+    /// Values of `borders` in rising order. The area of an eroded polygon is counted from them.
     sorted_borders: Vec<f64>,
 }
 
-/// Measures the distances from all test places that lie in the window.
+/// Measures the distances from all test locations that lie in the window.
 pub(super) fn empty_space(points: &[Point], window: &Window) -> EmptySpace {
     let bounds = window.bounds();
     let (w, h) = (bounds.width() / PLACES as f64, bounds.height() / PLACES as f64);
@@ -40,7 +41,8 @@ pub(super) fn empty_space(points: &[Point], window: &Window) -> EmptySpace {
 impl EmptySpace {
     /// Returns the area of the part of the window that is at least `r` from the border.
     ///
-    /// The area is exact for rectangles and counted in pixels for polygons.
+    /// The area is exact for a rectangle. For a polygon, it is the share of test locations in that
+    /// part times the area of the window.
     pub(super) fn eroded(&self, window: &Window, r: f64) -> f64 {
         let bounds = window.bounds();
         match window {

@@ -1,8 +1,9 @@
 //! Estimators of the distribution of the distance to the nearest point, under censoring by the
 //! border.
 //!
-//! Distances d fall into bins (r_{k−1}, r_k]. A distance is censored if it exceeds b, the distance
-//! to the border, beyond which a nearer point may be hidden.
+//! Distances d fall into bins (r_{k−1}, r_k]. The distance d of a point is censored if it exceeds
+//! b, the distance from the point to the border: a nearer point may then be hidden beyond the
+//! border.
 //!
 //! 1. Count the distances d, and likewise the border distances b, by the first row k with d ≤ r_k.
 //! 2. Go through the rows once and update the numbers of points in the estimates, such as #{d ≤ r}
@@ -10,23 +11,26 @@
 
 use super::first_at_least;
 
-/// Distribution function of the distance to the nearest point, at given distances r, with several
-/// rules for the border.
+/// Distribution function of the distance to the nearest point, at a series of distances r_k, with
+/// several corrections for the border.
 ///
 /// Distances d fall into bins (r_{k−1}, r_k]. The distance to the border is b; if d > b, a nearer
-/// point may be hidden beyond the border. #{…} counts the points, or the test places for F, for
-/// which a condition holds.
+/// point may be hidden beyond the border. #{…} is the number of points that satisfy a condition.
+/// (For F, it is the number of test locations.)
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FirstDistance {
-    /// Estimate without correction: #{d ≤ r}/n.
+    /// Estimate without correction: #{d ≤ r_k}/n, for n points.
     pub none: Vec<f64>,
-    /// Reduced sample (border correction): #{d ≤ b, d ≤ r_k, b > r_{k−1}} / #{b > r_{k−1}}.
+    /// Reduced sample (border correction): #{d ≤ b, d ≤ r_k, b > r_{k−1}} / #{b > r_{k−1}}; NaN if
+    /// the denominator is 0.
     pub reduced_sample: Vec<f64>,
     /// Kaplan–Meier estimate: 1 − Π (1 − #{d ≤ b, d in bin k} / #{min(d, b) > r_{k−1}}).
     ///
     /// Source: Baddeley & Gill (1997), <https://doi.org/10.1214/aos/1034276629>.
     pub kaplan_meier: Vec<f64>,
-    /// Hanisch's estimate: Σ #{d ≤ b, d in bin k} / |W eroded by r_k|, divided by its last value.
+    /// Hanisch's estimate: Σ #{d ≤ b, d in bin k} / |W eroded by r_k|, divided by its last value,
+    /// where |W eroded by r| is the area of the part of the window that is at least r from the
+    /// border. NaN if the sum is 0 or not finite.
     ///
     /// Sources: Hanisch (1984), <https://doi.org/10.1080/02331888408801788>; for F, Chiu & Stoyan
     /// (1998).
@@ -34,8 +38,11 @@ pub struct FirstDistance {
 }
 
 impl FirstDistance {
-    /// Estimates the distribution; `eroded(r)` is the area of the part of the window that is at
-    /// least r from the border, in any unit.
+    /// Estimates the distribution at the distances `r`.
+    ///
+    /// `distances` contains the distance d of every point, and `borders` its distance b to the
+    /// border. `eroded(r)` is the area of the part of the window that is at least r from the
+    /// border, in any unit.
     pub(in crate::stats) fn new(
         distances: &[f64],
         borders: &[f64],
@@ -45,6 +52,9 @@ impl FirstDistance {
         let rows = r.len();
         // A value is counted in the first row whose r is not below it. Values beyond the last row
         // are counted in a further row after it.
+        //
+        // `all` counts d, `border` counts b, `observed` counts min(d, b), and `seen` counts d if d
+        // ≤ b.
         let count = || vec![0usize; rows + 2];
         let (mut all, mut seen, mut observed, mut border) = (count(), count(), count(), count());
         // Uncensored distances, counted in the first row in which b > r_{k−1} no longer holds.

@@ -1,36 +1,43 @@
-//! Pair correlation function by spatstat's convention, with an Epanechnikov kernel of half width
-//! .15/√λ.
+//! Pair correlation function by spatstat's convention, with an Epanechnikov kernel of half-width
+//! .15/√λ for the density λ.
 //!
 //! Smoothing follows spatstat's `pcf.ppp`, which uses R's binned `density.default`, so that values
 //! agree with R's to the last digits. Exact kernel sums differ from these values by up to .003.
 //!
 //! 1. Spread each distance linearly over the two nearest of 512 nodes.
 //! 2. Convolve the nodes with the kernel.
-//! 3. Interpolate linearly at the distances of the table.
+//! 3. Interpolate linearly at the distances r that are asked for.
 
 use std::f64::consts::TAU;
 
-/// Number of nodes over which distances are spread, as in R's `density.default`.
+/// Number of nodes over which distances are spread, as in R's `density.default`, so that values
+/// agree with spatstat's to the last digits.
 const NODES: usize = 512;
-/// Half width of the kernel times √λ (Stoyan & Stoyan 1994).
+/// Half-width of the kernel times √λ, for the density λ: the rule of Stoyan & Stoyan (1994),
+/// spatstat's default.
 const STOYAN: f64 = 0.15;
-/// Number of bandwidths by which R extends the nodes beyond the range of distances on either side.
+/// Number of bandwidths by which the nodes extend beyond the range of distances on either side, as
+/// in R's `density.default`.
 const CUT: f64 = 4.;
 
 /// Pair distances, with their edge weights, spread over nodes as in R's `density.default`.
 #[derive(Clone, Debug)]
 pub(super) struct Binned {
+    /// Standard deviation of the kernel, which R calls its bandwidth, in the unit of the
+    /// coordinates.
     bandwidth: f64,
+    /// Distance at the first node, below 0.
     low: f64,
+    /// Distance at the last node.
     high: f64,
     /// Number of nodes per unit of length.
     density: f64,
-    /// Four sums at every node: translation weights, isotropic weights, and both divided by
-    /// distance.
+    /// Four sums at every node, of the pairs' translation weights, of their isotropic weights, and
+    /// of both weights divided by the distance of the pair.
     nodes: Vec<[f64; 4]>,
 }
 
-/// Values of g at the distances of a table; NaN where g is not defined.
+/// Values of g at a series of distances r; NaN where g is not defined.
 #[derive(Clone, Debug)]
 pub(super) struct PcfCurves {
     /// Estimate in which the sum at r is divided by 2πr.
@@ -41,8 +48,9 @@ pub(super) struct PcfCurves {
 
 impl Binned {
     /// Prepares empty nodes for distances up to `r_max` and a pattern with `density` points per
-    /// squared unit.
+    /// squared unit of the coordinates.
     pub(super) fn new(r_max: f64, density: f64) -> Self {
+        // An Epanechnikov kernel of half-width h has the standard deviation h/√5.
         let bandwidth = STOYAN / density.sqrt() / 5f64.sqrt();
         let margin = CUT * bandwidth;
         Self {
@@ -54,8 +62,8 @@ impl Binned {
         }
     }
 
-    /// Returns the half width of the kernel: at r, only pairs count whose distance differs from r
-    /// by less.
+    /// Returns the half-width of the kernel. Only pairs whose distance differs from r by less
+    /// contribute to g(r).
     pub(super) fn half_width(&self) -> f64 {
         self.bandwidth * 5f64.sqrt()
     }

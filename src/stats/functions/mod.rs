@@ -7,11 +7,11 @@
 //! In a polygon spatstat approximates some quantities by pixels:
 //!
 //! - F: spatstat takes the distance to the nearest pixel outside the window instead of the distance
-//!   to the border. Its F therefore differs from the F here by up to .004, measured on one outline.
-//! - Translation weights: spatstat takes them from a table of the set covariance, as is done here;
-//!   K is then within .2 % of the exact value.
-//! - Hanisch's estimates: spatstat takes the area of an eroded mask of pixels, as is done here;
-//!   they are within 1 % of F and G.
+//!   to the border. Its F therefore differs from ours by up to .004, measured on one outline.
+//! - Translation weights: both programs take them from a table of the set covariance; K is then
+//!   within .2 % of the exact value.
+//! - Hanisch's estimates: both programs count the area of an eroded mask of pixels; our estimates
+//!   of F and G are then within 1 % of spatstat's.
 
 mod empty_space;
 mod first_distance;
@@ -28,13 +28,15 @@ use ripley::Ripley;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Largest number of distances; requests for more are refused.
+/// Largest number of distances at which functions are evaluated. Requests for more are refused with
+/// the advice to choose a larger step.
 const MAX_ROWS: f64 = 100_000.;
-/// Number of steps up to `r_max` if no step is given.
+/// Number of steps from 0 to `r_max` if the step is not set.
 const DEFAULT_ROWS: f64 = 128.;
 
-/// Distances at which functions are evaluated: 0, `r_step`, 2 `r_step`, … up to `r_max`, in the
-/// unit of the coordinates.
+/// Distances at which functions are evaluated: 0, `r_step`, 2 `r_step`, … up to `r_max`.
+///
+/// All lengths are in the unit of the coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FunctionOptions {
     /// Step between successive distances; `None` gives 128 steps up to `r_max`.
@@ -51,8 +53,7 @@ impl FunctionOptions {
     /// Returns the distances for a pattern of `points` points, in the unit of the coordinates.
     ///
     /// # Errors
-    /// Returns [`StatsError::Option`] if a length is not positive or there would be more than
-    /// 100 000 rows.
+    /// Fails if a length is not positive or there would be more than 100 000 distances.
     pub fn distances(&self, points: usize, window: &Window) -> Result<Vec<f64>, StatsError> {
         let positive = |option, value: f64| {
             let ok = value.is_finite() && value > 0.;
@@ -63,6 +64,7 @@ impl FunctionOptions {
             .min((1000. * window.area() / (PI * points.max(1) as f64)).sqrt());
         let r_max = positive("r_max", self.r_max.unwrap_or(rule))?;
         let step = positive("r_step", self.r_step.unwrap_or(r_max / DEFAULT_ROWS))?;
+        // Rounding must not drop the last distance if `step` divides `r_max` exactly.
         let rows = (r_max / step * (1. + 1e-12)).floor() + 1.;
         if rows > MAX_ROWS {
             let range = "at most 100000, so choose a larger step";
@@ -74,7 +76,7 @@ impl FunctionOptions {
 
 /// Functions of distance of one pattern, all evaluated at the same distances.
 ///
-/// A value that is not defined is NaN: g at r = 0, for example, or an estimate to which no point
+/// A value that is not defined is NaN, for example g at r = 0 or an estimate to which no point
 /// contributes.
 #[derive(Clone, Debug)]
 pub struct Functions {
@@ -83,7 +85,8 @@ pub struct Functions {
     /// Distribution G of the distance from a point to its nearest neighbour; `None` for fewer than
     /// two points.
     pub g: Option<FirstDistance>,
-    /// Distribution F of the distance from any place to the nearest point; `None` without points.
+    /// Distribution F of the distance from an arbitrary location in the window to the nearest
+    /// point; `None` without points.
     pub f: Option<FirstDistance>,
     /// Values of G and F for independent points of the same density: 1 − exp(−λπr²).
     pub poisson: Vec<f64>,
@@ -92,12 +95,12 @@ pub struct Functions {
     ripley: Option<Ripley>,
 }
 
-/// Computes all functions of a pattern, given the nearest neighbour of every point.
+/// Computes all functions of a pattern; `nearest` contains the nearest neighbour of every point.
 ///
-/// On a torus nothing is hidden, and all corrections agree.
+/// On a torus no pair is hidden by a border, so all corrections agree.
 ///
 /// # Errors
-/// Returns [`StatsError`] if the distances are out of range or a point is not inside the window.
+/// Fails if the distances are out of range or a point is not inside the window.
 pub fn functions(
     points: &[Point],
     window: &Window,
@@ -125,8 +128,9 @@ pub fn functions(
 impl Functions {
     /// Returns the names and values of all columns, in the order of a table.
     ///
-    /// A name consists of the function and spatstat's name of the estimate. Distances and L are in
-    /// the unit of the coordinates, K is in squared units, and the other columns are pure numbers.
+    /// A name consists of the function and spatstat's name of the estimate, for example `G_km` for
+    /// the Kaplan–Meier estimate of G. Distances and L are in the unit of the coordinates, K is in
+    /// squared units, and the other columns are pure numbers.
     pub fn columns(&self) -> Vec<(&'static str, Vec<f64>)> {
         let nan = || vec![f64::NAN; self.r.len()];
         let of = |d: &Option<FirstDistance>, pick: fn(&FirstDistance) -> &Vec<f64>| {
@@ -183,8 +187,8 @@ pub struct RipleyK {
     pub r: Vec<f64>,
     /// K without edge correction.
     pub none: Vec<f64>,
-    /// K with the border correction: only points whose distance to the border is at least r count;
-    /// NaN where there is no such point.
+    /// K with the border correction: only points at least r from the border count as first points
+    /// of pairs. NaN where there is no such point.
     pub border: Vec<f64>,
     /// K with the translation correction (Ohser & Stoyan 1981,
     /// <https://doi.org/10.1002/bimj.4710230602>).
@@ -196,8 +200,8 @@ pub struct RipleyK {
 /// Computes only Ripley's K, with the same values as [`functions`].
 ///
 /// # Errors
-/// Returns [`StatsError`] if the distances are out of range, a point is not inside the window, or
-/// there are fewer than two points.
+/// Fails if the distances are out of range, a point is not inside the window, or there are fewer
+/// than two points.
 pub fn ripley_k(points: &[Point], window: &Window, options: &FunctionOptions) -> Result<RipleyK, StatsError> {
     let r = options.distances(points.len(), window)?;
     all_inside(points, window)?;
@@ -209,14 +213,18 @@ pub fn ripley_k(points: &[Point], window: &Window, options: &FunctionOptions) ->
     Ok(RipleyK { r, none, border, translation, isotropic })
 }
 
-/// Returns the index of the first entry of `r` that is at least `d`; `r` begins with 0 and is
-/// evenly spaced.
+/// Returns the index of the first entry of `r` that is at least `d`, or the length of `r` if there
+/// is none.
+///
+/// `r` must begin with 0 and be evenly spaced.
 fn first_at_least(r: &[f64], d: f64) -> usize {
     let step = r.get(1).copied().unwrap_or(f64::INFINITY);
     settle(r, (d / step) as usize, d)
 }
 
 /// Returns the same index as [`first_at_least`], by a search that starts at the index `near`.
+///
+/// `near` is a computed index, which rounding may have moved away from the result.
 #[inline]
 fn settle(r: &[f64], near: usize, d: f64) -> usize {
     let mut k = near.min(r.len());

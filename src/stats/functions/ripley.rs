@@ -1,6 +1,7 @@
 //! Ripley's K and the pair correlation function g, with several edge corrections.
 //!
-//! 1. Visit all pairs up to the largest distance that matters, in parts that may run in parallel.
+//! 1. Visit all pairs up to the largest r (for g, plus the half-width of its kernel), in parts that
+//!    may run in parallel.
 //! 2. Add each pair's weights to the first row of the table whose r is at least the pair's
 //!    distance.
 //! 3. Sum the rows up to each r and divide by the expected number of pairs.
@@ -12,17 +13,23 @@ use crate::stats::edge_weight::EdgeWeights;
 use crate::stats::pairs::PairGrid;
 use rayon::prelude::*;
 
-/// Number of parts into which a large pattern is split. Parts may run in parallel; their sums are
-/// added in order.
+/// Number of parts into which a large pattern is split.
+///
+/// Parts may run in parallel, but their sums are added in a fixed order. The number is fixed too,
+/// so that the result does not depend on the number of threads.
 const CHUNKS: usize = 32;
-/// Smallest number of points for which a pattern is split into [`CHUNKS`] parts.
+/// Smallest number of points for which a pattern is split into [`CHUNKS`] parts; smaller patterns
+/// are summed on one thread.
 const CHUNKED_FROM: usize = 2048;
 
-/// K and g with several edge corrections: none, border, translation and isotropic.
+/// K and g at a series of distances r, with several edge corrections.
 ///
-/// The squared density λ² is estimated by n(n−1)/A², for n points in a window of area A. The border
-/// correction instead takes λ = n/A, and only the points whose distance to the border is at least
-/// r.
+/// K(r) is the number of ordered pairs up to distance r, weighted by the edge correction and
+/// divided by λ²A, for n points of density λ in a window of area A. Here λ² is estimated by
+/// n(n−1)/A².
+///
+/// The border correction is an exception. It counts only pairs whose first point is at least r from
+/// the border, divides by the number of such points, and takes λ = n/A.
 ///
 /// Sources: K of Ripley (1977), <https://doi.org/10.1111/j.2517-6161.1977.tb01615.x>; translation
 /// correction of Ohser & Stoyan (1981), <https://doi.org/10.1002/bimj.4710230602>; isotropic
@@ -43,25 +50,29 @@ pub(super) struct Ripley {
     pub g_isotropic: PcfCurves,
 }
 
-/// Sums over the pairs of one part of the pattern. A pair counts in the first row whose r is at
-/// least its distance.
+/// Sums over the pairs of one part of the pattern, one row per distance r.
+///
+/// A pair counts in the first row whose r is at least the distance of the pair.
 struct Sums {
-    /// Pair weights per row: without correction, with translation and with isotropic correction.
+    /// Sums of pair weights per row: without correction, with translation and with isotropic
+    /// correction.
     k: Vec<[f64; 3]>,
-    /// Differences, from row to row, of the number of ordered pairs whose first point is at least r
-    /// from the border.
+    /// Number of ordered pairs for the border correction, as differences from row to row.
     ///
-    /// A pair adds 1 in the first row whose r is at least its distance, and subtracts 1 in the row
-    /// from which on its first point is nearer to the border than r.
+    /// Row r needs the pairs up to distance r whose first point is at least r from the border. A
+    /// pair therefore adds 1 in the first row whose r is at least its distance. It subtracts 1 in
+    /// the first row whose r exceeds the distance of its first point to the border.
     border: Vec<i64>,
+    /// Pair distances and weights for g.
     g: Binned,
 }
 
 impl Ripley {
     /// Computes the functions of at least two points, all inside the window.
     ///
-    /// `borders` are the points' distances to the border. g is computed only if `with_g` is set and
-    /// is 0 otherwise.
+    /// `borders` contains the distance of every point to the border, and `r` the distances at which
+    /// the functions are evaluated. The pair correlation function g is computed only if `with_g` is
+    /// `true`, because it needs a wider search; its values mean nothing otherwise.
     pub(super) fn new(points: &[Point], borders: &[f64], window: &Window, r: &[f64], with_g: bool) -> Self {
         let (n, area, rows) = (points.len(), window.area(), r.len());
         let density = n as f64 / area;
@@ -71,8 +82,8 @@ impl Ripley {
         let per_step = r.get(1).map_or(0., |step| step.recip());
         let grid = PairGrid::new(points, window, torus, reach);
         let weights = EdgeWeights::new(window);
-        // For each point, in the grid's order: the number of rows whose r is at most its border
-        // distance.
+        // For each point, in the order in which the grid sorts them: the number of rows whose r is
+        // at most the distance to the border.
         let borders = grid.sorted(borders);
         let seen_from: Vec<usize> = borders.iter().map(|&b| rows_up_to(r, b)).collect();
         let chunks = if n < CHUNKED_FROM { 1 } else { CHUNKS.min(grid.rows()) };
@@ -98,7 +109,8 @@ impl Ripley {
                 let Some(k) = sums.k.get_mut(at) else { return };
                 *k = [k[0] + 2., k[1] + 2. * translation, k[2] + 2. * isotropic];
                 let ends = [seen_from[i], seen_from[j]];
-                // If neither point drops out by the last row, nothing has to be subtracted.
+                // If both points are farther from the border than the last r, nothing has to be
+                // subtracted.
                 if ends == [rows; 2] {
                     sums.border[at] += 2;
                     return;

@@ -21,25 +21,29 @@ pub struct Ellipse {
     pub semi_major: f64,
     /// Shorter semi-axis, in units of the coordinates.
     pub semi_minor: f64,
-    /// Direction of the longer axis in degrees, 0 to 180, from the x axis towards the y axis, which
-    /// points down.
+    /// Direction of the longer axis in degrees, 0 to 180, from the positive x axis towards the
+    /// positive y axis.
+    ///
+    /// Because y points down, this is clockwise as seen in the picture, opposite in sense to the
+    /// angles of [`Orientation`](super::super::Orientation).
     pub degrees: f64,
 }
 
 /// Fits the ellipse of least algebraic distance to a closed line, whose pieces are weighted by
 /// their lengths.
 ///
-/// Returns `None` if the line is not closed, has fewer than 6 places, or no ellipse fits it.
+/// Returns `None` if the line is not closed, has fewer than 6 points (5 points determine a conic,
+/// so nothing would be fitted), or no ellipse fits it.
 ///
-/// Sources: Fitzgibbon, Pilu & Fisher (1999), <https://doi.org/10.1109/34.765658>; solved as by
-/// Halíř & Flusser (1998).
+/// Sources: Fitzgibbon, Pilu & Fisher (1999), <https://doi.org/10.1109/34.765658>; solved by the
+/// method of Halíř & Flusser (1998).
 pub(super) fn fitted_ellipse(contour: &Contour) -> Option<Ellipse> {
     let length = contour.length();
     if !contour.closed || contour.places.len() < 6 || !(length.is_finite() && length > 0.) {
         return None;
     }
     // The midpoints of the pieces are taken relative to their centroid and scaled by the length of
-    // the line, so that all numbers are near 1.
+    // the line, so that all numbers are near 1 and rounding does little harm.
     let next = contour.places.iter().cycle().skip(1);
     let pieces: Vec<(Point, f64)> = contour
         .places
@@ -62,7 +66,7 @@ pub(super) fn fitted_ellipse(contour: &Contour) -> Option<Ellipse> {
             }
         }
     }
-    // The linear part follows from the quadratic one: a₂ = T a₁, T = −S₃⁻¹ S₂ᵀ.
+    // The linear part a₂ of the conic follows from its quadratic part a₁: a₂ = T a₁, T = −S₃⁻¹ S₂ᵀ.
     let inverse = inverted(s3)?;
     let t = std::array::from_fn(|i| {
         std::array::from_fn(|j| -(0..3).map(|k| inverse[i][k] * s2[j][k]).sum::<f64>())
@@ -72,6 +76,7 @@ pub(super) fn fitted_ellipse(contour: &Contour) -> Option<Ellipse> {
         std::array::from_fn(|j| s1[i][j] + (0..3).map(|k| s2[i][k] * t[k][j]).sum::<f64>())
     });
     let m = [reduced[2].map(|v| v / 2.), reduced[1].map(|v| -v), reduced[0].map(|v| v / 2.)];
+    // The ellipse constraint is 4ac − b² > 0; only one eigenvector satisfies it.
     let quadratic = eigenvalues(m)
         .into_iter()
         .filter_map(|value| eigenvector(m, value))

@@ -18,7 +18,7 @@ pub struct MapGrid {
     /// The map is interpolated in triangles between cones. It is not defined outside the convex
     /// hull of the cones, outside the window, and in triangles of which a corner has no value.
     pub values: Vec<f64>,
-    /// One flag per grid cell: `true` if its value is interpolated between three cones whose local
+    /// Flag of each grid cell: `true` if its value is interpolated between three cones whose local
     /// windows all lie inside the window of the mosaic.
     pub whole: Vec<bool>,
 }
@@ -39,6 +39,8 @@ pub(super) fn grid(
     let mut values = vec![f64::NAN; columns * rows];
     let mut whole = vec![false; columns * rows];
     let map: Vec<Option<f64>> = local.iter().map(value).collect();
+    // Indices of the grid cells whose centres lie between `from` and `to`, along an axis on which
+    // the grid starts at `low`.
     let span = |from: f64, to: f64, low: f64, count: usize| {
         let first = ((from - low) / step - 0.5).ceil().max(0.) as usize;
         let last = ((to - low) / step - 0.5).floor();

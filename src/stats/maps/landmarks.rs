@@ -4,7 +4,7 @@ use super::surface::Surface;
 use super::{LocalFlag, LocalValues, MapOptions};
 use crate::geometry::{Point, Window};
 
-/// Landmarks of the density map.
+/// Landmarks of the density map: its peak, and the region of high density around it.
 ///
 /// Lengths are in units of the coordinates, densities per squared unit.
 #[derive(Clone, Debug, Default)]
@@ -15,12 +15,15 @@ pub struct Landmarks {
     /// Peak cone density (PCD): the largest density in a local window that lies inside the window
     /// of the mosaic. `None` if there is no such local window.
     pub peak: Option<f64>,
-    /// Position of the cone with the peak cone density; the first of them if several are equal.
+    /// Position of the cone with the peak cone density, or of the first of several equal ones;
+    /// `None` if there is no peak.
     pub peak_at: Option<Point>,
     /// Area of the isodensity region, in which the density map is at least
-    /// [`MapOptions::isodensity`] times the peak. `None` without a density map.
+    /// [`MapOptions::isodensity`] times the peak. `None` if the region has no area, for example
+    /// without a density map.
     pub isodensity_area: Option<f64>,
-    /// Cone density centroid (CDC): the density-weighted centroid of the isodensity region.
+    /// Cone density centroid (CDC): the density-weighted centroid of the isodensity region. `None`
+    /// if the region has no area.
     ///
     /// Source: Reiniger et al. (2021), <https://doi.org/10.1016/j.cub.2021.07.005>.
     pub centroid: Option<Point>,
@@ -31,14 +34,17 @@ pub struct Landmarks {
     ///
     /// `None` if the longest outline is not closed or no ellipse fits it.
     pub ellipse: Option<Ellipse>,
-    /// `true` if the edge of the map cuts the isodensity region off: the area found is then too
-    /// small, and the centroid lies too far inwards.
+    /// `true` if the isodensity region extends to the edge of the map and is cut off there. The
+    /// area is then too small, and the centroid lies too far inwards.
     pub cut: bool,
     /// Outlines of the isodensity region, longest first.
     pub contours: Vec<Contour>,
 }
 
 /// Finds the landmarks of the density map.
+///
+/// `density` contains the value of the map at each cone: the local density, or `None` for cones
+/// whose local window extends beyond the window of the mosaic.
 pub(super) fn landmarks(
     points: &[Point],
     window: &Window,
@@ -48,7 +54,8 @@ pub(super) fn landmarks(
     options: &MapOptions,
 ) -> Landmarks {
     let whole = local.iter().filter(|v| v.flag == LocalFlag::Whole).count();
-    // The first of equal maxima is taken, whatever the number of threads.
+    // The first of equal maxima is taken, so that the result does not depend on the number of
+    // threads.
     let peak = density.iter().enumerate().filter_map(|(k, d)| Some((k, (*d)?))).fold(
         None,
         |best: Option<(usize, f64)>, (k, d)| match best {

@@ -3,8 +3,8 @@
 //!
 //! 1. Collect the bound cells near the cone, and for each of them the half-side of the smallest
 //!    square around the cone that contains the cell.
-//! 2. Take the `n` cells with the smallest half-sides, or all cells within a square of given side.
-//!    If fewer than `n` cells are found, widen the search.
+//! 2. Take the `n` cells with the smallest half-sides, or all cells inside a square whose side is
+//!    set. If fewer than `n` cells are found, widen the search.
 //! 3. Average area, distances, ψ6 and numbers of sides over these cells.
 
 use super::LocalWindow;
@@ -13,10 +13,13 @@ use crate::geometry::{NearestNeighbours, Point, Rectangle, Window};
 use crate::stats::{Deviation, Voronoi, moments};
 use rayon::prelude::*;
 
-/// Factor by which the search is widened if the previous square held too few cells.
+/// Factor by which the half-side of the search is enlarged if the previous square contained too few
+/// cells.
+///
+/// It doubles the area, because 1.4² is about 2.
 const WIDER: f64 = 1.4;
-/// A square counts as lying inside a polygon if at most this share of its area is outside, which is
-/// only rounding error.
+/// Largest share of the area of a square that may lie outside a polygon for the square to count as
+/// inside. So small a share is only rounding error.
 const ROUNDING: f64 = 1e-9;
 
 /// State of the local window around a cone: complete, beyond the border, or missing.
@@ -27,8 +30,8 @@ pub enum LocalFlag {
     /// The local window extends beyond the window of the mosaic, so the cells in it lie mainly on
     /// one side of the cone.
     Edge,
-    /// The cone has no local values: the mosaic has fewer bound cells than requested or none at
-    /// all, or the local window is wider than the torus.
+    /// Missing local window: the mosaic has fewer bound cells than requested or none at all, or the
+    /// local window would be wider than the torus.
     Few,
 }
 
@@ -46,16 +49,17 @@ impl LocalFlag {
 /// Local values of a mosaic in the square window around one cone.
 ///
 /// The values are means over the bound cells (Voronoi cells strictly inside the window of the
-/// mosaic) that lie entirely in the local window.
+/// mosaic) that lie entirely in the local window. They are `None` if there is no such cell or no
+/// local window ([`LocalFlag::Few`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocalValues {
     /// Side of the local window, in units of the coordinates: the requested side, or the smallest
-    /// side with which it holds the requested number of bound cells.
+    /// side with which the window contains the requested number of bound cells.
     ///
-    /// `None` if there are no local values.
+    /// `None` if there is no local window.
     pub side: Option<f64>,
-    /// Number of bound cells in the local window, or in the entire mosaic if there are no local
-    /// values.
+    /// Number of bound cells in the local window, or in the entire mosaic if there is no local
+    /// window.
     ///
     /// The number exceeds the requested one if several cells enter the growing window at the same
     /// size.
@@ -70,7 +74,8 @@ pub struct LocalValues {
     pub inter_cell: Option<f64>,
     /// Mean distance from a cone to its nearest neighbour, in units of the coordinates.
     pub nearest: Option<f64>,
-    /// Regularity index of the nearest-neighbour distances: mean over standard deviation.
+    /// Regularity index of the nearest-neighbour distances: mean divided by standard deviation.
+    /// `None` also if the standard deviation is 0 or not defined.
     pub nearest_ri: Option<f64>,
     /// Mean modulus of ψ6, the bond-orientational order.
     pub psi6: Option<f64>,
@@ -78,15 +83,19 @@ pub struct LocalValues {
     pub six_sided_percent: Option<f64>,
 }
 
-/// Bound cell with the values that are averaged.
+/// Bound cell (Voronoi cell strictly inside the window of the mosaic) with the values that are
+/// averaged over local windows.
 struct Member {
+    /// Position of the cone.
     at: Point,
     /// Distances by which the cell extends from its point to the left, up, to the right and down.
     extent: [f64; 4],
     area: f64,
     inter_cell: f64,
     nearest: f64,
+    /// Modulus of ψ6, the bond-orientational order.
     psi6: f64,
+    /// `true` if the cell has six sides.
     six: bool,
 }
 
@@ -150,7 +159,8 @@ const fn few(bound: usize) -> LocalValues {
     }
 }
 
-/// Averages the values of the cells with the indices `chosen`.
+/// Averages the values of the members with the indices `chosen`, which are the cells in a local
+/// window of side `side`.
 fn values(
     members: &[Member],
     chosen: &[usize],
@@ -182,6 +192,7 @@ struct Finder<'a> {
     members: &'a [Member],
     tree: NeighbourTree,
     window: &'a Window,
+    /// Width and height of the window's bounds.
     sides: [f64; 2],
 }
 
@@ -203,8 +214,8 @@ impl<'a> Finder<'a> {
         if self.window.is_torus() { self.sides[0].min(self.sides[1]) / 2. } else { f64::INFINITY }
     }
 
-    /// Returns the half-side and the index of every cell whose point is at most `half` away from
-    /// `at` along x and along y.
+    /// Returns every cell whose point is at most `half` away from `at` along x and along y, as its
+    /// half-side and its index.
     ///
     /// The half-side is half the side of the smallest square centred on `at` that contains the
     /// cell. A square contains a cell if and only if it contains the cell's bounding box, so
@@ -228,15 +239,18 @@ impl<'a> Finder<'a> {
         [dx - self.sides[0] * (dx / self.sides[0]).round(), dy - self.sides[1] * (dy / self.sides[1]).round()]
     }
 
-    /// Returns half the side of the smallest square around `at` that holds `n` cells, and the
+    /// Returns half the side of the smallest square around `at` that contains `n` cells, and the
     /// indices of the cells in it in rising order.
     ///
-    /// Returns `None` if no square holds `n` cells.
+    /// Returns `None` if no square contains `n` cells. On a torus, only squares that fit on it are
+    /// tried.
     fn grown(&self, at: Point, n: usize) -> Option<(f64, Vec<usize>)> {
         if self.members.len() < n || n == 0 {
             return None;
         }
         let mean_area = self.window.area() / self.members.len() as f64;
+        // The first square has about twice the area of `n` average cells, because cells that are
+        // cut by its sides do not count.
         let mut half = 0.7 * (n as f64 * mean_area).sqrt();
         loop {
             half = half.min(self.widest());
@@ -256,8 +270,8 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Returns `side` / 2 and the indices of the cells strictly inside the square of side `side`
-    /// around `at`.
+    /// Returns `side` / 2, and the indices of the cells strictly inside the square of side `side`
+    /// around `at` in rising order.
     ///
     /// Returns `None` if the square is wider than the torus.
     fn of_side(&self, at: Point, side: f64) -> Option<(f64, Vec<usize>)> {
@@ -267,9 +281,9 @@ impl<'a> Finder<'a> {
     }
 }
 
-/// Returns the indices of the found cells in rising order.
+/// Returns the indices of the found cells, which come as (half-side, index), in rising order.
 ///
-/// Sums over them then do not depend on the order in which the tree is walked.
+/// Sums over the cells then do not depend on the order in which the tree is walked.
 fn in_order(found: impl Iterator<Item = (f64, usize)>) -> Vec<usize> {
     let mut indices: Vec<usize> = found.map(|(_, k)| k).collect();
     indices.sort_unstable();

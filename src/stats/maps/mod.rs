@@ -9,9 +9,9 @@
 //! <https://doi.org/10.1167/iovs.16-19072>). A bound cell counts in a local window if it lies
 //! entirely inside it.
 //!
-//! A local window near the border may extend beyond the window of the mosaic before it holds enough
-//! cells. It continues to grow, but finds further cells only on the inner side. Its values are
-//! marked with [`LocalFlag::Edge`], and neither landmarks nor meridians use them.
+//! A local window near the border may extend beyond the window of the mosaic before it contains
+//! enough cells. It continues to grow, but finds further cells only on the inner side. Its values
+//! are marked with [`LocalFlag::Edge`], and neither landmarks nor meridians use them.
 
 mod ellipse;
 mod grid;
@@ -57,10 +57,11 @@ pub struct Maps {
 impl Maps {
     /// Returns the map of one of the local values, sampled on a square grid.
     ///
-    /// `mosaic` is the mosaic from which the maps were made, `value` selects the local value, and
-    /// `longer` is the number of grid cells along the longer side of the mosaic's window. Local
-    /// windows that extend beyond the mosaic's window are included; [`MapGrid::whole`] is `false`
-    /// for the grid cells whose values depend on them.
+    /// `mosaic` must be the mosaic from which the maps were made, `value` selects the local value,
+    /// and `longer` is the number of grid cells along the longer side of the mosaic's window.
+    ///
+    /// Local windows that extend beyond the mosaic's window are included. [`MapGrid::whole`] is
+    /// `false` for the grid cells whose values depend on them.
     pub fn grid(
         &self,
         mosaic: &Mosaic,
@@ -75,10 +76,10 @@ impl Maps {
 ///
 /// The maps are linear between cones, so their peak is at the cone of largest local density. The
 /// peak density is the maximum over as many local windows as there are cones. It therefore exceeds
-/// the true density at that place by about the scatter of the density in a single local window.
+/// the true density at that point by about the scatter of the density in a single local window.
 ///
 /// # Errors
-/// Returns [`StatsError::Option`] if an option is out of its range.
+/// Fails if an option is out of its range.
 pub fn maps(mosaic: &Mosaic, measures: &Measures, options: &MapOptions) -> Result<Maps, StatsError> {
     options.validate()?;
     let (points, window) = (mosaic.points(), mosaic.window());
@@ -89,6 +90,7 @@ pub fn maps(mosaic: &Mosaic, measures: &Measures, options: &MapOptions) -> Resul
     let map = |value: fn(&LocalValues) -> Option<f64>| -> Vec<Option<f64>> {
         local.iter().map(|v| if v.flag == LocalFlag::Whole { value(v) } else { None }).collect()
     };
+    // The values of these maps at cones whose local window is cut by the border are left out.
     let charts = [map(|v| v.density), map(|v| v.inter_cell), map(|v| v.nearest)];
     let landmarks = landmarks::landmarks(points, window, &surface, &local, &charts[0], options);
     let step = options.profile_step.or_else(|| mosaic.hexagonal_spacing().map(|s| 2. * s));

@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LocalWindow {
-    /// Square that grows until it holds the given number of bound cells, 3 to 100 000.
+    /// Square that grows until it contains this number of bound cells, 3 to 100 000.
     ///
     /// A bound cell is a Voronoi cell that lies strictly inside the window of the mosaic.
     Cells(usize),
-    /// Square with the given side, in the unit of the coordinates.
+    /// Square with this side, in the unit of the coordinates.
     Side(f64),
 }
 
@@ -18,7 +18,7 @@ pub enum LocalWindow {
 pub struct MapOptions {
     /// Size of the square around each cone in which local values are taken.
     ///
-    /// The default square grows until it holds 100 bound cells, which are Voronoi cells strictly
+    /// The default square grows until it contains 100 bound cells, which are Voronoi cells strictly
     /// inside the window of the mosaic.
     pub window: LocalWindow,
     /// Lowest density of the isodensity region, as a share of the peak density: 0.01 to 0.99,
@@ -43,7 +43,7 @@ impl MapOptions {
     /// Checks that every field is in its range.
     ///
     /// # Errors
-    /// Returns [`StatsError::Option`] for the first field that is out of its range.
+    /// Fails if a field is out of its range; the error names the first such field.
     pub fn validate(&self) -> Result<(), StatsError> {
         let check = |option, value: f64, ok: bool, range| {
             if ok { Ok(()) } else { Err(StatsError::Option { option, value, range }) }

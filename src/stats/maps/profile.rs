@@ -7,21 +7,24 @@ use crate::mosaic::hexagonal_spacing;
 use crate::stats::edge_weight::EdgeWeights;
 use crate::stats::{NearestNeighbours, Voronoi};
 
-/// Largest number of rings, and of steps along each meridian; profiles end there.
+/// Largest number of rings, and of steps along each meridian. Profiles end there, so that a tiny
+/// step cannot fill the memory.
 const MOST_ROWS: f64 = 10_000.;
 
-/// Kind of a row of a profile: a ring about the centre, or a place on one of four meridians.
+/// Kind of a row of a profile: a ring about the centre, or a point on one of four meridians.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Along {
     /// Ring about the centre, over which values are averaged.
     Ring,
-    /// Place on the meridian that runs from the centre towards greater x.
+    /// Point on the meridian that runs from the centre towards greater x.
     Right,
-    /// Place on the meridian that runs from the centre towards greater y.
+    /// Point on the meridian that runs from the centre towards greater y, which is down in the
+    /// picture.
     Down,
-    /// Place on the meridian that runs from the centre towards smaller x.
+    /// Point on the meridian that runs from the centre towards smaller x.
     Left,
-    /// Place on the meridian that runs from the centre towards smaller y.
+    /// Point on the meridian that runs from the centre towards smaller y, which is up in the
+    /// picture.
     Up,
 }
 
@@ -81,11 +84,13 @@ pub struct ProfileRow {
     pub nearest: Option<f64>,
 }
 
-/// Returns the rows of rings of width `step` about `centre`, then the rows of the four meridians.
+/// Returns the rows of rings of width `step` about `centre`, followed by the rows of the four
+/// meridians.
 ///
-/// The outermost ring contains the farthest bound cell. Along meridians, `maps` (density,
-/// inter-cell distance and nearest-neighbour distance) are read in steps of `step`, wherever the
-/// density is defined.
+/// Rings extend to the farthest bound cell (Voronoi cell strictly inside the window). Along each
+/// meridian, the three `maps` (density, inter-cell distance and nearest-neighbour distance, one
+/// value per cone) are read in steps of `step`; points at which the density is not defined are left
+/// out.
 pub(super) fn profile(
     (points, window): (&[Point], &Window),
     (cells, neighbours): (&Voronoi, &NearestNeighbours),
@@ -94,6 +99,8 @@ pub(super) fn profile(
     centre: Point,
     step: f64,
 ) -> Vec<ProfileRow> {
+    // For each ring: the number of bound cells, and the sums of their areas, inter-cell distances
+    // and nearest-neighbour distances.
     let mut rings: Vec<(usize, [f64; 3])> = Vec::new();
     for (k, cell) in cells.cells.iter().enumerate().filter(|(_, cell)| cell.bound) {
         let at = (window.distance(centre, points[k]) / step).floor();

@@ -2,7 +2,7 @@
 //!
 //! 1. Cut each triangle, in which the map is linear, along the level.
 //! 2. Integrate area and moments exactly over the part above the level.
-//! 3. Join the places where the level crosses the sides of triangles into outlines.
+//! 3. Join the points where the level crosses the sides of triangles into outlines.
 
 use super::surface::{Surface, Valued, cross};
 use crate::geometry::Point;
@@ -15,19 +15,19 @@ pub(super) struct Region {
     pub(super) area: f64,
     /// Centroid of the region, weighted by the map; `None` if the region has no area.
     pub(super) centroid: Option<Point>,
-    /// `true` if the region is cut off by the edge of the map, where the map has not yet fallen
-    /// below the level.
+    /// `true` if the region extends to the edge of the map, where the map has not yet fallen below
+    /// the level; its true extent is then unknown.
     pub(super) cut: bool,
     /// Outlines of the region, longest first.
     pub(super) contours: Vec<Contour>,
 }
 
-/// Line along which a map has a given value.
+/// Line along which a map has a constant value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
-    /// Places along the line, in order; a closed line does not repeat its first place.
+    /// Points along the line, in order; a closed line does not repeat its first point.
     pub places: Vec<Point>,
-    /// `true` if the line returns to its first place, `false` if it ends at the edge of the map.
+    /// `true` if the line returns to its first point, `false` if it ends at the edge of the map.
     pub closed: bool,
 }
 
@@ -43,27 +43,33 @@ impl Contour {
     }
 }
 
-/// Computes the region in which the map, linear in each triangle, is at least `level`.
+/// Computes the region in which a map is at least `level`.
 ///
-/// Sums are taken relative to `origin`, a point near the map, to avoid cancellation in windows far
-/// from the origin of the coordinates.
+/// `values` contains the value of the map at each cone; between cones the map is linear in each
+/// triangle. Sums are taken relative to `origin`, a point near the map, to avoid cancellation in
+/// windows far from the origin of the coordinates.
 pub(super) fn region(surface: &Surface, values: &[Option<f64>], level: f64, origin: Point) -> Region {
+    // `mass` is the integral of the map over the region, and `moment` the integral of the map times
+    // the position.
     let (mut area, mut mass, mut moment) = (0., 0., [0.; 2]);
-    // For the index of each crossed side: the place where the level crosses the side, and the other
-    // crossed sides to which the outline continues.
+    // Points where the level crosses sides of triangles, by the index of the side. Each point comes
+    // with the indices of the crossed sides at which the outline continues, at most one in either
+    // of the two triangles that share the side.
     let mut crossings: BTreeMap<usize, (Point, Vec<usize>)> = BTreeMap::new();
-    // Sides at the edge of the map, which belong to one triangle only, if an end lies in the
-    // region.
+    // Sides at the edge of the map of which an end is in the region. A side is at the edge of the
+    // map if only one triangle with values has it.
     let mut border: BTreeSet<usize> = BTreeSet::new();
     for triangle in &surface.triangles {
         let Some(corners) = surface.valued(triangle, values) else { continue };
+        // `crossed`: sides of this triangle that the level crosses, none or two. `part`: corners of
+        // the part of this triangle above the level, 3 or 4 if there is one.
         let mut crossed: Vec<usize> = Vec::with_capacity(2);
         let mut part: Vec<Valued> = Vec::with_capacity(4);
         for k in 0..3 {
             let (from, to) = (corners[k], corners[(k + 1) % 3]);
             let side = triangle.sides[k];
             if from.1 >= level || to.1 >= level {
-                // A second triangle with the same side removes it again.
+                // The second triangle that has the same side removes it again.
                 if !border.remove(&side) {
                     border.insert(side);
                 }
@@ -87,12 +93,15 @@ pub(super) fn region(surface: &Surface, values: &[Option<f64>], level: f64, orig
                 }
             }
         }
+        // The part above the level is convex, so it is divided into triangles from its first
+        // corner.
         for k in 2..part.len() {
             let (a, b, c) = (part[0], part[k - 1], part[k]);
             let size = cross(a.0, b.0, c.0).abs() / 2.;
             area += size;
-            // The sum over the midpoints of the sides is exact for a product of two linear
-            // functions.
+            // The integrand of `moment` is the product of two linear functions, map and position.
+            // For such a product, the area times the mean over the midpoints of the three sides is
+            // the exact integral.
             for (p, q) in [(a, b), (b, c), (c, a)] {
                 let weight = size / 3. * (p.1 + q.1) / 2.;
                 mass += weight;
@@ -107,10 +116,13 @@ pub(super) fn region(surface: &Surface, values: &[Option<f64>], level: f64, orig
     Region { area, centroid, cut: !border.is_empty(), contours }
 }
 
-/// Joins crossings into lines: first the lines that end at the edge of the map, then closed lines.
+/// Joins the crossings of [`region()`] into lines: first the lines that end at the edge of the map,
+/// then the closed lines.
 fn contours(mut crossings: BTreeMap<usize, (Point, Vec<usize>)>) -> Vec<Contour> {
     let mut lines = Vec::new();
     for open in [true, false] {
+        // An open line starts at a crossing that continues in one direction only. When the open
+        // lines are removed, any crossing that is left can start a closed line.
         let starts: Vec<usize> =
             crossings.iter().filter(|(_, (_, joined))| !open || joined.len() < 2).map(|(&k, _)| k).collect();
         for start in starts {
@@ -120,6 +132,7 @@ fn contours(mut crossings: BTreeMap<usize, (Point, Vec<usize>)>) -> Vec<Contour>
                 places.push(place);
                 at = joined.into_iter().find(|next| crossings.contains_key(next));
             }
+            // A single crossing is no line.
             if places.len() > 1 {
                 lines.push(Contour { places, closed: !open });
             }

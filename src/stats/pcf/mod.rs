@@ -1,9 +1,9 @@
 //! Pair correlation function g(r) of a stationary pattern, with several edge corrections.
 //!
-//! 1. Visit all pairs of points up to the largest distance that matters, and weight each pair to
-//!    compensate for pairs that the border hides.
-//! 2. Collect their distances in a fine histogram and smooth it with the kernel (see `smoother`).
-//! 3. Divide by the number expected for independent points of the same density.
+//! 1. Visit all pairs of points up to the largest distance from which the kernel extends to a bin,
+//!    and weight each pair to compensate for pairs that the border hides.
+//! 2. Collect the distances in a fine histogram and smooth it with the kernel (see `smoother`).
+//! 3. Divide by the value expected for independent points of the same density.
 
 use crate::choice::UnknownChoice;
 mod smoother;
@@ -43,26 +43,30 @@ use strum::{Display, EnumString, VariantArray, VariantNames};
     parse_err_fn = UnknownChoice::among::<EdgeCorrection>
 )]
 pub enum EdgeCorrection {
-    /// Division of the sum over pairs at distance r by the isotropised set covariance of the
+    /// Division of the sum over pairs at distance r by c(r), the isotropised set covariance of the
     /// window.
     ///
-    /// In a w × h rectangle the covariance is 1 − 2r(w+h)/(πwh) + r²/(πwh). At distances beyond the
-    /// shorter side, where this formula does not hold, translation weights are used instead. In a
-    /// polygon the covariance is averaged over directions ([`crate::geometry::SetCovariance`]) and
-    /// taken as at least .01. On a torus, this choice is replaced by [`EdgeCorrection::Torus`].
+    /// c(r) is the area of W ∩ (W + Δ) divided by the area of W, averaged over all directions of
+    /// the shift Δ of length r, where W is the window; c(0) is 1. In a w × h rectangle, c(r) is 1 −
+    /// 2r(w+h)/(πwh) + r²/(πwh). At distances beyond the shorter side, where this formula is not
+    /// valid, translation weights are used instead.
+    ///
+    /// In a polygon, c(r) is computed by [`crate::geometry::SetCovariance`] and taken as at least
+    /// .01. On a torus, this choice is replaced by [`EdgeCorrection::Torus`].
     #[default]
     SetCovariance,
-    /// Weight of each pair: |W| / |W ∩ (W + Δ)|, at most 100, where |·| is the area, W the window
+    /// Weight of each pair: |W| / |W ∩ (W + Δ)|, at most 100. Here |·| is the area, W the window
     /// and Δ the vector between the two points.
     ///
-    /// In a rectangle this is wh/((w−|Δx|)(h−|Δy|)); in a polygon it is within 2 · 10⁻³ of the
-    /// exact value. Source: Ohser & Stoyan (1981), <https://doi.org/10.1002/bimj.4710230602>.
+    /// In a w × h rectangle this is wh/((w−|Δx|)(h−|Δy|)); in a polygon it is within 2 · 10⁻³ of
+    /// the exact value. Source: Ohser & Stoyan (1981), <https://doi.org/10.1002/bimj.4710230602>.
     Translation,
     /// Weight of each pair: the inverse of the share of a circle that lies in the window. The
     /// circle is centred on one point of the pair and passes through the other.
     ///
-    /// The weight is the mean over both circles of this kind, with an inverse share of at most 100
-    /// each. Source: Ripley (1976), <https://doi.org/10.2307/3212829>.
+    /// There are two such circles, one around each point. The weight of the pair is the mean of
+    /// both inverse shares, each bounded to 100. Source: Ripley (1976),
+    /// <https://doi.org/10.2307/3212829>.
     Isotropic,
     /// Pairing of points with the periodic images of other points, so that no pair is hidden. For
     /// torus windows only.
@@ -73,16 +77,19 @@ pub enum EdgeCorrection {
 
 /// Options for estimating the pair correlation function.
 ///
-/// Lengths are in hexagonal spacings s = √(2/(√3 λ)) of the pattern, with λ its density.
+/// Lengths are in hexagonal spacings of the pattern: s = √(2/(√3 λ)) for the density λ.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PcfOptions {
     /// Shape of the smoothing kernel.
     pub kernel: Kernel,
     /// Standard deviation σ of the kernel, in hexagonal spacings: .005–1, default .1.
+    ///
+    /// The distances between samplers that Lanaro et al. (2020) printed are consistent with σ from
+    /// .10 to .12 only.
     pub bandwidth: f64,
-    /// Left edge of the first bin, in hexagonal spacings: default .15, at least 1.5 `bandwidth`,
-    /// because nearer to 0 the kernel extends to negative distances.
+    /// Left edge of the first bin, in hexagonal spacings: at most 50, default .15. It must be at
+    /// least 1.5 `bandwidth`, because nearer to 0 the kernel extends to negative distances.
     pub r_min: f64,
     /// Right edge of the last bin, in hexagonal spacings: above `r_min`, at most 50, default 2.5.
     pub r_max: f64,
@@ -109,11 +116,12 @@ impl PcfOptions {
     /// Checks that every option is in its range.
     ///
     /// # Errors
-    /// Returns [`StatsError::Option`] with the permitted range if an option is outside it.
+    /// Fails if an option is out of its range; the error names the permitted range.
     pub fn validate(&self) -> Result<(), StatsError> {
         let check = |ok: bool, option, value, range| {
             if ok { Ok(()) } else { Err(StatsError::Option { option, value, range }) }
         };
+        // Rounding must not refuse a value at exactly the lower limit, such as .15 for 1.5 × .1.
         let in_range = |v: f64, low: f64, high: f64| v >= low * (1. - 1e-9) && v <= high;
         check(in_range(self.bandwidth, 0.005, 1.), "PCF bandwidth", self.bandwidth, "0.005 to 1 spacings")?;
         check(
@@ -142,7 +150,7 @@ impl PcfOptions {
     }
 }
 
-/// Pair correlation function, with the options it was estimated with.
+/// Pair correlation function of a pattern, and the options with which it was estimated.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pcf {
     /// Distances at which g is evaluated, in hexagonal spacings of the pattern.
@@ -161,17 +169,17 @@ pub struct Pcf {
 /// g(r) = A Σ_{i≠j} k_σ(r − |x_i − x_j|) / (n (n−1) · 2πr · c(r)), with A the area of the window, n
 /// the number of points x_i, k_σ the kernel and c(r) the edge correction.
 ///
-/// With the Gaussian kernel, distances go into a histogram whose bins are σ/24 or finer. Each
-/// distance is spread over four bins by cubic interpolation, and the histogram is then smoothed.
-/// The time is linear in n, and the result is within 10⁻⁷ of the sum over pairs. Large patterns use
-/// all threads, with the same result for any number of them.
+/// With the Gaussian kernel, distances are collected in a histogram whose bins are at most σ/24
+/// wide. Each distance is spread over four bins by cubic interpolation, and the histogram is then
+/// smoothed. The time is linear in n, and the result is within 10⁻⁷ of the sum over pairs. Large
+/// patterns use all threads, with the same result for any number of them.
 ///
 /// Sources: Öztireli & Gross (2012), <https://doi.org/10.1145/2366145.2366189>; Illian et al.
 /// (2008), <https://doi.org/10.1002/9780470725160>.
 ///
 /// # Errors
-/// Returns [`StatsError`] if an option is out of range, there are fewer than two points, a point is
-/// not inside the window, or the torus correction is requested for a window that is no torus.
+/// Fails if an option is out of range, there are fewer than two points, a point is not inside the
+/// window, or the torus correction is requested for a window that is no torus.
 ///
 /// # Examples
 /// ```
@@ -204,14 +212,17 @@ pub(crate) fn pcf_on_one_thread(
 /// Smallest number of points for which the work is split into [`CHUNKS`] parts that may run in
 /// parallel.
 const CHUNKED_FROM: usize = 8192;
-/// Number of parts into which a large pattern is split. It is fixed, so that the result does not
-/// depend on the number of threads.
+/// Number of parts into which a large pattern is split.
+///
+/// It is fixed, so that the order of the sums, and hence their rounding, does not depend on the
+/// number of threads.
 const CHUNKS: usize = 32;
-/// Largest permitted ratio of the search distance to the shorter side of a torus; thinner windows
-/// are refused.
+/// Largest permitted ratio of the search distance to the shorter side of a torus. Higher ratios are
+/// refused, because the search would go around the torus a thousand times for every point.
 const MAX_TURNS: f64 = 1000.;
 
-/// Estimates g, in parallel if `parallel` is set and the pattern is large.
+/// Estimates g, in parallel if `parallel` is `true` and the pattern has at least [`CHUNKED_FROM`]
+/// points.
 fn estimate(
     points: &[Point],
     window: &Window,
@@ -246,12 +257,14 @@ fn estimate(
     }
 
     let weights = EdgeWeights::new(window);
+    // Largest distance at which the formula of the set covariance is valid.
     let covered = weights.covariance_reach();
     let grid = PairGrid::new(points, window, torus, reach);
     let chunks = if n < CHUNKED_FROM { 1 } else { CHUNKS.min(grid.rows()) };
     let sums_of = |chunk: usize| {
         let rows = chunk * grid.rows() / chunks..(chunk + 1) * grid.rows() / chunks;
         let mut plain = Smoother::new(&options, spacing);
+        // Sums with translation weights, for the bins beyond `covered`.
         let mut weighted = None;
         match options.edge {
             EdgeCorrection::SetCovariance if options.r_max * spacing > covered => {

@@ -37,8 +37,8 @@ use strum::{Display, EnumString, VariantArray, VariantNames};
     parse_err_fn = UnknownChoice::among::<Kernel>
 )]
 pub enum Kernel {
-    /// Gaussian exp(−t²/2σ²), cut off at 6.5 σ; the numbers of Lanaro et al. (2020) were made with
-    /// it.
+    /// Gaussian exp(−t²/2σ²), cut off at 6.5 σ, where it has fallen to 7 · 10⁻¹⁰ of its peak. The
+    /// numbers of Lanaro et al. (2020) were made with a Gaussian.
     #[default]
     Gaussian,
     /// Constant within √3 σ, 0 beyond.
@@ -71,20 +71,28 @@ impl Kernel {
     }
 }
 
-/// Running sums of weight · k(r − d) over pairs at distances d, one sum per bin with left edge r.
+/// Running sums of weight · k(r − d) over pairs at distances d, where k is the kernel: one sum per
+/// bin with left edge r.
+///
+/// Lengths are in the unit of the coordinates.
 pub(in crate::stats) struct Smoother {
     kernel: Kernel,
     bins: usize,
+    /// Left edge of the first bin.
     first: f64,
     bin_width: f64,
+    /// Standard deviation of the kernel.
     bandwidth: f64,
-    /// Pair weights spread over the nodes of a fine grid (Gaussian), or the sums per bin (other
-    /// kernels).
+    /// Weights of the pairs, spread over the nodes of a fine grid (Gaussian), or the sums per bin
+    /// (other kernels).
     ///
     /// With the Gaussian there are `per_bin` nodes per bin, and node 0 is `lead` nodes before the
     /// first bin.
     nodes: Vec<f64>,
+    /// Number of nodes of the fine grid per bin; 1 for kernels other than the Gaussian.
     per_bin: usize,
+    /// Number of nodes of the fine grid before the first bin; 0 for kernels other than the
+    /// Gaussian.
     lead: usize,
 }
 
@@ -122,7 +130,7 @@ impl Smoother {
         (self.kernel.reach() * self.bandwidth * self.per_bin as f64 / self.bin_width).ceil() as usize
     }
 
-    /// Adds a pair at distance `d` with the given weight.
+    /// Adds a pair at distance `d` with the weight `weight`.
     #[inline]
     pub(in crate::stats) fn add(&mut self, d: f64, weight: f64) {
         match self.kernel {
@@ -134,6 +142,8 @@ impl Smoother {
                 let node = at as usize;
                 let t = at - node as f64;
                 if let Some([a, b, c, e]) = self.nodes.get_mut(node - 1..node + 3) {
+                    // Lagrange's weights of cubic interpolation, for nodes at −1, 0, 1 and 2 and a
+                    // distance at `t`.
                     *a += weight * (t * (t - 1.) * (2. - t) / 6.);
                     *b += weight * ((t + 1.) * (t - 1.) * (t - 2.) / 2.);
                     *c += weight * ((t + 1.) * t * (2. - t) / 2.);

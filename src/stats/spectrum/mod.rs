@@ -13,8 +13,8 @@ use crate::geometry::{Point, Window};
 pub use modal::{ModalSpacing, modal_spacing};
 use serde::{Deserialize, Serialize};
 
-/// Largest number of waves in a spectrum; requests for more are refused, because they would fill
-/// gigabytes.
+/// Largest number of waves in a spectrum. Requests for more are refused, because their powers and
+/// sums would fill gigabytes.
 const MOST_WAVES: f64 = 5e7;
 
 /// Options of a power spectrum.
@@ -36,7 +36,7 @@ impl SpectrumOptions {
     /// Checks that the highest frequency is in its range.
     ///
     /// # Errors
-    /// Returns [`StatsError::Option`] if the frequency is out of its range.
+    /// Fails if the frequency is out of its range.
     pub fn validate(&self) -> Result<(), StatsError> {
         if (0.1..=20.).contains(&self.max_frequency) {
             return Ok(());
@@ -62,35 +62,39 @@ pub struct PowerSpectrum {
     /// Anisotropy of each annulus, in dB: 10 log₁₀(s²/P²), with P the mean and s² the variance of
     /// the power of its waves (divisor: number of waves − 1).
     ///
-    /// For one pattern without preferred direction it is about 0 dB; for the mean spectrum of m
-    /// such patterns, about −10 log₁₀ m. `None` for an annulus with a single wave or without
-    /// variance.
+    /// For one pattern without preferred direction it is about 0 dB, because the variance of the
+    /// power then equals its squared mean; for the mean spectrum of m such patterns, about −10
+    /// log₁₀ m. `None` for an annulus with a single wave or without variance.
     ///
     /// Sources: Ulichney (1987); Lagae & Dutré (2008),
     /// <https://doi.org/10.1111/j.1467-8659.2007.01100.x>.
     pub anisotropy_db: Vec<Option<f64>>,
-    /// Highest wave numbers in `plane`, along x and along y.
+    /// Highest wave numbers in `plane`: the largest kx and the largest ky.
     highest: [usize; 2],
-    /// Frequency of the first wave along x and along y, in √λ.
+    /// Frequency of the wave with kx = 1, ky = 0 and of the wave with kx = 0, ky = 1, in √λ.
     step: [f64; 2],
-    /// Power at 0 ≤ kx, |ky| ≤ highest, at index `kx · (2 · highest y + 1) + ky + highest y`.
+    /// Power of the waves (kx, ky) with 0 ≤ kx ≤ `highest[0]` and |ky| ≤ `highest[1]`, at index `kx
+    /// · (2 · highest[1] + 1) + ky + highest[1]`.
+    ///
+    /// Waves with kx < 0 are not stored, because the opposite wave (−kx, −ky) has the same power.
     plane: Vec<f64>,
 }
 
 /// Computes the power spectrum of a point pattern.
 ///
 /// The spectrum is the periodogram P(k) = |Σ_j exp(−2πi k·x_j)|²/n of n points x_j. It is averaged
-/// over annuli of equal ⌊|k|√A⌉, the nearest integer to |k|√A, in a window of area A (Ulichney
-/// 1987; Lagae & Dutré 2008, <https://doi.org/10.1111/j.1467-8659.2007.01100.x>). The wave vectors
-/// k are (j/w, l/h), with integers j and l that are not both 0, as if the w × h window were a
-/// torus. The same waves are used in a window with a border: the transform of the window is 0 at
-/// these waves, so the mean density contributes nothing. The time is linear in n; the error of the
-/// power is at most 10⁻⁶ of P (of .01 where P is smaller).
+/// over annuli, each of which consists of the waves with the same nearest integer to |k|√A, in a
+/// window of area A (Ulichney 1987; Lagae & Dutré 2008,
+/// <https://doi.org/10.1111/j.1467-8659.2007.01100.x>). The wave vectors k are (j/w, l/h), with
+/// integers j and l that are not both 0, as if the w × h window were a torus. The same waves are
+/// used in a window with a border, because the transform of the window is 0 at these waves, so the
+/// mean density contributes nothing. The time is linear in n. The error of the power is at most
+/// 10⁻⁶ P, or 10⁻⁸ if P is below .01.
 ///
 /// # Errors
-/// Returns [`StatsError`] if there is no point, a point is outside, an option is out of its range,
-/// there are more than 5·10⁷ waves, or the window is a polygon (whose own spectrum would hide the
-/// spectrum of the points).
+/// Fails if there is no point, a point is outside, an option is out of its range, there are more
+/// than 5·10⁷ waves, or the window is a polygon (whose own spectrum would hide the spectrum of the
+/// points).
 ///
 /// # Examples
 /// ```
@@ -141,7 +145,8 @@ pub fn spectrum(
 
     let mut annulus = vec![Annulus::default(); annuli as usize + 1];
     for (j, column) in plane.chunks_exact(2 * highest[1] + 1).enumerate() {
-        // A wave and its opposite have the same power, so half of them are counted.
+        // A wave and its opposite have the same power, so one of them is counted. For kx = 0, this
+        // means ky > 0.
         let first = if j == 0 { highest[1] + 1 } else { 0 };
         for (l, &power) in column.iter().enumerate().skip(first) {
             let length = (j as f64 * stretch).hypot((l as f64 - highest[1] as f64) / stretch);
@@ -165,8 +170,11 @@ pub fn spectrum(
 /// <https://doi.org/10.1080/00401706.1962.10490022>).
 #[derive(Clone, Copy, Default)]
 struct Annulus {
+    /// Number of waves in the annulus.
     waves: f64,
+    /// Mean power of these waves.
     mean: f64,
+    /// Sum of squared deviations of the powers from their mean.
     squares: f64,
 }
 
@@ -187,8 +195,8 @@ impl Annulus {
 }
 
 impl PowerSpectrum {
-    /// Returns the difference in frequency of neighbouring waves along x and along y, in √λ (cycles
-    /// per 1/√density).
+    /// Returns the difference in frequency of neighbouring waves along x and along y, in √λ, the
+    /// square root of the density.
     pub const fn wave_step(&self) -> [f64; 2] {
         self.step
     }
@@ -198,7 +206,9 @@ impl PowerSpectrum {
         self.highest
     }
 
-    /// Returns the power at the wave (kx, ky); `None` beyond the highest wave. P(0, 0) is n.
+    /// Returns the power of the wave (kx, ky), or `None` beyond the highest wave.
+    ///
+    /// The power of the wave (0, 0) is the number of points.
     pub fn at(&self, kx: isize, ky: isize) -> Option<f64> {
         let (kx, ky) = if kx < 0 { (-kx, -ky) } else { (kx, ky) };
         let [columns, rows] = self.highest;

@@ -9,12 +9,14 @@ use crate::geometry::{Point, Window, lattice_dual};
 use crate::stats::StatsError;
 use serde::{Deserialize, Serialize};
 
-/// Lowest and highest frequency at which the ring is sought, in √λ, with λ the density. The ring of
-/// the triangular lattice lies at √(2/√3) = 1.075.
+/// Lowest and highest frequency at which the ring is sought, in √λ, with λ the density.
+///
+/// The ring of the triangular lattice lies between them, at √(2/√3) = 1.075.
 const RANGE: (f64, f64) = (0.6, 1.6);
-/// Step between the frequencies that are tried, in √λ.
+/// Step between the frequencies that are tried, in √λ. The maximum is then refined by a parabola.
 const STEP: f64 = 0.01;
-/// Standard deviation of the kernel that averages power over frequency, in √λ.
+/// Standard deviation of the kernel that averages power over frequency, in √λ: about half the width
+/// of the rings of cone mosaics.
 const SMOOTHING: f64 = 0.05;
 /// Smallest number of points for which a ring is sought. With fewer points, too few waves are as
 /// long as the spacing.
@@ -56,14 +58,18 @@ impl PowerSpectrum {
         let stretch = (bounds.height() / bounds.width()).sqrt();
         let [columns, rows] = self.highest();
         let root = n.sqrt();
+        // The average at the highest frequency needs the power up to three standard deviations
+        // beyond.
         let end = RANGE.1 + 3. * SMOOTHING;
         let enough = |highest: usize, stretch: f64| (highest + 1) as f64 * stretch >= end * root;
         if n < FEWEST as f64 || !enough(columns, stretch) || !enough(rows, 1. / stretch) {
             return None;
         }
+        // For each step of frequency: sums of weighted power and of weights over its waves.
         let mut fine = vec![[0.; 2]; (end / STEP) as usize];
         for kx in 0..=columns as isize {
-            // A wave and its opposite have the same power, so only one of them is counted.
+            // A wave and its opposite have the same power, so only one of them is counted. For kx =
+            // 0, this means ky > 0.
             let first = if kx == 0 { 1 } else { -(rows as isize) };
             for ky in first..=rows as isize {
                 let frequency = (kx as f64 * stretch).hypot(ky as f64 / stretch) / root;
@@ -100,11 +106,13 @@ impl PowerSpectrum {
     }
 }
 
-/// Finds the ring of a pattern as [`PowerSpectrum::modal`] does; `None` if there is no ring.
+/// Finds the ring of a pattern as [`PowerSpectrum::modal`] does, or returns `None` if there is no
+/// ring.
 ///
 /// # Errors
-/// Returns the errors of [`spectrum`]: without points, if a point is outside, or in a polygon.
+/// Fails as [`spectrum()`] does: without points, if a point is outside, or in a polygon.
 pub fn modal_spacing(points: &[Point], window: &Window) -> Result<Option<ModalSpacing>, StatsError> {
+    // `modal` needs 3 standard deviations beyond the range; the fourth is a margin.
     let options = SpectrumOptions { max_frequency: RANGE.1 + 4. * SMOOTHING };
     Ok(spectrum(points, window, &options)?.modal(window))
 }

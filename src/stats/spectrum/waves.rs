@@ -13,21 +13,27 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 
-/// Largest number of products of points and waves for which the direct sum is faster than the grid.
+/// Largest number of points times waves for which the terms are summed directly, which is then
+/// faster than the grid.
 const FEW: usize = 500_000;
 /// Number w of grid cells over which a point is spread, along either axis.
 ///
-/// With the oversampling σ of [`OVERSAMPLING`], aliasing is exp(−πw√(1 − 1/σ)) = 3·10⁻⁹ (Barnett,
-/// Magland & af Klinteberg 2019, eq. 4.1, <https://doi.org/10.1137/18M120885X>).
+/// With the oversampling σ of [`OVERSAMPLING`], the error by aliasing is exp(−πw√(1 − 1/σ)) =
+/// 3·10⁻⁹ (Barnett, Magland & af Klinteberg 2019, eq. 4.1, <https://doi.org/10.1137/18M120885X>).
 const WIDTH: usize = 14;
-/// Number σ of grid points per wavelength of the highest wave, divided by two.
+/// Oversampling σ: half the number of grid points per wavelength of the highest wave. It must be
+/// above 1.
+///
+/// A larger σ would allow a narrower kernel, but make the Fourier transform larger.
 const OVERSAMPLING: f64 = 1.25;
 /// Shape β of the kernel exp(β(√(1 − z²) − 1)), for the width [`WIDTH`] and the oversampling
-/// [`OVERSAMPLING`].
+/// [`OVERSAMPLING`]. The factor .97 is that of the library FINUFFT.
 const BETA: f64 = 0.97 * PI * WIDTH as f64 * (1. - 0.5 / OVERSAMPLING);
 
-/// Computes the sums for 0 ≤ kx ≤ `columns` and |ky| ≤ `rows`, at index
-/// `kx · (2 rows + 1) + ky + rows`.
+/// Computes the sums for 0 ≤ kx ≤ `columns` and |ky| ≤ `rows`, at index `kx · (2 rows + 1) + ky +
+/// rows`.
+///
+/// `points` are the positions (x_j, y_j), from 0 to 1.
 pub(super) fn sums(points: &[[f64; 2]], columns: usize, rows: usize) -> Vec<Complex64> {
     let waves = (columns + 1) * (2 * rows + 1);
     if points.len().saturating_mul(waves) <= FEW {
@@ -59,6 +65,8 @@ pub(super) fn direct(points: &[[f64; 2]], columns: usize, rows: usize) -> Vec<Co
 pub(super) fn gridded(points: &[[f64; 2]], columns: usize, rows: usize) -> Vec<Complex64> {
     let length = |highest: usize| {
         let least = (OVERSAMPLING * (2 * highest + 1) as f64).ceil() as usize;
+        // The grid must be wider than the kernel, and a multiple of 32 keeps the Fourier transform
+        // fast.
         least.max(2 * WIDTH).next_multiple_of(32)
     };
     let (width, height) = (length(columns), length(rows));
@@ -95,7 +103,8 @@ pub(super) fn gridded(points: &[[f64; 2]], columns: usize, rows: usize) -> Vec<C
     sums
 }
 
-/// Returns the points spread by the kernel over a `width` × `height` grid of the torus, row by row.
+/// Returns the sum of the kernels around all points on a `width` × `height` grid of the torus, row
+/// by row.
 fn spread(points: &[[f64; 2]], width: usize, height: usize) -> Vec<f64> {
     let mut grid = vec![0.; width * height];
     let weights = |at: f64| {
@@ -116,15 +125,21 @@ fn spread(points: &[[f64; 2]], width: usize, height: usize) -> Vec<f64> {
     grid
 }
 
-/// Returns the kernel at a distance of `t` grid cells from the point.
+/// Returns the kernel at a distance of `t` grid cells from the point, which is 0 beyond half of
+/// [`WIDTH`].
 fn kernel(t: f64) -> f64 {
     let z = t * (2. / WIDTH as f64);
     let inside = 1. - z * z;
     if inside < 0. { 0. } else { (BETA * (inside.sqrt() - 1.)).exp() }
 }
 
-/// Returns ∫ kernel(t) cos(2πkt/length) dt for k up to `highest`, by the midpoint rule.
+/// Returns the Fourier transform of the kernel, ∫ kernel(t) cos(2πkt/length) dt, for all k from 0
+/// to `highest`.
+///
+/// The integral is computed by the midpoint rule; `length` is the number of grid cells along the
+/// axis.
 fn kernel_transform(highest: usize, length: usize) -> Vec<f64> {
+    /// Number of nodes of the midpoint rule per grid cell.
     const NODES_PER_CELL: usize = 16;
     let nodes: Vec<[f64; 2]> = (0..WIDTH * NODES_PER_CELL / 2)
         .map(|k| (k as f64 + 0.5) / NODES_PER_CELL as f64)

@@ -18,9 +18,11 @@ use self::waves::mean_square;
 use crate::geometry::{Point, Window};
 use serde::{Deserialize, Serialize};
 
-/// Significance level: the probability of calling a variation of [`TREND_TOLERANCE`] significant.
+/// Significance level of the test for a trend: the probability of calling a variation of exactly
+/// [`TREND_TOLERANCE`] significant.
 ///
-/// Either end of [`Trend::variation_interval`] has the same level.
+/// Each end of [`Trend::variation_interval`] has the same probability of error, so that the
+/// interval and the test agree.
 pub const TREND_LEVEL: f64 = 0.01;
 
 /// Largest variation of density that is tolerated, as a share of the mean density: 10 %.
@@ -35,35 +37,42 @@ pub const TREND_LEVEL: f64 = 0.01;
 /// varies by 2 %.
 pub const TREND_TOLERANCE: f64 = 0.1;
 
-/// Smallest number of points for which a trend is tested.
+/// Smallest number of points for which a trend is tested; for fewer points, [`trend()`]
+/// returns no values.
 const FEWEST: usize = 20;
-/// Numbers of half-periods of the noise waves that run along a single axis. Noise waves measure how
-/// much a pattern scatters without a trend.
+/// Numbers of half-periods across the window of the noise waves that vary along x only, and
+/// likewise of those that vary along y only.
+///
+/// Noise waves measure how much a pattern scatters without a trend. They begin above the two
+/// half-periods of the fastest wave of the trend.
 const NOISE_ALONG_AXIS: std::ops::RangeInclusive<usize> = 3..=8;
-/// Number of noise waves that vary along both axes.
+/// Number of noise waves that vary along both axes: as many as vary along a single axis, six along
+/// x and six along y.
 const NOISE_ACROSS: usize = 12;
-/// Waves of the trend, each with its numbers of half-periods along x and y. They are the five
-/// slowest waves; together they can follow a linear or quadratic trend.
+/// Waves of the trend, each with its numbers of half-periods along x and along y.
+///
+/// They are the five slowest waves; together they can follow a linear or quadratic trend.
 const TREND_WAVES: [(usize, usize); 5] = [(1, 0), (0, 1), (2, 0), (1, 1), (0, 2)];
 
 /// Variation of a pattern's density across its window, and its significance.
 ///
 /// For fewer than 20 points, or if a point is not finite, all values are `None` and `significant`
-/// is false.
+/// is `false`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Trend {
-    /// Probability of a trend at least as strong as the observed one in a pattern whose density
-    /// varies by [`TREND_TOLERANCE`].
+    /// Probability that a pattern whose density varies by exactly [`TREND_TOLERANCE`] shows a trend
+    /// at least as strong as the observed one.
     pub p_value: Option<f64>,
-    /// Size of the slow variation of density as a share of its mean, with the contribution of
-    /// chance removed.
+    /// Size of the slow variation of density as a share of the mean density, with the contribution
+    /// of chance removed.
     ///
-    /// It is √12 times the root mean square of the variation. In a rectangle this is the difference
-    /// between opposite edges of an equally strong linear gradient.
+    /// It is √12 times the root mean square of the variation. For a linear gradient across a
+    /// rectangle, this is the difference between opposite edges.
     pub variation: Option<f64>,
     /// Lower and upper end of the 98 % confidence interval of `variation`.
     pub variation_interval: Option<(f64, f64)>,
-    /// Ratio of the largest to the smallest density in the window by a quadratic fit, at most 100.
+    /// Ratio of the largest to the smallest density in the window according to a quadratic fit, at
+    /// most 100.
     ///
     /// Even without a trend, the ratio is above 1 by chance.
     pub density_ratio: Option<f64>,
@@ -78,7 +87,8 @@ pub struct Trend {
     pub significant: bool,
 }
 
-/// Measures the trend in density and tests whether it is more than negligible.
+/// Measures the trend in density and tests whether the density varies by more than
+/// [`TREND_TOLERANCE`].
 ///
 /// A regular pattern scatters far less than a Poisson pattern, so the usual test of quadrat counts
 /// against the Poisson variance detects nothing in it. Here the scatter is estimated from the
@@ -87,16 +97,15 @@ pub struct Trend {
 /// are much longer than the spacing. The five slowest waves represent any linear or quadratic
 /// trend; the next 24 measure the noise.
 ///
-/// No mosaic has an exactly constant density, and nearly crystalline ones scatter so little that
-/// the smallest variation would be significant. The test is therefore whether density varies by
-/// more than [`TREND_TOLERANCE`].
+/// The tolerance is needed because no mosaic has an exactly constant density. Nearly crystalline
+/// mosaics scatter so little that even the smallest variation would be significant.
 ///
-/// The test judges the density of the given pattern itself. If its slow waves are stronger than its
-/// faster ones, a trend is reported, even if the average density of many patterns of the same kind
-/// is constant. Lloyd's method, for example, smooths variations of density as diffusion does. Each
+/// The test judges the density of this one pattern. If its slow waves are stronger than its faster
+/// ones, a trend is reported, even if the average density of many patterns of the same kind is
+/// constant. Lloyd's method, for example, smooths variations of density as diffusion does. Each
 /// step multiplies a wave of k radians per length by exp(−.15 k²/λ) (fitted by eye to patterns of
-/// 80 and 300 points, 10 and 50 steps). After fewer than n steps, the variation across the window
-/// is still largely that of the random starting pattern.
+/// 80 and 300 points, 10 and 50 steps). After fewer than n steps for n points, the variation across
+/// the window is still largely that of the random starting pattern.
 ///
 /// The structure factor of a regular pattern may rise with frequency. Trends are then reported too
 /// rarely, not too often.

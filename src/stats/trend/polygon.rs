@@ -9,18 +9,28 @@ use crate::geometry::{Point, Polygon};
 use crate::numeric::Cholesky;
 use std::f64::consts::{PI, SQRT_2};
 
-/// Integrals along the outline are taken over pieces no longer than the shorter side of the bounds
-/// divided by this number; on such a piece the integrands are smooth.
+/// Number of pieces per shorter side of the polygon's bounds into which the outline is cut for
+/// integrals along it.
+///
+/// On pieces of this length the waves vary slowly, so that Gauss's rule on each piece is exact to
+/// rounding.
 const PIECES: f64 = 16.;
-/// A wave or polynomial counts as dependent on earlier ones if at most this share of its mean
-/// square is left after their parts are subtracted.
+/// Largest share of the mean square of a wave or polynomial that may be left, after its projections
+/// on earlier ones are subtracted, for it to count as dependent on them.
+///
+/// Such a wave contributes nothing of its own, and dividing by so small a remainder would amplify
+/// errors.
 const LEAST_OWN: f64 = 1e-3;
 
-/// Returns one value per group of waves: the mean square of the sums of its waves over the points.
+/// Returns one value per group of waves: the mean, over its waves, of the squared sum of the wave
+/// over the points.
 ///
-/// Each mode (j, k) is the wave cos(jπu)·cos(kπv). The waves are made orthonormal over the polygon
-/// and orthogonal to 1, in the order given. `unit` holds the points in coordinates (u, v) in which
-/// the polygon's bounds are the unit square.
+/// Each mode (j, k) is the wave cos(jπu)·cos(kπv). In the order of `groups`, each wave is made
+/// orthogonal to 1 and to the earlier waves, and scaled to mean square 1 over the polygon. Waves
+/// that depend linearly on earlier ones are left out; a group without other waves has the value 0.
+///
+/// `unit` contains the points in coordinates (u, v) in which the polygon's bounds are the unit
+/// square.
 pub(super) fn mean_squares<const N: usize>(
     polygon: &Polygon,
     unit: &[(f64, f64)],
@@ -44,23 +54,25 @@ pub(super) fn mean_squares<const N: usize>(
     factor.forward(&mut sums);
     let mut first = 1;
     groups.map(|group| {
+        // `own`: indices of the waves of this group that do not depend linearly on earlier waves.
         let own: Vec<usize> = (first..first + group.len()).filter(|&k| factor.is_own(k)).collect();
         first += group.len();
         own.iter().map(|&k| sums[k] * sums[k]).sum::<f64>() / own.len().max(1) as f64
     })
 }
 
-/// Returns the coefficients c for which the function Σ c·term has the mean products `means` with
-/// the terms, averaged over the polygon.
+/// Returns the coefficients c of the function f = Σ c·term for which the mean of f·`terms[k]` over
+/// the polygon is `means[k]`, for every k.
 ///
-/// Terms are polynomials in (u, v), coordinates in which the polygon's bounds are the unit square,
+/// Terms are polynomials in coordinates (u, v) in which the polygon's bounds are the unit square,
 /// and have degree at most 2 in u. Returns `None` if the terms are linearly dependent.
 pub(super) fn least_squares<const N: usize>(
     polygon: &Polygon,
     terms: [impl Fn((f64, f64)) -> f64; N],
     means: [f64; N],
 ) -> Option<[f64; N]> {
-    // Gauss's rule with 3 nodes is exact for products of degree 4 along u.
+    // The outline rule integrates ∂F/∂u, so F is needed: the integral of each product from 0 to u.
+    // Products have degree 4 in u at most, for which Gauss's rule with 3 nodes is exact.
     const GAUSS: [(f64, f64); 3] =
         [(-0.774_596_669_241_483_4, 5. / 9.), (0., 8. / 9.), (0.774_596_669_241_483_4, 5. / 9.)];
     let mut gram = [[0.; N]; N];
@@ -83,9 +95,8 @@ pub(super) fn least_squares<const N: usize>(
     (0..N).all(|k| factor.is_own(k)).then_some(solution)
 }
 
-/// Returns places (u, v) on the outline with their weights for integrals along v.
-///
-/// The polygon's bounds are the unit square in the coordinates (u, v).
+/// Returns points (u, v) on the outline with weights such that Σ weight · F(u, v) is the integral
+/// of ∂F/∂u over the polygon (Green's theorem).
 fn rule(polygon: &Polygon) -> impl Iterator<Item = (f64, f64, f64)> {
     let b = polygon.bounds();
     let nodes = polygon.boundary_rule(b.width().min(b.height()) / PIECES);
@@ -96,9 +107,11 @@ fn rule(polygon: &Polygon) -> impl Iterator<Item = (f64, f64, f64)> {
     })
 }
 
-/// Means of cos(aπu)·cos(bπv) over a polygon, for all integers a and b below `side`.
+/// Means of cos(aπu)·cos(bπv) over a polygon, for all integers a and b from 0 to `side` − 1.
 struct CosineIntegrals {
+    /// Number of values of a, and likewise of b.
     side: usize,
+    /// Mean for a and b, at index a · `side` + b.
     means: Vec<f64>,
 }
 
@@ -127,7 +140,9 @@ impl CosineIntegrals {
 
     /// Returns the mean over the polygon of the product of the waves (j, k) and (l, m).
     ///
-    /// A wave has one factor √2 for each of its two frequencies that is not 0.
+    /// The wave (j, k) is cos(jπu)·cos(kπv), times √2 for each of j and k that is not 0. The
+    /// product of two cosines is half the sum of the cosines of the difference and of the sum of
+    /// their arguments.
     fn product(&self, (j, k): (usize, usize), (l, m): (usize, usize)) -> f64 {
         let norm = |k: usize| if k == 0 { 1. } else { SQRT_2 };
         let mean = |a: usize, b: usize| self.means[a * self.side + b];
