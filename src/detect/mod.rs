@@ -1,8 +1,9 @@
 //! Detection of cones in an image: flatten → spacing → filter → maxima → suppress → select →
 //! refine.
 //!
-//! Every stage can be called alone; [`detect`] is their composition. The module knows nothing of
-//! files or statistics.
+//! Every stage can be called alone; [`detect`] is their composition. Only the spacing and the
+//! modality are estimated from the flattened image: filters get the image itself. The module knows
+//! nothing of files or statistics.
 //!
 //! # Examples
 //! ```
