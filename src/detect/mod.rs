@@ -70,8 +70,8 @@ use view::View;
 
 /// Smallest width and height, in px, of an image in which cones are looked for.
 ///
-/// Smaller images are refused: they have no room for even a handful of cones at the closest
-/// spacing.
+/// Smaller images are refused: even at the closest spacing, 4 px, such a side has room for fewer
+/// than six cones in a row.
 pub const MIN_SIDE: usize = 24;
 
 /// Number of weight files: one per modality for the network that finds cones, one for the network

@@ -41,7 +41,7 @@ pub fn fast_length(length: usize) -> usize {
 /// Two-dimensional Fourier transform of a real plane.
 ///
 /// Only the half with fx ≥ 0 is stored, column by column: `values[kx · height + ky]`. The other
-/// half is its mirror image.
+/// half follows from it by symmetry.
 pub struct Spectrum {
     /// Width of the plane that was transformed, in px.
     width: usize,

@@ -20,12 +20,14 @@ const SMALL: f64 = 0.05;
 /// brightness of all pixels that are not black.
 const ABRUPT: f64 = 0.5;
 
-/// Smallest number of runs per row of a porous region, such as the ground between cones, which the
-/// cones interrupt in every row.
+/// Smallest number of runs per row of a porous region, such as the ground between cones.
 ///
-/// A run is an unbroken stretch of black pixels in a row.
+/// The cones interrupt that ground in every row. A run is an unbroken stretch of black pixels in a
+/// row.
 const POROUS_RUNS: usize = 4;
 /// Largest mean length, in px, of the runs of a porous region.
+///
+/// Cones up to 40 px apart interrupt the ground between them more often than that.
 const POROUS_LENGTH: usize = 64;
 
 /// Smallest upright rectangle of an image that contains everything that was imaged, in px.

@@ -177,7 +177,7 @@ impl ConeFinder for Model {
     }
 }
 
-/// Returns the number in `text`, which the metadata of a model contain under `key`.
+/// Returns the number in `text`, a value that a model's metadata contain under `key`.
 ///
 /// # Errors
 /// Fails if `text` is not a number in `range`. The message calls that range `expected`.

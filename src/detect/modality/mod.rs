@@ -25,8 +25,8 @@ const MIDDLE: f64 = 0.1;
 /// of its surroundings beyond the walls.
 const CELL: f64 = 0.5;
 
-/// Number of pixels from which on a flattened image may be one tile of a larger image, so that its
-/// own ring is measured.
+/// Number of pixels of a flattened image from which on it is taken for one tile of a larger image,
+/// so that the ring of the tile itself is measured.
 ///
 /// The tiles of a large image are 512 × 512 px.
 const LARGE: usize = 512 * 512;
@@ -60,8 +60,8 @@ pub struct ModalityFeatures {
 /// it.
 ///
 /// Returns the modality, the probability (0–1) that it is right, and the polarity. A `modality` or
-/// a `polarity` set by the user is returned as it is; the probability of a modality that is set is
-/// 1.
+/// a `polarity` set by the user is returned as it is. If the user set the modality, its probability
+/// is 1.
 pub(super) fn decide(
     flat: &Plane,
     ring: &RingProfile,

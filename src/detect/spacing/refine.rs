@@ -55,8 +55,8 @@ pub(in crate::detect) struct Start {
     /// for no limit.
     ///
     /// It is the lower limit that the ring shows
-    /// ([`RingEstimate::least`](super::RingEstimate::least)). A density above it would mean that
-    /// noise was counted as well.
+    /// ([`RingEstimate::least`](super::RingEstimate::least)). If the cones counted show a
+    /// smaller spacing, noise was probably counted as well.
     pub least: f64,
 }
 
@@ -82,9 +82,9 @@ impl Start {
 
 /// Returns the spacing by the density of `centres` in an image of `width` × `height` px.
 ///
-/// Cones and area are counted without a strip along the border. It is 7 px wide, or a quarter of
-/// the shorter side if that is less. Pixels that were not imaged (`empty`) are deducted from the
-/// area in proportion. If there is no cone, one is assumed.
+/// Cones and area are counted without a strip along the border. The strip is 7 px wide, or a
+/// quarter of the shorter side if that is less. Pixels that were not imaged (`empty`) are deducted
+/// from the area in proportion. If there is no cone, one is assumed.
 fn density_spacing(
     centres: &[Point],
     width: usize,

@@ -92,6 +92,7 @@ struct Term {
 
 /// Returns the terms of the transform that fall into the bins.
 fn terms() -> &'static [Term] {
+    /// Terms that fall into the bins, computed on first use.
     static TERMS: OnceLock<Vec<Term>> = OnceLock::new();
     TERMS.get_or_init(|| {
         // terms up to a bin beyond either end of the axis share their power with the outermost
@@ -159,6 +160,7 @@ pub(super) fn power_of(flat: &Plane) -> Power {
 /// Returns the sum of the weights of all terms in each bin; sums of power are divided by it to give
 /// means.
 fn bin_weights() -> &'static [[f64; BINS + 3]; 3] {
+    /// Sums of weights, computed on first use.
     static WEIGHTS: OnceLock<[[f64; BINS + 3]; 3]> = OnceLock::new();
     WEIGHTS.get_or_init(|| {
         let mut sums = [[0f64; BINS + 3]; 3];

@@ -40,7 +40,7 @@ type Channels = Vec<[f32; BINS]>;
 /// Candidates run from the widest to the closest. `log_power` is the logarithm of the power over
 /// all directions, along x and across x.
 pub(super) fn scores(log_power: [&[f32; BINS]; 3]) -> [f32; CANDIDATES] {
-    /// Numbers in [`FILE`], which are converted on first use.
+    /// Numbers in [`FILE`], converted on first use.
     static WEIGHTS: OnceLock<Vec<f32>> = OnceLock::new();
     let mut weights =
         &WEIGHTS.get_or_init(|| FILE.as_chunks().0.iter().map(|b| f32::from_le_bytes(*b)).collect())[..];

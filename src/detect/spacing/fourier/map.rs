@@ -123,7 +123,7 @@ pub fn fourier_map(
         let down = near_ones(&y, v);
         for &u in &x {
             // weighted sums: of the logarithms of spacings, of squared confidences, of confidences,
-            // and of 1
+            // and of the weights alone
             let (mut logs, mut trusted, mut sure, mut total) = (0., 0., 0., 0.);
             for (i, across) in near_ones(&x, u) {
                 for &(j, weight) in &down {
