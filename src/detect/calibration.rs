@@ -23,7 +23,7 @@ impl Logistic {
 
 /// Returns the probability that a spacing is within 15 % of the true one.
 ///
-/// - `sure` is the probability (0–1) that the ring's own spacing is right.
+/// - `sure` is the confidence of the ring: the probability (0–1) that its spacing is right.
 /// - `moved` is the absolute logarithm of the factor by which the density of the detections changed
 ///   the ring's spacing.
 /// - `clarity` (see [`RingProfile::clarity`](super::RingProfile::clarity)) lowers the probability

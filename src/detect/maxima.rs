@@ -1,6 +1,6 @@
 //! Local maxima of a filter's response, located to a fraction of a pixel.
 //!
-//! 1. A test without branches skips blocks of 16 px that hold no maximum, as most blocks do.
+//! 1. A test without branches skips blocks of 16 px that contain no maximum, as most blocks do.
 //! 2. Every pixel of the other blocks is compared with its eight neighbours.
 //! 3. A maximum is moved to the top of a parabola through its neighbours along x and along y.
 
@@ -53,7 +53,8 @@ pub fn local_maxima(response: &Plane, threshold: f32) -> Vec<Detection> {
     }
 }
 
-/// Number of pixels of a row that are compared with their neighbours at once.
+/// Number of neighbouring pixels of a row that [`any_on_top`] compares with their neighbours at
+/// once.
 const BLOCK: usize = 16;
 
 /// Returns whether any pixel of the block that begins at column `x` may be a maximum.

@@ -1,8 +1,9 @@
 //! Detection of cones in an image: flatten → spacing → filter → maxima → suppress → select →
 //! refine.
 //!
-//! Every stage can be called alone; [`detect`] is their composition. The module knows nothing of
-//! files or statistics.
+//! Every stage can be called alone; [`detect`] is their composition. Only the spacing and the
+//! modality are estimated from the flattened image: filters get the image itself. The module knows
+//! nothing of files or statistics.
 //!
 //! # Examples
 //! ```
@@ -16,7 +17,7 @@
 //! assert_eq!(found.modality, Modality::Confocal);
 //! println!("{} cones, {:.1} px apart", found.cones.len(), found.spacing);
 //!
-//! // or stage by stage, at a spacing given in px
+//! // or stage by stage, for cones 7.5 px apart
 //! let (modality, polarity) = (Modality::Confocal, Polarity::Positive);
 //! let clear = f64::INFINITY; // filters widen only in images of low clarity
 //! let (filtered, criterion) = response(&image, modality, polarity, 7.5, clear);
@@ -69,8 +70,8 @@ use view::View;
 
 /// Smallest width and height, in px, of an image in which cones are looked for.
 ///
-/// Smaller images are refused: they have no room for even a handful of cones at the closest
-/// spacing.
+/// Smaller images are refused: even at the closest spacing, 4 px, such a side has room for fewer
+/// than six cones in a row.
 pub const MIN_SIDE: usize = 24;
 
 /// Number of weight files: one per modality for the network that finds cones, one for the network
@@ -89,19 +90,20 @@ pub fn weights() -> [&'static [u8]; FILES] {
 
 /// Largest absolute binary exponent of grey values that are filtered without rescaling.
 ///
-/// An image is rescaled if its largest absolute grey value is outside about 2^−20 to 2^20.
+/// An image is rescaled if its largest absolute grey value is below 2^−20 or at least 2^21. Between
+/// these limits, squares and sums of grey values stay far inside the range of single precision.
 const USUAL_EXPONENT: f64 = 20.;
 
-/// Smallest confidence (0–1) at which a spacing is accepted; below it, wider spacings are tried as
-/// well.
+/// Smallest confidence (0–1) of a spacing at which no wider spacing is tried.
 const SURE: f64 = 0.9;
-/// Confidence (0–1) below which a spacing is given up for any wider spacing of higher confidence.
+/// Confidence (0–1) below which a spacing is given up for any wider spacing of higher confidence,
+/// even if the mosaic found with that one is less regular.
 const HOPELESS: f64 = 0.1;
 
 /// Reasons why cones cannot be looked for in an image.
 #[derive(Debug, Error, PartialEq)]
 pub enum DetectError {
-    /// The image is too small.
+    /// Image with a side shorter than [`MIN_SIDE`].
     #[error(
         "the image is {width} × {height} px: expected at least {MIN_SIDE} × {MIN_SIDE} px, so leave it out or \
          use a larger part"
@@ -112,7 +114,7 @@ pub enum DetectError {
         /// Height of the image in px.
         height: usize,
     },
-    /// The part of the image that is not a black margin is too small.
+    /// Image whose part inside the black margin has a side shorter than [`MIN_SIDE`].
     #[error(
         "only {imaged_width} × {imaged_height} px of the image ({width} × {height} px) are not black: \
          expected an imaged area of at least {MIN_SIDE} × {MIN_SIDE} px"
@@ -127,7 +129,7 @@ pub enum DetectError {
         /// Height in px of the part of the image inside its black margin.
         imaged_height: usize,
     },
-    /// All pixels have the same value.
+    /// Image in which all pixels have the same value.
     #[error(
         "every pixel of the image has the value {value}, so no cones can be found: export the image again"
     )]
@@ -135,7 +137,7 @@ pub enum DetectError {
         /// Value of every pixel.
         value: f32,
     },
-    /// A pixel is infinite or not a number.
+    /// Pixel that is infinite or not a number.
     #[error("pixel ({x}, {y}) is {value}: expected finite numbers only")]
     NotFinite {
         /// Column of the pixel, from 0.
@@ -145,44 +147,44 @@ pub enum DetectError {
         /// Value of the pixel.
         value: f32,
     },
-    /// The given cone spacing, in px, is outside the range 4–160 px.
+    /// Cone spacing in the options, in px, that is outside the range 4–160 px.
     #[error("the spacing is {0} px: expected {low} to {high} px", low = SPACING_RANGE.0, high = WIDEST_SPACING)]
     Spacing(f64),
-    /// The given side of the tiles of a spacing map, in spacings, is outside the range 6–60.
+    /// Side of the tiles of a spacing map, in spacings, that is outside the range 6–60.
     #[error("the side of the tiles is {0} spacings: expected 6 to 60 spacings")]
     TileSide(f64),
-    /// The spectrum of the image has no ring between 4 and 40 px, so it shows no regular mosaic.
+    /// Spectrum without a ring at spacings of 4–40 px: the image shows no regular mosaic.
     #[error(
         "the spectrum of the image has no ring at spacings of {low} to {high} px, so no regular mosaic can \
          be seen: choose a part of the image in which cones are visible",
         low = SPACING_RANGE.0, high = SPACING_RANGE.1
     )]
     NoRing,
-    /// A model is given together with the classical detector, which uses no model.
+    /// Model set together with the classical detector, although that detector uses no model.
     #[error("the classical detector uses no model: leave out the model, or choose another detector")]
     Unused,
-    /// A model is given that was made for images of another modality.
+    /// Model made for another modality than the one that the user set for the images.
     #[error(
         "{name} is a model for {own} images and cannot be used on {given} images: leave out the model, or \
          give the right modality"
     )]
     OtherModality {
-        /// Name of the model, as it was given.
+        /// Name of the model, as passed to [`UserModel::new`].
         name: String,
         /// Modality that the model was made for.
         own: Modality,
-        /// Modality that the options give to the images.
+        /// Modality set in the options.
         given: Modality,
     },
-    /// The user's model cannot be run.
+    /// User's model that cannot be run.
     #[error("{name}: {source}")]
     Model {
-        /// Name of the model, as it was given.
+        /// Name of the model, as passed to [`UserModel::new`].
         name: String,
         /// Fault of the model.
         source: WeightsError,
     },
-    /// The weights compiled into the program are damaged.
+    /// Damaged weights among those compiled into the program.
     #[error("the built-in network for {modality} images is damaged ({source}): install the program again")]
     Weights {
         /// Modality whose weights are damaged.
@@ -198,8 +200,8 @@ pub enum DetectError {
 /// px of `image`.
 ///
 /// # Errors
-/// If the image is too small, constant, or has pixels that are not numbers, if an option is out of
-/// range, or if a model cannot be run.
+/// Fails if the image is too small, is constant, or has pixels that are not finite numbers. Fails
+/// also if the options are out of range or contradict each other, or if a model cannot be run.
 ///
 /// # Examples
 /// ```
@@ -242,8 +244,8 @@ fn without_margin(image: &Plane) -> Result<(Cow<'_, Plane>, usize, usize), Detec
     Ok((in_range(Cow::Owned(imaged)), part.left, part.top))
 }
 
-/// Multiplies grey values by a power of two if they are so small or large that single precision
-/// might not hold their squares or sums.
+/// Multiplies grey values by a power of two if they are so small or large that their squares or
+/// sums might underflow or overflow in single precision.
 ///
 /// Nothing else changes, because a power of two only changes the exponents. Extremely small values
 /// come, for example, from 64-bit integers of which only the lowest few bits are used.
@@ -262,8 +264,8 @@ fn in_range(image: Cow<'_, Plane>) -> Cow<'_, Plane> {
 /// Returns the features by which the modality and the polarity of an image are decided.
 ///
 /// # Errors
-/// If the image, without its black margin, is too small or constant, or if a pixel is not a finite
-/// number.
+/// Fails if the image, without its black margin, is too small or constant, or if a pixel is not a
+/// finite number.
 pub fn modality_features(image: &Plane) -> Result<ModalityFeatures, DetectError> {
     let (imaged, ..) = without_margin(image)?;
     let rings = View::suitable(&imaged, None).rings;
@@ -272,8 +274,9 @@ pub fn modality_features(image: &Plane) -> Result<ModalityFeatures, DetectError>
 
 /// Detects the cones in an image without a black margin.
 ///
-/// If the spacing was not given and is in doubt, the image is searched once more for cones farther
-/// apart, in coarser pixels, and the better of the two results is kept.
+/// If the user set no spacing and the spacing found has a confidence below [`SURE`], coarser pixels
+/// are tried: if they show a ring of higher confidence, the image is searched once more in them,
+/// and the better of the two results is kept.
 fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, DetectError> {
     let view = View::suitable(image, options.spacing);
     let mut found = detect_in(&view, options)?;
@@ -282,8 +285,8 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
         && let Some(wider) = view.wider(found.spacing_confidence)
     {
         let other = detect_in(&wider, options)?;
-        // both spacings are in doubt: the more regular mosaic is taken; a wider spacing of higher
-        // confidence also wins if the closer one is hopeless
+        // the more regular mosaic is taken; if the spacing found first is hopeless, a wider one of
+        // higher confidence is taken even if its mosaic is less regular
         let regularity = |found: &Detections| regularity(&found.centres(), image.dim());
         let surer = other.spacing_confidence > found.spacing_confidence;
         if found.spacing_confidence < HOPELESS && surer || regularity(&other) > regularity(&found) {
@@ -293,8 +296,7 @@ fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, D
     Ok(found)
 }
 
-/// Detects the cones in a view, which is the image at one resolution, and returns them in px of the
-/// image.
+/// Detects the cones in `view`, the image at one resolution, and returns them in px of the image.
 fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, DetectError> {
     let (field, rings) = (view.field(), &view.rings);
     let (modality, modality_confidence, mut polarity) =
@@ -308,6 +310,7 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
     };
     let clarity = |spacing: f64| rings.whole().clarity(spacing);
     let spec = spec(modality);
+    // the user's model and its network, unless it is for another modality
     let own = options.model.as_ref().and_then(|own| Some((own, own.for_modality(modality)?)));
     let network = network_for(options, spec, own.map(|(_, model)| model))?;
     let search = |start: &Start, finder: &dyn ConeFinder| {
@@ -319,6 +322,8 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
             })
         })
     };
+    // the built-in network if this modality is searched with it alone; a user's network always
+    // follows the classical filter
     let at_once = network.filter(|_| spec.starts_with_network && own.is_none());
     let first: &dyn ConeFinder = at_once.map_or(&spec.filter, |network| network);
     let (mut found, mut map) = search(&start, first)?;
@@ -339,7 +344,7 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
     }
     let spacing = map.typical();
     // a network that runs first detects both polarities, and the detected cells show their polarity
-    // more reliably than the whole image does
+    // more reliably than the image as a whole
     if at_once.is_some() && options.polarity.is_none() && !found.cones.is_empty() {
         polarity = modality::of_cells(field.image, &found.centres(), spacing);
     }
@@ -367,8 +372,8 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
 
 /// Returns the network to use, or `None` for the classical filter.
 ///
-/// The user's network, `own`, takes precedence. The network of the program is used if the options
-/// ask for it or if it was measured to be better than the filter.
+/// The user's network, `own`, takes precedence. The built-in network is used if the options ask for
+/// it or if it was measured to be better than the filter.
 fn network_for<'a>(
     options: &DetectOptions,
     spec: &'a ModalitySpec,

@@ -1,4 +1,4 @@
-//! Search for cones at a spacing that may vary from place to place.
+//! Search for cones at a spacing that may vary across the image.
 //!
 //! 1. Cut the image into tiles, so that a single spacing is good enough for each tile.
 //! 2. Run a finder on every tile and merge the results, so that each cone counts once.
@@ -14,10 +14,11 @@ use crate::image::{EmptyPixels, Plane, crop};
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// Largest number of searches of one image, the first one included.
+/// Largest number of searches of one image by one finder, the first one included; a spacing that
+/// has not settled by then is used as it is.
 const PASSES: usize = 5;
-/// Relative change of the spacing below which a spacing that varies from place to place has
-/// settled; every node of its map must change by less.
+/// Change of the spacing below which a spacing map has settled, as the absolute logarithm of the
+/// ratio of new to old; every node of the map must change by less.
 ///
 /// The limit is wider than for a constant spacing, because a local count of cones scatters more
 /// than the count over an entire image.
@@ -28,15 +29,16 @@ const MAP_SETTLED: f64 = 0.08;
 const OVERLAP: f64 = 0.5;
 /// Distance, in spacings, below which detections of neighbouring tiles are taken for the same cone.
 ///
-/// The detection with the lower score is dropped.
+/// The detection with the lower score is dropped. Filters and networks, too, keep only one of two
+/// maxima closer than about this distance.
 const SAME: f64 = 0.5;
 
 /// Returns the regularity index of cones in an image of `height` × `width` px, less its standard
 /// error.
 ///
 /// The index is the mean over the standard deviation of the distances to the nearest neighbour.
-/// With few points the index is high by chance, hence the deduction. Returns 0 if the index is not
-/// defined.
+/// With few points the index is high by chance; its standard error, a fraction of 1 / √(2n) of it
+/// for n points, is therefore subtracted. Returns 0 if the index is not defined.
 pub(super) fn regularity(centres: &[Point], (height, width): (usize, usize)) -> f64 {
     let Ok(window) = Window::of_image(width, height) else { return 0. };
     let distances = nearest_neighbours(centres, &window).distances;
@@ -46,8 +48,8 @@ pub(super) fn regularity(centres: &[Point], (height, width): (usize, usize)) -> 
     if deviation > 0. { mean / deviation * (1. - 1. / (2. * n).sqrt()) } else { 0. }
 }
 
-/// Function that returns the cones in a part of an image, given the part and the cone spacing in
-/// px.
+/// Function that finds the cones in a part of an image; its arguments are the part and the cone
+/// spacing in px.
 pub(super) trait Find: Fn(&Plane, f64) -> Result<Found, DetectError> {}
 
 impl<F: Fn(&Plane, f64) -> Result<Found, DetectError>> Find for F {}
@@ -68,9 +70,9 @@ impl Field<'_> {
     /// Runs `find` on every tile of the image, at the spacing that `map` gives for the tile, and
     /// merges the results.
     ///
-    /// Detections on pixels that were not imaged are dropped. `searched` holds the results of the
-    /// last search: a tile is not searched again if its spacing has changed since by less than the
-    /// fraction `settled`. An image of a single tile is always searched anew.
+    /// Detections on pixels that were not imaged are dropped. `searched` contains the results of
+    /// the last search: a tile is not searched again if the logarithm of its spacing has changed
+    /// since by less than `settled`. An image of a single tile is always searched anew.
     fn search(
         &self,
         map: &SpacingMap,
@@ -102,7 +104,7 @@ impl Field<'_> {
     }
 
     /// Runs `find` on a tile with its margin, and keeps the detections in the core of the tile or
-    /// at most [`OVERLAP`] beyond it.
+    /// at most [`OVERLAP`] spacings outside it.
     fn search_tile(&self, tile: &Tile, find: &impl Find) -> Result<Found, DetectError> {
         let seen = tile.seen;
         let core = tile.core;
@@ -116,10 +118,10 @@ impl Field<'_> {
     }
 
     /// Searches at the spacing `start`, then again at the spacing that the density of the
-    /// detections shows, until the spacing changes by less than the fraction `settled`.
+    /// detections shows, until the logarithm of the spacing changes by less than `settled`.
     ///
-    /// Returns the detections of the last search and the spacing that their density shows. For a
-    /// spacing that varies from place to place, [`MAP_SETTLED`] replaces `settled`. The image is
+    /// Returns the detections of the last search and the spacing that their density shows. If the
+    /// spacing is a map that is not constant, [`MAP_SETTLED`] replaces `settled`. The image is
     /// searched at most [`PASSES`] times.
     pub(super) fn until_settled(
         &self,

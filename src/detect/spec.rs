@@ -1,5 +1,4 @@
-//! The table of modalities, which holds everything that detection does differently for each of
-//! them.
+//! The table of modalities: everything that detection does differently for each of them.
 
 use super::calibration::{Logistic, Reference};
 use super::filter::{Filter, confocal, histology, split};
@@ -8,6 +7,7 @@ use crate::image::Modality;
 use std::sync::OnceLock;
 use strum::VariantArray;
 
+/// Number of modalities, and so of entries in [`SPECS`].
 const COUNT: usize = Modality::VARIANTS.len();
 
 /// Filter, network and constants of one modality.
@@ -42,7 +42,9 @@ pub(super) enum PolarityCue {
 
 /// A network whose weights are compiled into the program.
 pub(super) struct BuiltIn {
+    /// Bytes of the file of weights, in the safetensors format.
     weights: &'static [u8],
+    /// Network read from `weights`, or the error met there; empty before first use.
     model: OnceLock<Result<Model, WeightsError>>,
 }
 
@@ -51,7 +53,7 @@ impl BuiltIn {
         Self { weights, model: OnceLock::new() }
     }
 
-    /// Returns the network, which is read on first use and then kept.
+    /// Returns the network; its weights are read on first use only.
     pub(super) fn model(&self) -> Result<&Model, WeightsError> {
         self.model.get_or_init(|| Model::read(self.weights)).as_ref().map_err(Clone::clone)
     }
@@ -64,9 +66,9 @@ impl BuiltIn {
 
 /// Table of all modalities, in the order of [`Modality::VARIANTS`].
 ///
-/// The constants of the probabilities were fitted by `scripts/fit-calibration` to hand-marked
-/// images (for histology, to simulated images). On subjects left out of the fit, the expected
-/// calibration error is .0014 (confocal), .009 (split), .008 (histology).
+/// The calibrations (`probability`) were fitted by `scripts/fit-calibration` to hand-marked images
+/// (for histology, to simulated images). On subjects left out of the fit, the expected calibration
+/// error is .0014 (confocal), .009 (split), .008 (histology).
 pub(super) static SPECS: [ModalitySpec; COUNT] = [
     ModalitySpec {
         modality: Modality::Confocal,
@@ -103,7 +105,7 @@ pub(super) static SPECS: [ModalitySpec; COUNT] = [
     },
 ];
 
-/// Returns the entry of the table for the given modality.
+/// Returns the entry of the table for `modality`.
 pub(super) fn spec(modality: Modality) -> &'static ModalitySpec {
     // the table has one entry per variant, so the index is in range
     &SPECS[modality as usize]

@@ -25,8 +25,8 @@ pub(super) fn by_score(a: &Detection, b: &Detection) -> std::cmp::Ordering {
 
 /// Keeps each item unless a kept item of higher rank lies within `radius(its position)`.
 ///
-/// `items` must be sorted by rank, the highest first. `widest` is the largest radius that occurs,
-/// in px; if it is 0, all items stay.
+/// `items` must be sorted by rank, the highest first. `place` returns the position of an item in
+/// px. `widest` is the largest radius that occurs, in px; if it is 0, all items stay.
 pub(super) fn suppress_sorted<T>(
     items: Vec<T>,
     place: impl Fn(&T) -> Point,
@@ -48,8 +48,8 @@ pub(super) fn suppress_sorted<T>(
     kept.into_things()
 }
 
-/// Returns an empty grid over all places, with cells about as wide as `radius`, or `None` if there
-/// are no places.
+/// Returns an empty grid over all positions `places`, with cells about as wide as `radius`, or
+/// `None` if there are no positions.
 fn grid_over<T>(places: impl ExactSizeIterator<Item = Point> + Clone, radius: f64) -> Option<BucketGrid<T>> {
     let range = |value: fn(Point) -> f64| {
         let values = places.clone().map(value);
@@ -59,8 +59,8 @@ fn grid_over<T>(places: impl ExactSizeIterator<Item = Point> + Clone, radius: f6
     if !(right >= left && bottom >= top) {
         return None;
     }
-    // at most a few cells per place, however small the radius: otherwise the grid would outgrow
-    // memory
+    // however small the radius, the grid has about four cells per position at most and a million
+    // along a side: otherwise it would outgrow memory
     let least = ((right - left) * (bottom - top) / (4 * places.len()) as f64).sqrt();
     let side = radius.max(least).max((right - left).max(bottom - top) / 1e6);
     let count = |length: f64| (length / side) as usize + 1;

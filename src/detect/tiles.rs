@@ -14,10 +14,13 @@ const EVEN: f64 = 1.15;
 /// Longest side of a tile in px; longer areas are always cut, to bound the memory.
 const LONGEST: usize = 1024;
 /// Smallest side, in spacings, of the halves of an area that is cut because its spacing varies.
+///
+/// A square tile of this side is already searched over four times its area, because of its margin
+/// ([`MARGIN`]).
 const SHORTEST: f64 = 10.;
 /// Width, in spacings, of the margin around a tile that is searched with it.
 ///
-/// The response of a filter and its normalisation depend on pixels up to this distance.
+/// The response of a filter and its normalisation depend little on pixels farther away.
 const MARGIN: f64 = 5.;
 
 /// A rectangle of pixels of an image.
@@ -78,9 +81,9 @@ pub(super) fn tiles(width: usize, height: usize, map: &SpacingMap) -> Vec<Tile> 
     done
 }
 
-/// Returns the spacings (px) at 5 × 5 evenly spaced places of an area, row by row.
+/// Returns the spacings (px) at 5 × 5 evenly spaced points of an area, row by row.
 ///
-/// The outermost places lie on the edges of the area.
+/// The outermost points lie on the edges of the area.
 fn samples(area: Area, map: &SpacingMap) -> [[f64; 5]; 5] {
     let place = |k: usize, from: usize, to: usize| from as f64 - 0.5 + (to - from) as f64 * k as f64 / 4.;
     std::array::from_fn(|j| {
@@ -89,9 +92,9 @@ fn samples(area: Area, map: &SpacingMap) -> [[f64; 5]; 5] {
     })
 }
 
-/// Returns the tile with the given core in an image of `width` × `height` px.
+/// Returns the tile whose core is `core`, in an image of `width` × `height` px.
 ///
-/// The spacing of the tile is the geometric mean over 5 × 5 places of the core.
+/// The spacing of the tile is the geometric mean over 5 × 5 points of the core.
 fn tile(core: Area, width: usize, height: usize, map: &SpacingMap) -> Tile {
     let spacings = samples(core, map);
     let spacing = (spacings.iter().flatten().map(|s| s.ln()).sum::<f64>() / 25.).exp();

@@ -23,11 +23,11 @@ pub struct Detections {
     pub cones: Vec<Detection>,
     /// Candidates that were not taken for cones, from the highest score to the lowest.
     pub rejected: Vec<Detection>,
-    /// Modality of the image, given or decided from the image.
+    /// Modality of the image, set by the user or decided from the image.
     pub modality: Modality,
-    /// Probability (0–1) that the modality is right; 1 if it was given.
+    /// Probability (0–1) that the modality is right; 1 if the user set it.
     pub modality_confidence: f64,
-    /// Sign of the cones' contrast, given or decided from the image.
+    /// Sign of the cones' contrast, set by the user or decided from the image.
     pub polarity: Polarity,
     /// Kind of filters that found the cones: classical or learned.
     pub detector: Detector,
@@ -48,7 +48,7 @@ pub struct Detections {
     pub spacing: f64,
     /// Probability (0–1) that `spacing` is within 15 % of the true spacing.
     pub spacing_confidence: f64,
-    /// Cone spacing from place to place, in px; the same everywhere if the density is even.
+    /// Cone spacing in px as a function of position; constant if the density is even.
     pub spacing_map: SpacingMap,
 }
 
@@ -66,7 +66,7 @@ impl Detections {
         self.rejected.iter().map(|d| d.score).sum()
     }
 
-    /// Moves all positions by `left` px to the right and `top` px down.
+    /// Shifts all positions by `left` px in x and by `top` px in y.
     pub(super) fn move_by(&mut self, left: usize, top: usize) {
         for d in self.cones.iter_mut().chain(&mut self.rejected) {
             d.centre = Point::new(d.centre.x + left as f64, d.centre.y + top as f64);
@@ -74,8 +74,8 @@ impl Detections {
         self.spacing_map.move_by(left as f64, top as f64);
     }
 
-    /// Converts all positions and spacings from px of means over blocks of `times` × `times` px to
-    /// px of the image.
+    /// Converts all positions and spacings to px of the image from px of a coarser image, whose
+    /// pixels are means over blocks of `times` × `times` px.
     ///
     /// The outer edges of pixels stay where they are: position x becomes (x + ½) · times − ½.
     pub(super) fn enlarge(&mut self, times: f64) {
@@ -94,7 +94,7 @@ impl Detections {
     /// Without a `scale`, everything measured in the mosaic stays in px.
     ///
     /// # Errors
-    /// If the image has no pixels, or if the position of a cone is not a finite number.
+    /// Fails if the image has no pixels, or if the position of a cone is not a finite number.
     pub fn mosaic(&self, image: &Plane, scale: Option<Scale>) -> Result<Mosaic, MosaicError> {
         // a refined centre lies at most half a pixel from its pixel, so never beyond the image's
         // window

@@ -10,20 +10,26 @@ use crate::image::{EmptyPixels, Plane, block_means};
 use std::borrow::Cow;
 
 /// Sides, in px of the image, of the square blocks whose means serve as coarser pixels.
+///
+/// In them, cones up to 80 and 160 px apart are at most 40 coarse pixels apart, the widest spacing
+/// of [`SPACING_RANGE`].
 const BLOCKS: [usize; 2] = [2, 4];
 /// Widest cone spacing that can be found, in px: 160.
 pub const WIDEST_SPACING: f64 = BLOCKS[BLOCKS.len() - 1] as f64 * SPACING_RANGE.1;
 /// Smallest length, in coarse pixels, of the shorter side of an image that is also searched in
-/// coarse pixels.
+/// coarse pixels: 100.
 ///
-/// Coarse pixels are for spacings too wide for the next finer resolution, which are more than 20
-/// coarse pixels. A shorter side holds fewer than five of their periods, too few to measure a ring.
+/// Coarse pixels serve only for spacings of more than 20 of them, since closer cones are found in
+/// finer pixels. The shorter side must contain five such spacings for a ring to be measured
+/// ([`PERIODS`]).
 const ROOM: f64 = 0.5 * PERIODS * SPACING_RANGE.1;
 
 /// An image at one resolution, with the pixels that were not imaged filled in, and the rings in its
 /// spectrum.
 pub(super) struct View<'a> {
+    /// Grey values of the view, with the empty pixels filled in.
     image: Cow<'a, Plane>,
+    /// Pixels of the view that were not imaged, or `None` if every pixel was imaged.
     empty: Option<EmptyPixels>,
     /// Yellott's rings in the spectra of the view, in px of the view.
     pub rings: Rings,
@@ -34,9 +40,9 @@ pub(super) struct View<'a> {
 impl<'a> View<'a> {
     /// Returns the view in which `image` is searched first.
     ///
-    /// The view has the image's own pixels unless a wide `spacing` (px) is given. It then has the
-    /// largest blocks for which the spacing is still more than 20 px of the view and the shorter
-    /// side of the view at least [`MIN_SIDE`].
+    /// The view has the image's own pixels unless the user set a wide `spacing` (px). It then has
+    /// the largest blocks for which the spacing is still more than 20 px of the view and the
+    /// shorter side of the view at least [`MIN_SIDE`].
     pub(super) fn suitable(image: &'a Plane, spacing: Option<f64>) -> Self {
         let empty = EmptyPixels::of(image);
         let filled = empty.as_ref().map_or(Cow::Borrowed(image), |e| Cow::Owned(e.filled(image)));
@@ -61,7 +67,7 @@ impl<'a> View<'a> {
         {
             let coarser = View::averaged(&self.image, self.empty.as_ref(), block);
             let ring = coarser.rings.whole().spacing();
-            // finer pixels show closer cones better
+            // closer cones are seen better in finer pixels
             if 2. * ring.spacing > SPACING_RANGE.1 && ring.confidence > confidence {
                 confidence = ring.confidence;
                 surest = Some(coarser);
@@ -77,7 +83,7 @@ impl<'a> View<'a> {
 
     /// Returns the view whose pixels are means over blocks of `block` × `block` px.
     ///
-    /// A block that holds an empty pixel counts as empty.
+    /// A block that contains an empty pixel counts as empty.
     fn averaged(filled: &Plane, empty: Option<&EmptyPixels>, block: usize) -> View<'static> {
         View::new(Cow::Owned(block_means(filled, block)), empty.and_then(|e| e.in_blocks(block)), block)
     }

@@ -28,7 +28,7 @@ impl EmptyPixels {
         imaged_mask(plane).map(|imaged| Self::not(imaged, height, width))
     }
 
-    /// Returns the blocks of `block` × `block` px that hold an empty pixel, as empty pixels of a
+    /// Returns the blocks of `block` × `block` px that contain an empty pixel, as empty pixels of a
     /// coarser image, or `None` if there are none.
     ///
     /// Pixels at the right and at the bottom that do not fill a block are left out.
@@ -59,7 +59,7 @@ impl EmptyPixels {
     /// Returns the fraction (0–1) of a rectangle that was not imaged: the columns `left..right` and
     /// rows `top..bottom`.
     ///
-    /// Pixels beyond the image do not count. If the rectangle holds no pixel of the image, the
+    /// Pixels beyond the image do not count. If the rectangle contains no pixel of the image, the
     /// fraction is 0.
     pub fn part(&self, left: usize, top: usize, right: usize, bottom: usize) -> f64 {
         let (right, bottom) = (right.min(self.width), bottom.min(self.height));
@@ -87,7 +87,8 @@ impl EmptyPixels {
     }
 }
 
-/// Gives pixels of weight 0 the value that a coarser, complete version of the plane has there.
+/// Changes the values of pixels of weight 0 in `value` to those of a coarser version of the plane,
+/// in which all pixels are known.
 fn pull_push(value: &mut Plane, weight: &Plane) {
     let (h, w) = value.dim();
     if weight.iter().all(|v| *v > 0.) || h.max(w) == 1 {

@@ -6,7 +6,7 @@ use thiserror::Error;
 /// file.
 #[derive(Debug, Error)]
 pub enum ImageError {
-    /// The file cannot be opened or read.
+    /// File that cannot be opened or read.
     #[error("{name}: cannot be read ({source}): check that it exists and may be read")]
     Read {
         /// Name of the file.
@@ -14,7 +14,7 @@ pub enum ImageError {
         /// Error of the operating system.
         source: io::Error,
     },
-    /// The file cannot be written.
+    /// File that cannot be written.
     #[error(
         "{name}: cannot be written ({source}): check that its folder exists, may be written to and has room"
     )]
@@ -24,13 +24,13 @@ pub enum ImageError {
         /// Error of the operating system.
         source: io::Error,
     },
-    /// The file has no content.
+    /// File without any content.
     #[error("{name}: the file is empty: copy or export the image again")]
     Empty {
         /// Name of the file.
         name: String,
     },
-    /// The file has none of the formats that are read, whatever its name.
+    /// File that has none of the formats that are read, whatever its name.
     #[error("{name}: expected a {formats} image, found {found}: save it as {formats}", formats = formats_in_words())]
     NotAnImage {
         /// Name of the file.
@@ -38,7 +38,7 @@ pub enum ImageError {
         /// Kind of file that the first bytes look like.
         found: &'static str,
     },
-    /// The file begins as it should, but is damaged or cut short further on.
+    /// File that begins as it should, but is damaged or cut short further on.
     #[error("{name}: the {format} file is damaged or incomplete ({reason}): copy or export the image again")]
     Damaged {
         /// Name of the file.
@@ -48,7 +48,7 @@ pub enum ImageError {
         /// Message of the decoder.
         reason: String,
     },
-    /// The file is sound, but of a kind that is not read.
+    /// Sound file of a kind that is not read.
     #[error(
         "{name}: this kind of {format} image is not supported ({reason}): save it as 8-bit or 16-bit grey \
          {formats}",
@@ -62,7 +62,7 @@ pub enum ImageError {
         /// Property of the image that is not supported, in words.
         reason: String,
     },
-    /// The image has no width or no height.
+    /// Image without width or without height.
     #[error("{name}: an image of {width} × {height} px has no pixels: export the image again")]
     NoPixels {
         /// Name of the file.
@@ -72,7 +72,7 @@ pub enum ImageError {
         /// Height of the image in px.
         height: u32,
     },
-    /// The image needs more memory than is reasonable.
+    /// Image or file that needs more memory than is reasonable.
     #[error("{name}: {size} is too large, since at most {limit} can be read: cut the image into parts")]
     TooLarge {
         /// Name of the file.
@@ -82,7 +82,7 @@ pub enum ImageError {
         /// Largest size that is read, with its unit.
         limit: String,
     },
-    /// The file holds several images.
+    /// File that contains several images.
     #[error(
         "{name}: holds {pages} pages, expected one image: save the page to be measured (or the average of \
          all) as a file of its own"
@@ -93,7 +93,7 @@ pub enum ImageError {
         /// Number of images in the file.
         pages: usize,
     },
-    /// A pixel is infinite or not a number.
+    /// Pixel that is infinite or not a number.
     #[error(
         "{name}: pixel ({x}, {y}) is {value}, expected finite numbers only: fill or crop the parts that \
          were not imaged"
@@ -108,7 +108,7 @@ pub enum ImageError {
         /// Value of the pixel.
         value: f32,
     },
-    /// The name of the file to be written does not tell its format.
+    /// Name of a file to be written that does not tell the format.
     #[error("{name}: the name does not say in which format to write: end it in {}", extensions_in_words())]
     UnknownExtension {
         /// Name of the file.

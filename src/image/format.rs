@@ -9,7 +9,8 @@ pub struct Format {
     pub name: &'static str,
     /// Extensions of the format's files in lower case, without the dot; the first is the usual one.
     pub extensions: &'static [&'static str],
-    /// Byte strings with one of which every file of the format begins.
+    /// Possible beginnings of a file of the format; every file begins with one of these byte
+    /// strings.
     pub signatures: &'static [&'static [u8]],
     /// Function that decodes the bytes of a file; its second argument is the name of the file for
     /// error messages.

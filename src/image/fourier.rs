@@ -15,7 +15,10 @@ use std::cell::RefCell;
 const LINES: usize = 16;
 
 thread_local! {
-    // planning a length costs more than transforming it; images of a folder share their lengths
+    /// Planners of Fourier transforms, kept by every thread.
+    ///
+    /// Planning a length costs more than transforming it, and the images of a folder share their
+    /// lengths.
     static PLANNERS: RefCell<(RealFftPlanner<f32>, FftPlanner<f32>)> =
         RefCell::new((RealFftPlanner::new(), FftPlanner::new()));
 }
@@ -37,7 +40,8 @@ pub fn fast_length(length: usize) -> usize {
 
 /// Two-dimensional Fourier transform of a real plane.
 ///
-/// It holds the half with fx ≥ 0, stored column by column: `values[kx · height + ky]`.
+/// Only the half with fx ≥ 0 is stored, column by column: `values[kx · height + ky]`. The other
+/// half follows from it by symmetry.
 pub struct Spectrum {
     /// Width of the plane that was transformed, in px.
     width: usize,
@@ -91,6 +95,7 @@ impl Spectrum {
     /// Transforms all columns in place.
     fn transform_columns(&mut self, direction: FftDirection) {
         let plan = PLANNERS.with_borrow_mut(|p| p.1.plan_fft(self.height, direction));
+        // only half of the terms are stored, so this is the limit for the entire plane
         if self.values.len() >= PARALLEL_PIXELS / 2 {
             self.values.par_chunks_mut(LINES * self.height).for_each(|columns| plan.process(columns));
         } else {
@@ -147,6 +152,7 @@ impl Spectrum {
                 *value *= factor(&x, y);
             }
         };
+        // only half of the terms are stored, so this is the limit for the entire plane
         if self.values.len() >= PARALLEL_PIXELS / 2 {
             self.values.par_chunks_mut(height).enumerate().for_each(column);
         } else {

@@ -10,7 +10,8 @@ use super::pad::framed;
 use super::{Plane, fill_rows, mirror, values};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 
-/// Half-width of the kernel, in standard deviations.
+/// Half-width of the kernel, in standard deviations; there, the weight is .03 % of that in the
+/// middle.
 const CUT: f64 = 4.;
 
 /// Smallest standard deviation of a kernel on a coarser grid, in steps of that grid.
@@ -22,8 +23,8 @@ const COARSE_SIGMA: f64 = 4.;
 ///
 /// The kernel is cut at ⌈4σ⌉, and the plane is mirrored at its border with the edge pixel repeated
 /// (OpenCV's BORDER_REFLECT). Below σ = 8 px the sum is exact. From there on, it is taken over
-/// weighted means every ⌊σ/4⌋ px and interpolated by cubics, which stays within 1e-3 of the input's
-/// range at a cost that does not grow with σ. For σ ≤ 0, the plane itself is returned.
+/// weighted means every ⌊σ/4⌋ px and interpolated by cubics. The result stays within 1e-3 of the
+/// input's range, at a cost that does not grow with σ. For σ ≤ 0, the plane itself is returned.
 pub fn gaussian(plane: &Plane, sigma: f64) -> Plane {
     if sigma <= 0. || plane.is_empty() {
         return plane.clone();
@@ -80,6 +81,7 @@ fn weigh(out: &mut [f32], pairs: &[Pair<'_>]) {
 /// The end of the row is computed one register and then one pixel at a time.
 #[inline(always)]
 fn weigh_by<S: Simd>(simd: S, out: &mut [f32], pairs: &[Pair<'_>]) {
+    /// Number of registers of sums that are added up side by side.
     const REGISTERS: usize = 4;
     let mut x = 0;
     while x + REGISTERS * S::f32s::LEN <= out.len() {
@@ -95,6 +97,7 @@ fn weigh_by<S: Simd>(simd: S, out: &mut [f32], pairs: &[Pair<'_>]) {
     }
 }
 
+/// Writes the weighted sums of `REGISTERS` registers of pixels, from pixel `x` on, into `out`.
 #[inline(always)]
 fn sums<S: Simd, const REGISTERS: usize>(simd: S, out: &mut [f32], pairs: &[Pair<'_>], x: usize) {
     let length = REGISTERS * S::f32s::LEN;
@@ -150,7 +153,7 @@ struct Coarse {
     hat: Vec<f32>,
     /// Weights of the Gaussian kernel on the grid, from its middle outwards.
     kernel: Vec<f32>,
-    /// Number of grid points beyond either end of the axis, which the kernel needs.
+    /// Number of grid points that the kernel needs beyond either end of the axis.
     reach: usize,
     /// Number of grid points that cover the pixels of the axis.
     inside: usize,
@@ -269,7 +272,7 @@ fn coarse(plane: &Plane, sigma: f64, step: usize) -> Plane {
     })
 }
 
-/// Returns the Catmull–Rom weights of four neighbouring samples for a place between the second and
+/// Returns the Catmull–Rom weights of four neighbouring samples for a point between the second and
 /// the third.
 ///
 /// `t` (0–1) is the fraction of the way from the second to the third.

@@ -8,13 +8,13 @@ use super::Plane;
 
 /// Smallest size of a black region that can count as not imaged, as a fraction of the image.
 ///
-/// Smaller regions are dark places.
+/// Smaller regions are dark parts of the picture.
 const SMALLEST: f64 = 0.005;
 
 /// Size, as a fraction of the image, below which a black region must end abruptly to count as not
 /// imaged.
 ///
-/// A region that fades to black is a dark place in a picture of few grey levels.
+/// A region that fades to black is a dark part of a picture of few grey levels.
 const SMALL: f64 = 0.05;
 /// Smallest brightness around a black region that ends abruptly, as a fraction of the mean
 /// brightness of all pixels that are not black.
@@ -22,12 +22,15 @@ const ABRUPT: f64 = 0.5;
 
 /// Smallest number of runs per row of a porous region, such as the ground between cones.
 ///
-/// A run is an unbroken stretch of black pixels in a row.
+/// The cones interrupt that ground in every row. A run is an unbroken stretch of black pixels in a
+/// row.
 const POROUS_RUNS: usize = 4;
 /// Largest mean length, in px, of the runs of a porous region.
+///
+/// Cones up to 40 px apart interrupt the ground between them more often than that.
 const POROUS_LENGTH: usize = 64;
 
-/// Smallest upright rectangle of an image that holds everything that was imaged, in px.
+/// Smallest upright rectangle of an image that contains everything that was imaged, in px.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ImagedPart {
     /// Index of the first row.
@@ -67,9 +70,9 @@ pub(super) fn part_of(mask: &[bool], width: usize) -> Option<ImagedPart> {
 ///
 /// Regions that are exactly black, 4-connected and at least 0.5 % of the image count as not imaged:
 /// montages and registered averages leave such margins, and such gaps between tiles. Two kinds of
-/// black regions count as imaged nevertheless: porous regions, which are the dark ground between
-/// bright cones, and regions below 5 % of the image into which the picture fades. Labelling takes
-/// one pass over the pixels, the mask one byte per pixel.
+/// black regions count as imaged nevertheless: porous regions (the dark ground between bright
+/// cones), and regions below 5 % of the image into which the picture fades. Labelling takes one
+/// pass over the pixels, the mask one byte per pixel.
 pub fn imaged_mask(plane: &Plane) -> Option<Vec<bool>> {
     let width = plane.ncols();
     let least = SMALLEST * plane.len() as f64;
@@ -191,6 +194,7 @@ struct Regions {
     runs: Vec<Run>,
     /// Index, for each run, of an earlier run of the same region, or of the run itself.
     parents: Vec<usize>,
+    /// Number of rows so far.
     rows: usize,
     /// Index of the first run of the row that was added last.
     before: usize,
@@ -207,7 +211,8 @@ impl Regions {
         k
     }
 
-    /// Adds a row, given whether each of its pixels is black, and joins its runs with those above.
+    /// Adds a row and joins its runs with those above; `black` says of each pixel whether it is
+    /// black.
     fn add_row(&mut self, black: impl Iterator<Item = bool>) {
         let (begin, row) = (self.runs.len(), self.rows);
         let mut inside = false;

@@ -25,7 +25,7 @@ const MARGIN: u8 = 1;
 const SMALLEST_ISLAND: f64 = 0.001;
 /// Smallest length, in px, of a straight run of pixel edges that stays an edge of the outline.
 ///
-/// Shorter runs may be steps of an oblique line.
+/// Shorter runs may be steps of an oblique line, which is levelled.
 const LONG_RUN: f64 = 16.;
 /// Largest distance, in px, between an omitted corner and the simplified outline.
 const TOLERANCE: f64 = 0.5;
@@ -38,7 +38,7 @@ const TOLERANCE: f64 = 0.5;
 /// (Douglas and Peucker 1973, <https://doi.org/10.3138/FM57-6770-U75U-7727>).
 ///
 /// # Errors
-/// If the image has no pixels.
+/// Fails if the image has no pixels.
 pub fn imaged_area(plane: &Plane) -> Result<Window, WindowError> {
     let (height, width) = plane.dim();
     let whole = || Window::of_image(width, height);
@@ -86,10 +86,11 @@ fn erode(mask: &mut [bool], width: usize, margin: u8) {
 ///
 /// An outline runs with the inside on its right. Pixels that touch only at a corner are separate.
 fn rings(mask: &[bool], width: usize) -> Vec<Ring> {
-    // steps to the right, down, left and up, and the pixels on either side of the way ahead,
-    // relative to the current corner
+    /// Steps to the right, down, left and up.
     const STEPS: [(isize, isize); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
+    /// Pixel on the left of the way ahead, relative to the current corner, for each of the steps.
     const AHEAD_LEFT: [(isize, isize); 4] = [(0, -1), (0, 0), (-1, 0), (-1, -1)];
+    /// Pixel on the right of the way ahead, relative to the current corner, for each of the steps.
     const AHEAD_RIGHT: [(isize, isize); 4] = [(0, 0), (-1, 0), (-1, -1), (0, -1)];
     let height = mask.len() / width;
     let inside = |x: isize, y: isize| {
@@ -141,6 +142,7 @@ fn levelled(ring: &[Point]) -> Ring {
     let n = ring.len();
     let next = |k: usize| ring[(k + 1) % n];
     let lengths: Vec<f64> = (0..n).map(|k| ring[k].distance(next(k))).collect();
+    // lengths are whole numbers of px, so a run below 1.5 px is one of 1 px
     let is_step = |k: usize| lengths[(k + n - 1) % n] < 1.5 || lengths[k % n] < 1.5;
     let mut level = Ring::with_capacity(n);
     for k in 0..n {
@@ -156,6 +158,7 @@ fn levelled(ring: &[Point]) -> Ring {
             }
             continue;
         }
+        // a long run stays an edge of the outline; only its last pixel next to a step is levelled
         if starts {
             level.push(at(1. / length));
         }

@@ -7,9 +7,10 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-/// Largest number of pixels an image may have: 2²⁷, some 11,500 × 11,500.
+/// Largest number of pixels an image may have: 2²⁷, some 11,500 × 11,500, whose grey values take
+/// 512 MiB.
 pub const MAX_PIXELS: usize = 1 << 27;
-/// Largest size of a file in bytes.
+/// Largest size of a file in bytes: 2 GiB.
 ///
 /// The largest kind of pixel that is read, RGBA of 32 bits, takes 16 bytes.
 const MAX_BYTES: u64 = 16 * MAX_PIXELS as u64;
@@ -17,7 +18,7 @@ const MAX_BYTES: u64 = 16 * MAX_PIXELS as u64;
 /// Reads the image in a PNG or TIFF file as one grey plane; see [`decode`].
 ///
 /// # Errors
-/// If the file cannot be read, or if [`decode`] returns an error.
+/// Fails if the file cannot be read, or if [`decode`] fails.
 pub fn read(path: &Path) -> Result<Plane, ImageError> {
     decode(&read_bytes(path)?, &path.display().to_string())
 }
@@ -27,7 +28,7 @@ pub fn read(path: &Path) -> Result<Plane, ImageError> {
 /// An image of [`MAX_PIXELS`] takes at most this size.
 ///
 /// # Errors
-/// If the file cannot be read or is larger than 2 GiB.
+/// Fails if the file cannot be read or is larger than 2 GiB.
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ImageError> {
     let name = path.display().to_string();
     let unreadable = |source| ImageError::Read { name: name.clone(), source };
@@ -43,7 +44,7 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ImageError> {
 
 /// Decodes the image in the bytes of a PNG or TIFF file as one grey plane.
 ///
-/// The format is recognised by the content, not by `name`, which serves for error messages only.
+/// The format is recognised by the content; `name` serves for error messages only.
 ///
 /// - Unsigned integers of b bits are divided by 2ᵇ − 1 and lie in [0, 1]. Signed ones are divided
 ///   by 2ᵇ⁻¹ − 1 and lie in [−1, 1]. Floating-point values stay as they are.
@@ -57,9 +58,9 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ImageError> {
 ///   the image are skipped; several images are an error.
 ///
 /// # Errors
-/// If the bytes are not a PNG or TIFF file, are damaged or of a kind that is not read, or if the
-/// image is larger than [`MAX_PIXELS`], has no pixel, has several pages, or has a pixel that is not
-/// a finite number.
+/// Fails if the bytes are not a PNG or TIFF file, are damaged or are of a kind that is not read.
+/// Fails also if the image is larger than [`MAX_PIXELS`], has no pixel, has several pages, or has a
+/// pixel that is not a finite number.
 pub fn decode(bytes: &[u8], name: &str) -> Result<Plane, ImageError> {
     if bytes.is_empty() {
         return Err(ImageError::Empty { name: name.to_owned() });
@@ -89,6 +90,7 @@ fn check_size(width: u32, height: u32, name: &str) -> Result<(), ImageError> {
 
 /// Describes the first bytes of a file that has none of the formats that are read.
 fn looks_like(bytes: &[u8]) -> &'static str {
+    /// First bytes of files of other common kinds, and their names in messages.
     const KINDS: [(&[u8], &str); 10] = [
         (b"\x89PNG", "a damaged PNG signature (was it transferred as text?)"),
         (b"\xff\xd8\xff", "a JPEG image"),

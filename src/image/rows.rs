@@ -29,7 +29,7 @@ pub(crate) fn values(plane: &Plane) -> Cow<'_, [f32]> {
 
 /// Returns the plane whose grey values, row by row, are `values`.
 ///
-/// `values` must hold exactly `height` × `width` numbers.
+/// `values` must contain exactly `height` × `width` numbers.
 pub(crate) fn plane_of(height: usize, width: usize, values: Vec<f32>) -> Plane {
     // a plane of another size would be a silent fault of the filter that made it
     assert_eq!(values.len(), height * width, "grey values of a plane of {height} × {width} px");

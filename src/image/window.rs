@@ -3,6 +3,9 @@ use crate::geometry::{Window, WindowError};
 
 impl Window {
     /// Returns the window, in px, that covers all of an image; see [`Window::of_image`].
+    ///
+    /// # Errors
+    /// Fails if the image has no pixels.
     pub fn of(image: &Plane) -> Result<Self, WindowError> {
         let (height, width) = image.dim();
         Self::of_image(width, height)

@@ -20,6 +20,10 @@ pub enum BitDepth {
 ///
 /// Values from 0 to 1 are rounded to the nearest grey; values outside are clamped. If writing
 /// fails, no incomplete file is left.
+///
+/// # Errors
+/// Fails if the extension is none of these, a pixel is not a finite number, the plane has no pixel,
+/// or the file cannot be written.
 pub fn write_grey(path: &Path, plane: &Plane, depth: BitDepth) -> Result<(), ImageError> {
     let unknown = || ImageError::UnknownExtension { name: path.display().to_string() };
     (Format::of_path(path).ok_or_else(unknown)?.write)(path, plane, depth)
@@ -28,7 +32,7 @@ pub fn write_grey(path: &Path, plane: &Plane, depth: BitDepth) -> Result<(), Ima
 /// Writes a plane with values from 0 to 1 as grey PNG; see [`write_grey`].
 ///
 /// # Errors
-/// If a pixel is not a finite number, the plane has no pixel, or the file cannot be written.
+/// Fails if a pixel is not a finite number, the plane has no pixel, or the file cannot be written.
 pub fn write_png(path: &Path, plane: &Plane, depth: BitDepth) -> Result<(), ImageError> {
     let (width, height) = check(path, plane)?;
     let mut bytes = Vec::new();
@@ -44,11 +48,11 @@ pub fn write_png(path: &Path, plane: &Plane, depth: BitDepth) -> Result<(), Imag
     write_whole(path, &bytes)
 }
 
-/// Writes a plane with values from 0 to 1 as uncompressed grey TIFF, which every program reads; see
-/// [`write_grey`].
+/// Writes a plane with values from 0 to 1 as grey TIFF, uncompressed so that every program reads
+/// it; see [`write_grey`].
 ///
 /// # Errors
-/// If a pixel is not a finite number, the plane has no pixel, or the file cannot be written.
+/// Fails if a pixel is not a finite number, the plane has no pixel, or the file cannot be written.
 pub fn write_tiff(path: &Path, plane: &Plane, depth: BitDepth) -> Result<(), ImageError> {
     let (width, height) = check(path, plane)?;
     let mut bytes = Cursor::new(Vec::new());
@@ -65,7 +69,7 @@ pub fn write_tiff(path: &Path, plane: &Plane, depth: BitDepth) -> Result<(), Ima
 /// `path` names the file in errors.
 ///
 /// # Errors
-/// If the plane has no pixel, or a pixel is not a finite number.
+/// Fails if the plane has no pixel, or if a pixel is not a finite number.
 fn check(path: &Path, plane: &Plane) -> Result<(u32, u32), ImageError> {
     let name = || path.display().to_string();
     let (rows, columns) = plane.dim();

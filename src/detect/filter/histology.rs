@@ -1,8 +1,9 @@
 //! Classical filter of histology, in which an inner segment is a disc brighter than its
 //! surroundings.
 //!
-//! The response is −∇² of G(.22 s)∗I divided by its local root mean square, in a Gaussian
-//! neighbourhood of σ = 2 s, with s the spacing.
+//! With s the spacing, the response is −∇² of G(.22 s)∗I, the image I filtered by a Gaussian of
+//! standard deviation .22 s, divided by its local root mean square in a Gaussian neighbourhood of σ
+//! = 2 s.
 
 use super::{Criterion, negative_laplacian};
 use crate::detect::flatten::normalise;
@@ -23,8 +24,10 @@ const CONTRAST: f64 = 2.;
 /// threshold of .3 and a suppression of .55 spacings it was .949.
 const CRITERION: Criterion = Criterion { threshold: 0.65, suppression: 0.45, relative: None };
 
-/// Returns the response of the filter to an image with the given cone `spacing` in px, and the
+/// Returns the response of the filter to `image`, whose cones are `spacing` px apart, and the
 /// criterion for cones.
+///
+/// The clarity has no influence on this filter.
 pub(in crate::detect) fn response(image: &Plane, spacing: f64, _clarity: f64) -> (Plane, Criterion) {
     (normalise(&blobs(image, spacing), CONTRAST * spacing), CRITERION)
 }

@@ -22,8 +22,8 @@ pub struct Criterion {
     pub threshold: f32,
     /// Distance, in spacings, below which only the higher of two maxima stays.
     pub suppression: f64,
-    /// Threshold that replaces `threshold` for the maxima left by suppression, or `None` if the
-    /// threshold does not depend on the image.
+    /// Threshold that replaces `threshold` once suppression has dropped the lower of close maxima,
+    /// or `None` if the threshold does not depend on the image.
     pub relative: Option<RelativeThreshold>,
 }
 
@@ -62,16 +62,18 @@ pub(super) struct Filter {
     /// Its arguments are the image, in which cones have positive polarity, the cone spacing in px,
     /// and the clarity of the image.
     pub response: fn(&Plane, f64, f64) -> (Plane, Criterion),
-    /// Probability of a cone, given the height of its maximum relative to `reference`.
+    /// Logistic function from the height of a maximum, measured against `reference`, to the
+    /// probability that it is a cone.
     pub probability: Logistic,
-    /// Height with which the height of a maximum is compared.
+    /// Height against which the height of a maximum is measured.
     pub reference: Reference,
 }
 
 impl Filter {
     /// Returns the response for cones of the sought polarity, and the criterion for cones.
     ///
-    /// The filters are odd: for negative polarity the response only changes its sign.
+    /// All filters are odd, filter(−image) = −filter(image): for negative polarity, the response to
+    /// the image only has to change its sign.
     fn respond(&self, image: &Plane, sought: Sought) -> (Plane, Criterion) {
         let (mut response, criterion) = (self.response)(image, sought.spacing, sought.clarity);
         if sought.polarity == Polarity::Negative {
@@ -101,12 +103,12 @@ impl ConeFinder for Filter {
     }
 }
 
-/// Returns the response of a modality's classical filter at the given cone spacing (px), and the
-/// criterion for cones in it.
+/// Returns the response of a modality's classical filter to an image whose cones are `spacing` px
+/// apart, and the criterion for cones in the response.
 ///
 /// The filter of confocal images is wider where the `clarity` of the image is low
-/// ([`RingProfile::clarity`](crate::detect::RingProfile::clarity)); infinity stands for a clear
-/// image.
+/// ([`RingProfile::clarity`](crate::detect::RingProfile::clarity)). A clarity of infinity stands
+/// for an image without noise and leaves the filter at its narrowest.
 pub fn response(
     image: &Plane,
     modality: Modality,

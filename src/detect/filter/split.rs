@@ -1,10 +1,12 @@
 //! Classical filter of split-detector images: an inner segment is a dark–bright pair along x.
 //!
 //! Such an image behaves like a derivative along x. Half a derivative more brings the centre of the
-//! pair to a maximum. With s the spacing, the filter does this:
+//! pair to a maximum; on hand-marked images, it served better than a whole derivative, a Hilbert
+//! transform or an integral. With s the spacing, f the frequency and fx its component along x, the
+//! filter does this:
 //!
 //! 1. Multiply the spectrum by i · sign(fx) · |fx s|^½ · exp(−2π²(.14 s f)²) · (1 − exp(−2π²(.25 s
-//!    f)²)).
+//!    f)²)): half a derivative and a band-pass filter.
 //! 2. Divide the result by its local root mean square (σ = .8 s).
 
 use super::{Criterion, RelativeThreshold};
@@ -33,13 +35,14 @@ const COARSE: f32 = 0.25;
 /// the response is divided.
 const CONTRAST: f64 = 0.8;
 
-/// Returns the response of the filter to an image with the given cone `spacing` in px, and the
+/// Returns the response of the filter to `image`, whose cones are `spacing` px apart, and the
 /// criterion for cones.
 ///
-/// The cones are expected to be dark on the left and bright on the right.
+/// The cones are expected to be dark on the left and bright on the right. The clarity has no
+/// influence on this filter.
 pub(in crate::detect) fn response(image: &Plane, spacing: f64, _clarity: f64) -> (Plane, Criterion) {
     let (h, w) = image.dim();
-    // the mirrored frame keeps opposite edges, which the transform joins, from disturbing each
+    // the transform joins opposite edges, so a mirrored frame keeps them from disturbing each
     // other; it is wider than one spacing if that makes the transform fast
     let pad = spacing.round() as usize;
     let (height, width) = (fast_length(h + 2 * pad), fast_length(w + 2 * pad));

@@ -40,9 +40,9 @@ impl Maps {
     /// Returns the convolution with `kernel`, computed at the widest SIMD level available; if
     /// `rectified`, negative values become zero.
     ///
-    /// Each pass accumulates 4 outputs × 2 vectors (1 × 4 for a single output): enough independent
-    /// sums to hide the latency of the multiply-add, few enough to stay in 16 registers together
-    /// with their factors.
+    /// Each pass accumulates 4 outputs × 2 vectors (1 × 4 for a single output). These are enough
+    /// independent sums to hide the latency of the multiply-add, and few enough to stay in 16
+    /// registers together with their factors.
     fn through(&self, kernel: &Kernel, rectified: bool) -> Self {
         let mut out = Self::framed(kernel.outputs, self.height, self.width);
         let pass = |together| Pass {

@@ -11,13 +11,15 @@ use rayon::prelude::*;
 
 /// Standard deviation, in px of the resampled image, of the Gaussian filter whose result is
 /// subtracted as drift.
+///
+/// The networks were trained with this value, with [`CONTRAST`] and with [`FLOOR`].
 const DRIFT: f64 = 8.;
 /// Standard deviation, in px of the resampled image, of the Gaussian neighbourhood in which
 /// contrast is measured.
 const CONTRAST: f64 = 12.;
 /// Fraction of the mean contrast that is added to the local contrast.
 ///
-/// Without this floor, places without structure would be blown up.
+/// Without this floor, areas without structure would be blown up.
 const FLOOR: f64 = 0.1;
 
 /// Returns `image` with its drift subtracted and its contrast made even.
@@ -38,7 +40,8 @@ pub(super) fn normalised(image: &Plane) -> Plane {
 /// where they are.
 pub(super) fn resampled(image: &Plane, step: f64) -> Plane {
     let (h, w) = image.dim();
-    // together with the extent of a pixel itself, this blur suits the larger pixels
+    // a pixel itself blurs by about half its width; this Gaussian adds what a pixel of `step` px
+    // blurs more
     let blurred = if step > 1. { gaussian(image, 0.5 * (step * step - 1.).sqrt()) } else { image.clone() };
     let source = values(&blurred);
     let (rows, columns) = (taps(h, step), taps(w, step));
@@ -61,9 +64,11 @@ pub(super) fn resampled(image: &Plane, step: f64) -> Plane {
     plane_of(rows.len(), width, data)
 }
 
-/// Four old samples from which a new one is computed, and their weights.
+/// Four samples of the image from which a new sample is computed, and their weights.
 struct Tap {
+    /// Indices of the four samples.
     at: [usize; 4],
+    /// Catmull–Rom weights of the four samples.
     weights: [f32; 4],
 }
 

@@ -7,9 +7,9 @@ use std::cell::RefCell;
 ///
 /// No layer reads farther beyond the border, so no layer has to test where the image ends.
 pub(super) const MARGIN: usize = 4;
-/// Largest number of pixels that a register holds.
+/// Largest number of pixels that a SIMD register contains: 16 values of 32 bits in 512 bits.
 ///
-/// Rows are padded so that whole registers can be read at their end.
+/// Rows are padded so that entire registers can be read at their end.
 pub(super) const LANES: usize = 16;
 
 /// Feature maps: planes of one size, one per channel, each inside a frame of zeros.
@@ -31,7 +31,7 @@ pub(super) struct Maps {
 const KEPT: usize = 6;
 
 thread_local! {
-    /// Memory of dropped maps, which is kept for new maps.
+    /// Memory of dropped maps, kept for new maps.
     ///
     /// Layers follow each other so fast that allocating their memory anew takes as long as the
     /// convolutions.
@@ -160,7 +160,7 @@ pub(super) fn for_all<T: Sync, R: Send>(items: &[T], part: impl Fn(&T) -> R + Sy
     if items.len() < 2 { items.iter().map(part).collect() } else { items.par_iter().map(part).collect() }
 }
 
-/// Returns maps with a value in every place.
+/// Returns maps with a value at every pixel.
 #[cfg(test)]
 pub(super) fn textured(channels: usize, height: usize, width: usize) -> Maps {
     let mut maps = Maps::zeros(channels, height, width);

@@ -28,24 +28,28 @@ use weights::Weights;
 const SPACING: RangeInclusive<f64> = 2. ..=64.;
 /// Range of a model's radius of suppression, in spacings.
 const SUPPRESSION: RangeInclusive<f64> = 0.1..=2.;
-/// Logit above which a maximum is a candidate for a cone, unless the model has a lower threshold.
+/// Logit (a probability of 1.1 %) above which a maximum is a candidate for a cone, unless the model
+/// has a lower threshold.
 const CANDIDATE: f32 = -4.5;
-/// Quantile of the stronger maxima of an image that serves as reference for a threshold relative to
-/// the image.
+/// Quantile of the logits of an image's stronger maxima from which a relative threshold is
+/// computed: the upper quartile ([`Threshold::Relative`]).
 const QUANTILE: f64 = 0.75;
 
 /// A network with everything that turns its output into cones.
 #[derive(Debug)]
 pub(super) struct Model {
+    /// Network that gives the logits.
     network: Network,
-    /// Cone spacing, in px, in the plane that is given to the network.
+    /// Cone spacing, in px, to which images are resampled for the network.
     spacing: f64,
+    /// Rule by which maxima are taken for cones.
     threshold: Threshold,
     /// Distance, in spacings, below which only the higher of two maxima stays.
     suppression: f64,
     /// Modality that the model is for; `None` if it is for all images.
     pub(super) modality: Option<Modality>,
-    /// Probability of a cone, given the difference of its logit from the threshold.
+    /// Logistic function from the logit of a maximum less the threshold to the probability of a
+    /// cone.
     calibration: Logistic,
     /// `true` if the network was measured to find cones better than the classical filter.
     ///
@@ -56,7 +60,9 @@ pub(super) struct Model {
 /// A network that gives the logit of a cone's centre for every pixel.
 #[derive(Debug)]
 enum Network {
+    /// Network from a file of weights, run by the program itself.
     Own(Box<network::Network>),
+    /// User's ONNX model, run by `rten`.
     #[cfg(feature = "onnx")]
     Onnx(Box<onnx::Onnx>),
 }
@@ -64,8 +70,8 @@ enum Network {
 /// Rule that gives the logit above which a maximum is a cone.
 #[derive(Debug)]
 enum Threshold {
-    /// The threshold `logit`, which rises by `in_noise` for every unit by which the image's clarity
-    /// is below [`CLEAR`].
+    /// Threshold that does not depend on the other maxima: `logit`, plus `in_noise` for every unit
+    /// by which the image's clarity is below [`CLEAR`].
     Absolute { logit: f64, in_noise: f64 },
     /// The upper quartile of the logits of the image's stronger maxima, less `below`.
     ///
@@ -77,7 +83,7 @@ impl Model {
     /// Reads the network in a file of weights.
     ///
     /// # Errors
-    /// If the weights are damaged or their metadata are out of range.
+    /// Fails if the weights are damaged or their metadata are out of range.
     pub(super) fn read(file: &[u8]) -> Result<Self, WeightsError> {
         let weights = Weights::read(file)?;
         let threshold = match weights.word("rule")? {
@@ -123,8 +129,8 @@ impl Model {
         }
     }
 
-    /// Returns the logit above which a maximum is a cone, given all `maxima` and the clarity of the
-    /// image.
+    /// Returns the logit above which a maximum is a cone, in an image with the candidates `maxima`
+    /// and the clarity `clarity`.
     fn threshold_for(&self, maxima: &[Detection], clarity: f64) -> f64 {
         match self.threshold {
             Threshold::Absolute { logit, in_noise } => logit + in_noise * (CLEAR - clarity).max(0.),
@@ -143,6 +149,8 @@ impl ConeFinder for Model {
         let step = sought.spacing / self.spacing;
         let seen = input::normalised(&input::resampled(image, step));
         let seen = if sought.polarity == Polarity::Negative { -seen } else { seen };
+        // the number of new pixels is rounded, so the resampled image may extend beyond the image:
+        // centres there are moved back to its edge
         let (right, lower) = (image.ncols() as f64 - 0.5, image.nrows() as f64 - 0.5);
         let logits = match &self.network {
             Network::Own(network) => network.logits(&seen),
@@ -169,10 +177,10 @@ impl ConeFinder for Model {
     }
 }
 
-/// Returns the number that the metadata of a model give as `text` under `key`.
+/// Returns the number in `text`, a value that a model's metadata contain under `key`.
 ///
 /// # Errors
-/// If `text` is not a number in `range`, which `expected` describes for the message.
+/// Fails if `text` is not a number in `range`. The message calls that range `expected`.
 fn in_range(
     key: &'static str,
     text: &str,

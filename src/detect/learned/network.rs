@@ -3,9 +3,9 @@
 //!
 //! 1. The plane is cut into pieces, each of which also gets the surrounding pixels that can affect
 //!    its result.
-//! 2. Each piece goes through the network, which halves the resolution twice and then restores it.
-//!    If the network asks for it, mirror images of the piece go through it as well, and the results
-//!    are averaged.
+//! 2. Each piece goes through the network. There the resolution is halved twice and then restored.
+//!    If the file of weights asks for it, mirror images of the piece go through the network as
+//!    well, and the results are averaged.
 //! 3. The logits of the pieces are joined without a seam.
 
 use super::convolution::Kernel;
@@ -27,6 +27,11 @@ pub(super) struct Network {
 }
 
 /// A U-Net that halves the resolution twice and then restores it.
+///
+/// - `first` and `top` work at full resolution, `down` and `middle` at half of it, `deep` and
+///   `bottom` at a quarter.
+/// - `rise` and `join` lead back to half the resolution, `lift` and `merge` to full resolution.
+/// - `last` gives the logit.
 ///
 /// The numbers of channels are those of the tensors in the file of weights.
 #[derive(Debug)]
@@ -67,7 +72,7 @@ impl Network {
     /// Builds the network from a file of weights.
     ///
     /// # Errors
-    /// If the architecture is unknown or a tensor is missing or of another shape.
+    /// Fails if the architecture is unknown, or if a tensor is missing or of another shape.
     pub(super) fn new(weights: &Weights) -> Result<Self, WeightsError> {
         match weights.word("architecture")? {
             "unet" => {}
@@ -197,7 +202,7 @@ struct Piece {
 }
 
 /// Cuts a side of `length` px into equal pieces of at most about `longest` px, with all cuts at
-/// multiples of 4.
+/// multiples of [`UNIT`].
 ///
 /// The stretch that goes through the network extends up to `reach` px beyond either end of a piece.
 fn pieces(length: usize, longest: usize, reach: usize) -> Vec<Piece> {

@@ -40,8 +40,8 @@ impl Model {
     /// Reads the ONNX model in `bytes` and its metadata.
     ///
     /// # Errors
-    /// If the model cannot be run or its input or output has another shape, or if its metadata are
-    /// out of range.
+    /// Fails if the model cannot be run, if its input or output has another shape, or if its
+    /// metadata are out of range.
     pub(super) fn onnx(bytes: &[u8]) -> Result<Self, WeightsError> {
         let model = rten::Model::load(bytes.to_vec()).map_err(|e| WeightsError::Onnx(e.to_string()))?;
         let word = |key| model.metadata().get(key);
@@ -83,7 +83,7 @@ impl Onnx {
     /// Checks that the model takes one plane of any size and returns one plane of the same size.
     ///
     /// # Errors
-    /// If the shapes are others, or if the model fails on a test image of waves.
+    /// Fails if the shapes are others, or if the model fails on a test image of waves.
     fn check(&self) -> Result<(), WeightsError> {
         let (inputs, outputs) = (self.model.input_ids().len(), self.model.output_ids().len());
         if (inputs, outputs) != (1, 1) {
@@ -91,6 +91,8 @@ impl Onnx {
             return Err(WeightsError::Onnx(found));
         }
         if let Some(shape) = self.model.input_shape(0) {
+            // `one` accepts a dimension of 1 or of any length, `free` only a dimension of any
+            // length
             let one = |d: &Dimension| !matches!(d, Dimension::Fixed(n) if *n != 1);
             let free = |d: &Dimension| matches!(d, Dimension::Symbolic(_));
             if !matches!(&shape[..], [n, c, h, w] if one(n) && one(c) && free(h) && free(w)) {
@@ -109,7 +111,7 @@ impl Onnx {
     /// are multiples of `self.multiple` px.
     ///
     /// # Errors
-    /// If the model fails, or its output is not a plane of logits or probabilities.
+    /// Fails if the model fails, or if its output is not a plane of logits or probabilities.
     pub(super) fn logits(&self, seen: &Plane) -> Result<Plane, WeightsError> {
         let (height, width) = seen.dim();
         let padded = Plane::from_shape_fn(
@@ -160,7 +162,7 @@ mod tests {
     use super::*;
     use crate::detect::UserModel;
 
-    /// Returns a field of a protocol buffer that holds bytes: a text, or another message.
+    /// Returns a field of a protocol buffer with bytes as its value: a text, or another message.
     fn field(number: u8, bytes: impl AsRef<[u8]>) -> Vec<u8> {
         let bytes = bytes.as_ref();
         assert!(bytes.len() < 1 << 14);
@@ -168,7 +170,7 @@ mod tests {
         [&[number << 3 | 2][..], &length, bytes].concat()
     }
 
-    /// Returns a field of a protocol buffer that holds a small integer.
+    /// Returns a field of a protocol buffer with a small integer as its value.
     fn integer(number: u8, value: u8) -> Vec<u8> {
         vec![number << 3, value]
     }

@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 use sha2::{Digest, Sha256};
 use std::sync::Arc;
 
-/// A user's own network; cheap to clone. Two are equal if the bytes of their files are.
+/// A user's own network; cheap to clone. Two models are equal if their files have the same bytes.
 ///
 /// There are two kinds:
 ///
@@ -23,8 +23,11 @@ use std::sync::Arc;
 /// - `modality`: modality of the images that the model is for, by default all
 #[derive(Clone, Debug)]
 pub struct UserModel {
+    /// Name by which errors call the model.
     name: Arc<str>,
+    /// Network as read from the file.
     model: Arc<Model>,
+    /// SHA-256 hash of the file, in hexadecimal digits.
     sha256: Arc<str>,
 }
 
@@ -32,8 +35,8 @@ impl UserModel {
     /// Reads the model in the bytes of a file; `name` stands for the model in errors.
     ///
     /// # Errors
-    /// If the bytes are neither kind of model, or damaged, or if the metadata of the model are out
-    /// of range.
+    /// Fails if the bytes are neither kind of model, if they are damaged, or if the metadata of the
+    /// model are out of range.
     pub fn new(name: &str, bytes: &[u8]) -> Result<Self, WeightsError> {
         let model = match bytes {
             // safetensors begins with 8 bytes of length and a JSON object of that length
@@ -46,7 +49,7 @@ impl UserModel {
         Ok(Self { name: name.into(), model: Arc::new(model), sha256: sha256.into() })
     }
 
-    /// Returns the name of the model, as it was given to [`UserModel::new`].
+    /// Returns the name of the model, as it was passed to [`UserModel::new`].
     pub fn name(&self) -> &str {
         &self.name
     }

@@ -7,19 +7,19 @@ use thiserror::Error;
 /// Reasons why a file of weights cannot be used.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum WeightsError {
-    /// The file is not in the safetensors format, or cut off.
+    /// File that is cut off or not in the safetensors format.
     #[error("not a safetensors file: {0}")]
     Format(&'static str),
-    /// The file has neither of the formats that a model can have.
+    /// File that is neither a safetensors file nor an ONNX model.
     #[error("neither a safetensors file from scripts/train-detector nor an ONNX model: give one of these")]
     Kind,
-    /// The file is an ONNX model, which this build of the program cannot run.
+    /// ONNX model in a build of the program that cannot run such models.
     #[error("this build cannot run ONNX models: build one that can (cargo install --path . --features onnx)")]
     NoOnnx,
-    /// The ONNX model cannot be run, or its output cannot be used.
+    /// ONNX model that cannot be run, or whose output cannot be used.
     #[error("the ONNX model cannot be used: {0}")]
     Onnx(String),
-    /// A value in the metadata is out of range.
+    /// Value in the metadata that is not among those accepted.
     #[error("{key} in its metadata is “{value}”: expected {expected}")]
     Value {
         /// Key of the metadata.
@@ -29,13 +29,13 @@ pub enum WeightsError {
         /// Values that are accepted, in words.
         expected: &'static str,
     },
-    /// A value in the metadata is missing or cannot be understood.
+    /// Value in the metadata that is missing or cannot be understood.
     #[error("“{0}” is missing from its header or cannot be read")]
     Metadata(String),
-    /// The network has an architecture that this program cannot run.
+    /// Network with an architecture that this program cannot run.
     #[error("unknown architecture “{0}”: expected unet")]
     Architecture(String),
-    /// A tensor is missing, or of another shape or type.
+    /// Tensor that is missing, is of another shape or type, or has a value that is not finite.
     #[error("tensor “{name}” is missing or is not F32 of shape {shape:?}")]
     Tensor {
         /// Name of the tensor.
@@ -46,6 +46,8 @@ pub enum WeightsError {
 }
 
 impl WeightsError {
+    /// Returns the error for a `value` under `key` in the metadata that is not one of those
+    /// `expected`.
     pub(super) fn value(key: &'static str, value: &str, expected: &'static str) -> Self {
         Self::Value { key, value: value.to_owned(), expected }
     }
@@ -57,7 +59,9 @@ const WIDEST: u64 = 1024;
 /// A safetensors file: eight bytes of length, a JSON header of that length, then the bytes of the
 /// tensors.
 pub(super) struct Weights<'a> {
+    /// Header: the metadata, and the type, shape and position of every tensor.
     header: Map<String, Value>,
+    /// Bytes of all tensors.
     tensors: &'a [u8],
 }
 
@@ -65,7 +69,7 @@ impl<'a> Weights<'a> {
     /// Splits a file into its header and its tensors.
     ///
     /// # Errors
-    /// If `bytes` does not begin with a safetensors header.
+    /// Fails if `bytes` does not begin with a safetensors header.
     pub(super) fn read(bytes: &'a [u8]) -> Result<Self, WeightsError> {
         let (length, rest) =
             bytes.split_first_chunk::<8>().ok_or(WeightsError::Format("shorter than 8 bytes"))?;
@@ -116,7 +120,7 @@ impl<'a> Weights<'a> {
         outputs.map(|n| n as usize).ok_or(WeightsError::Tensor { name, shape: vec![] })
     }
 
-    /// Returns the values of the tensor `name`, which must have the given shape, row by row.
+    /// Returns the values of the tensor `name`, row by row; its shape must be `shape`.
     pub(super) fn tensor(&self, name: &str, shape: &[usize]) -> Result<Vec<f32>, WeightsError> {
         let find = || {
             let entry = self.header.get(name)?;

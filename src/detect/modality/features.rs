@@ -33,7 +33,8 @@ const LEAST_RANGE: f64 = 1e-2;
 /// maxima.
 const CONE: f64 = 0.3;
 
-/// Number of features that tell modalities apart.
+/// Number of features that tell modalities apart: eleven of slopes, blobs and grey values, and the
+/// spectrum around the ring.
 pub(super) const MODALITY: usize = 11 + AROUND_RING;
 /// Number of features that tell whether cones in a split-detector image are dark on the left or on
 /// the right.
@@ -49,7 +50,7 @@ pub(super) struct Features {
     pub blobs_skewness: f64,
     /// Logarithm of the ratio of the variance of fine slopes along x to that along y.
     ///
-    /// It is high for split-detector images, which show the derivative along x.
+    /// It is high for split-detector images, because they show the derivative along x.
     directed: f64,
     /// Skewness of the slopes along x after fine smoothing.
     ///
@@ -129,6 +130,7 @@ impl Features {
     /// The heights of waveguides (confocal) scatter more than those of cut discs (histology).
     fn scatter_of_heights(&self) -> f64 {
         let upright = if self.blobs_skewness < 0. { self.blobs.mapv(|v| -v) } else { self.blobs.clone() };
+        // of two maxima closer than this, one is no cone: the confocal filter has the same limit
         let maxima = suppress(local_maxima(&upright, 0.), 0.55 * self.spacing);
         let median = maxima.get(maxima.len() / 2).map_or(0., |d| d.score);
         let heights: Vec<f32> =
@@ -156,7 +158,9 @@ impl Slopes {
 }
 
 /// Distribution of grey values around their local mean, in local standard deviations.
+/// Third standardised moment, with its sign chosen as if cones were bright.
 struct Greys {
+    /// Fourth standardised moment, which is at least 1.
     skewness: f64,
     kurtosis: f64,
     /// Interquartile range, divided by the range from the 5 % to the 95 % quantile.

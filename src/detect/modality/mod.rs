@@ -25,10 +25,10 @@ const MIDDLE: f64 = 0.1;
 /// of its surroundings beyond the walls.
 const CELL: f64 = 0.5;
 
-/// Smallest number of pixels of a flattened image that is taken for a part of a larger one, so that
-/// its ring is measured anew.
+/// Number of pixels of a flattened image from which on it is taken for one tile of a larger image,
+/// so that the ring of the tile itself is measured.
 ///
-/// Parts of a large image are at most 512 × 512 px.
+/// The tiles of a large image are 512 × 512 px.
 const LARGE: usize = 512 * 512;
 
 /// Prior evidence, in logits, that cones in a split-detector image are dark on the left.
@@ -60,7 +60,8 @@ pub struct ModalityFeatures {
 /// it.
 ///
 /// Returns the modality, the probability (0–1) that it is right, and the polarity. A `modality` or
-/// a `polarity` that is given is returned as it is; a given modality has probability 1.
+/// a `polarity` set by the user is returned as it is. If the user set the modality, its probability
+/// is 1.
 pub(super) fn decide(
     flat: &Plane,
     ring: &RingProfile,
@@ -96,7 +97,7 @@ fn features_of(flat: &Plane, ring: &RingProfile) -> Features {
     Features::of(flat, own.as_ref().unwrap_or(ring))
 }
 
-/// Returns the polarity of the cut cells at `centres`, which are `spacing` px apart.
+/// Returns the polarity of the cut cells at `centres`, whose spacing is `spacing` px.
 ///
 /// It is positive if the cells are, on average, brighter in the middle than all around.
 pub(super) fn of_cells(image: &Plane, centres: &[Point], spacing: f64) -> Polarity {

@@ -11,6 +11,7 @@ use strum::VariantArray;
 
 /// Number of units of the hidden layer: 16 for each of four networks whose scores are averaged.
 const HIDDEN: usize = 64;
+/// Number of outputs: one score per modality.
 const CLASSES: usize = Modality::VARIANTS.len();
 
 /// File of the weights (out × in) and biases of both layers, then the weights of the logistic
@@ -22,6 +23,7 @@ static FILE: &[u8; 4 * COUNT] = include_bytes!("modality.f32");
 const FIRST: usize = HIDDEN * (MODALITY + 1);
 /// Number of weights and biases of the output layer.
 const LAST: usize = CLASSES * (HIDDEN + 1);
+/// Number of 32-bit floats in the file.
 const COUNT: usize = FIRST + LAST + DIRECTION;
 
 /// Returns the file of the weights, on which results depend.
@@ -31,6 +33,7 @@ pub(in crate::detect) const fn weights() -> &'static [u8] {
 
 /// Returns the numbers in the file.
 fn numbers() -> &'static [f64] {
+    /// Numbers in [`FILE`], converted on first use.
     static NUMBERS: OnceLock<Vec<f64>> = OnceLock::new();
     NUMBERS.get_or_init(|| FILE.as_chunks().0.iter().map(|b| f64::from(f32::from_le_bytes(*b))).collect())
 }

@@ -16,16 +16,16 @@ pub struct SpacingMap {
 }
 
 impl SpacingMap {
-    /// Returns the map of a single `spacing`, in px, that holds everywhere.
+    /// Returns a map with the same `spacing`, in px, everywhere.
     pub fn constant(spacing: f64) -> Self {
         Self { x: vec![0.], y: vec![0.], log: vec![spacing.ln()] }
     }
 
-    /// Returns the map with the given spacings (px), row by row, at the nodes `x` × `y`.
+    /// Returns the map whose spacings at the nodes `x` × `y` are `spacing` (px), row by row.
     ///
     /// `x` and `y` must be rising and not empty. A node without a spacing takes the mean logarithm
     /// of its neighbours; this is repeated, outwards from the known nodes, until every node has a
-    /// spacing. If no node has a spacing, the map is constant at `otherwise`.
+    /// spacing. If no node has a spacing, the map is constant at `otherwise` px.
     pub(in crate::detect) fn on_grid(
         x: Vec<f64>,
         y: Vec<f64>,
@@ -62,7 +62,8 @@ impl SpacingMap {
 
     /// Returns the map with every node's logarithm averaged with those of its neighbours.
     ///
-    /// The weights are 4 for the node itself, 2 for a neighbour along a side, 1 along a diagonal.
+    /// The weights are 4 for the node itself, 2 for a neighbour along a side and 1 along a
+    /// diagonal: the products of the weights 1, 2, 1 along x and along y.
     pub(super) fn smoothed(&self) -> Self {
         let (columns, rows) = (self.x.len(), self.y.len());
         let log = (0..self.log.len())
@@ -79,7 +80,7 @@ impl SpacingMap {
         Self { x: self.x.clone(), y: self.y.clone(), log }
     }
 
-    /// Returns the spacing, px, at a place.
+    /// Returns the spacing at the point `p`, in px.
     pub fn at(&self, p: Point) -> f64 {
         let ((i, s), (j, t)) = (between(&self.x, p.x), between(&self.y, p.y));
         let columns = self.x.len();
@@ -92,12 +93,12 @@ impl SpacingMap {
         (upper + t * (below - upper)).exp()
     }
 
-    /// Returns the geometric mean of the spacings at the nodes, px.
+    /// Returns the geometric mean of the spacings at the nodes, in px.
     pub fn typical(&self) -> f64 {
         (self.log.iter().sum::<f64>() / self.log.len() as f64).exp()
     }
 
-    /// Returns the smallest and the largest spacing, px.
+    /// Returns the smallest and the largest spacing, in px.
     pub fn range(&self) -> (f64, f64) {
         let (low, high) =
             self.log.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), l| (a.min(*l), b.max(*l)));
@@ -109,14 +110,14 @@ impl SpacingMap {
         self.log.iter().all(|l| *l == self.log[0])
     }
 
-    /// Moves all nodes by `right` px to the right and `down` px down.
+    /// Shifts all nodes by `right` px in x and by `down` px in y.
     pub(in crate::detect) fn move_by(&mut self, right: f64, down: f64) {
         self.x.iter_mut().for_each(|x| *x += right);
         self.y.iter_mut().for_each(|y| *y += down);
     }
 
-    /// Converts all positions and spacings from px of means over blocks of `times` × `times` px to
-    /// px of the image.
+    /// Converts all positions and spacings to px of the image from px of a coarser image, whose
+    /// pixels are means over blocks of `times` × `times` px.
     pub(in crate::detect) fn enlarge(&mut self, times: f64) {
         self.x.iter_mut().chain(&mut self.y).for_each(|x| *x = (*x + 0.5) * times - 0.5);
         self.log.iter_mut().for_each(|log| *log += times.ln());
@@ -149,7 +150,8 @@ fn around(k: usize, columns: usize, rows: usize, mut visit: impl FnMut(usize, bo
     }
 }
 
-/// Returns the index of the node before a place and the fraction of the way to the next node.
+/// Returns the index of the last node at or before the position `place`, and the fraction (0–1) of
+/// the way from that node to the next at which `place` lies.
 ///
 /// Beyond either end of the nodes, the result is the outermost node and 0.
 fn between(nodes: &[f64], place: f64) -> (usize, f64) {

@@ -1,5 +1,5 @@
 //! Cone spacing: first from Yellott's ring in the power spectrum, then from the density of the
-//! detections. If the spacing varies from place to place, the result is a map.
+//! detections. If the spacing varies across the image, the result is a map.
 
 mod bins;
 mod fourier;

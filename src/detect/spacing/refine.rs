@@ -1,10 +1,10 @@
 //! Refines the spacing by the density of the detections: s = √(2A/(√3 n)) for n cones on the area
 //! A.
 //!
-//! 1. The density over the entire image gives one spacing, which is kept within a factor of e^±0.35
-//!    of the ring's spacing.
+//! 1. The density over the entire image gives one spacing. It is kept within a factor of e^±0.35
+//!    (.70 to 1.42) of the ring's spacing.
 //! 2. If there are enough cones, a square of about 80 cones around every node of a grid gives a
-//!    local spacing, which is kept within the same factor of the ring's.
+//!    local spacing. It is kept within the same factor of the ring's.
 //! 3. The local spacings are smoothed. If they differ too little, the single spacing stays.
 
 use super::{SPACING_RANGE, SpacingMap};
@@ -25,14 +25,19 @@ pub const BORDER: f64 = 7.;
 const TRUST: f64 = 0.35;
 
 /// Approximate number of cones in a square in which a local density is counted.
+///
+/// The count of a smaller square would scatter more, a larger square would blur the map.
 const COUNTED: f64 = 80.;
 /// Smallest number of cones in an image for which local spacings are computed.
 ///
-/// With fewer, local counts would be noise, so one spacing serves the entire image.
+/// With fewer, local counts would be noise, so one spacing serves the entire image. This number
+/// fills four of the squares.
 const ENOUGH_CONES: usize = 320;
-/// Distance between neighbouring nodes of a map, in spacings.
+/// Distance between neighbouring nodes of a map, in spacings: about half the side of a square of 80
+/// cones, so that neighbouring squares overlap by half.
 const NODE_STEP: f64 = 4.;
-/// Smallest fraction of a square that must have been imaged for its count to be used.
+/// Smallest fraction of a square that must have been imaged for its count to be used: room for
+/// about 32 cones.
 const IMAGED: f64 = 0.4;
 /// Smallest ratio of the largest to the smallest spacing of a map; a map with a smaller ratio is
 /// replaced by a single spacing.
@@ -44,9 +49,14 @@ pub(in crate::detect) const EVEN: f64 = 1.2;
 /// Spacing from which a search starts.
 #[derive(Clone, Debug)]
 pub(in crate::detect) struct Start {
-    /// Spacing from place to place.
+    /// Spacing as a function of position.
     pub map: SpacingMap,
-    /// Smallest spacing, in px, that the density of the detections may give to the entire image.
+    /// Smallest spacing, in px, that the density of the detections may give to the entire image; 0
+    /// for no limit.
+    ///
+    /// It is the lower limit that the ring shows
+    /// ([`RingEstimate::least`](super::RingEstimate::least)). If the cones counted show a
+    /// smaller spacing, noise was probably counted as well.
     pub least: f64,
 }
 
@@ -56,7 +66,7 @@ impl Start {
     ///
     /// The density contradicts the start if its spacing differs from the typical spacing of the
     /// start by more than a factor of e^±0.35, the largest change that detections may cause. The
-    /// other start has the spacing by density everywhere.
+    /// other start has the spacing by density everywhere and no lower limit.
     pub(in crate::detect) fn contradicted_by(
         &self,
         centres: &[Point],
@@ -72,9 +82,9 @@ impl Start {
 
 /// Returns the spacing by the density of `centres` in an image of `width` × `height` px.
 ///
-/// Cones and area are counted without a strip along the border, which is 7 px wide or a quarter of
-/// the shorter side if that is less. Pixels that were not imaged (`empty`) are deducted from the
-/// area in proportion. If there is no cone, one is assumed.
+/// Cones and area are counted without a strip along the border. The strip is 7 px wide, or a
+/// quarter of the shorter side if that is less. Pixels that were not imaged (`empty`) are deducted
+/// from the area in proportion. If there is no cone, one is assumed.
 fn density_spacing(
     centres: &[Point],
     width: usize,
@@ -103,8 +113,8 @@ fn trusted(by_density: Option<f64>, ring_spacing: f64) -> f64 {
 /// border, and the spacing is kept within a factor of e^±0.35 of the spacing in `start`. The map is
 /// constant if the spacings differ by less than 20 % or there are fewer than 320 cones.
 ///
-/// A spacing of the entire image below `start.least` shows that more than the cones was counted.
-/// All spacings by density are then multiplied by the factor that raises it to `start.least`.
+/// If the spacing of the entire image is below `start.least`, more than the cones was counted. All
+/// spacings by density are then multiplied by the factor that raises that spacing to `start.least`.
 pub(in crate::detect) fn refined_map(
     centres: &[Point],
     width: usize,
@@ -131,7 +141,7 @@ pub(in crate::detect) fn refined_map(
         for &cx in &x {
             let place = Point::new(cx, cy);
             let before = ring.at(place);
-            // a square of this half-side holds 80 cones of a triangular lattice
+            // a square of this half-side contains 80 cones of a triangular lattice
             let half = 0.5 * before * (COUNTED * 0.75f64.sqrt()).sqrt();
             let square = cells.square(place, half);
             let imaged = empty.map_or(1., |e| square.imaged(e));
@@ -169,12 +179,16 @@ impl Square {
 /// Points of an image in a grid of buckets, so that counting the points in a square does not visit
 /// all of them.
 struct Cells {
+    /// Points in px, in buckets.
     points: BucketGrid<Point>,
+    /// Width of the image in px.
     width: f64,
+    /// Height of the image in px.
     height: f64,
 }
 
 impl Cells {
+    /// Sorts the points `centres` of an image of `width` × `height` px into buckets of `side` px.
     fn new(centres: &[Point], width: usize, height: usize, side: f64) -> Self {
         let (width, height) = (width as f64, height as f64);
         let cells = |length: f64| (length / side) as usize + 1;
@@ -184,8 +198,8 @@ impl Cells {
         Self { points, width, height }
     }
 
-    /// Returns the square with the given middle and half-side (px), moved and if necessary shrunk
-    /// to stay inside the border.
+    /// Returns the square with the middle `middle` and the half-side `half` (px), moved and if
+    /// necessary shrunk to stay inside the border.
     fn square(&self, middle: Point, half: f64) -> Square {
         let ends = |middle: f64, length: f64| {
             let border = BORDER.min(length / 4.) - 0.5;

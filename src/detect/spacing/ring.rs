@@ -14,14 +14,15 @@ use super::ring_network;
 use crate::image::{Plane, Spectrum, crop, signed_frequency};
 use std::sync::OnceLock;
 
-/// Side of the Fourier transform, in px.
+/// Side of the Fourier transform, and longest side of the part of an image that is transformed, in
+/// px: a power of two, for which the transform is fast.
 pub(super) const SIZE: usize = 512;
 /// Smallest number of times that a spacing must fit into the shorter side of the image to be a
 /// candidate.
 ///
 /// With fewer periods, a ring cannot be told from uneven illumination.
 pub(in crate::detect) const PERIODS: f64 = 5.;
-/// Probability that the true spacing is below [`RingEstimate::least`], the least spacing that a
+/// Probability that the true spacing is below [`RingEstimate::least`], the smallest spacing that a
 /// count of cones may show.
 ///
 /// If more cones are counted than that spacing allows, some of them are more likely noise. A
@@ -30,17 +31,20 @@ pub(in crate::detect) const PERIODS: f64 = 5.;
 const CLOSER: f64 = 0.15;
 /// Factor, up or down, by which a spacing may differ from the true one and still count as right.
 const RIGHT: f64 = 1.15;
-/// Band of a spectrum, in cycles per spacing, that holds the power of the ring.
+/// Band of a spectrum, in cycles per spacing, that contains the power of the ring.
 const RING_BAND: (f64, f64) = (0.8, 1.4);
 /// Frequency, in cycles per spacing, around which noise is measured.
 ///
 /// Cones have no detail this fine, so there is hardly anything but noise.
 const FINEST: f64 = 2.6;
-/// Factor between the middle of the band around [`FINEST`] and either end of the band.
+/// Ratio of the upper end of the band around [`FINEST`] to its middle, and of the middle to the
+/// lower end.
 const FINEST_BAND: f64 = 1.15;
-/// Smallest clarity ([`RingProfile::clarity`]) of an image with hardly any noise.
+/// Smallest clarity ([`RingProfile::clarity`]) of an image with hardly any noise. Below it, the
+/// confocal filter is widened and the threshold of the confocal network raised.
 pub(in crate::detect) const CLEAR: f64 = 6.2;
-/// Number of frequencies around the ring at which [`RingProfile::around`] gives the power.
+/// Number of frequencies around the ring at which [`RingProfile::around`] gives the power: a range
+/// of 3½ octaves in steps of a quarter octave.
 pub(in crate::detect) const AROUND: usize = 15;
 
 /// Radially averaged power spectrum of an image over log-frequency, and the spacing it shows.
@@ -82,14 +86,17 @@ struct Term {
     along_x: f32,
     /// Number of terms of the full spectrum that this term stands for.
     ///
-    /// It is 2 for a term with a mirror image at fx < 0, which is not stored, and otherwise 1.
+    /// It is 2 for a term whose mirror image at fx < 0 is not stored, and otherwise 1.
     weight: f32,
 }
 
 /// Returns the terms of the transform that fall into the bins.
 fn terms() -> &'static [Term] {
+    /// Terms that fall into the bins, computed on first use.
     static TERMS: OnceLock<Vec<Term>> = OnceLock::new();
     TERMS.get_or_init(|| {
+        // terms up to a bin beyond either end of the axis share their power with the outermost
+        // bins; a bin is a factor of 2^(1/24) = 1.03 wide
         let lowest = 1. / (1.05 * LONGEST_PERIOD);
         let mut terms = Vec::new();
         for kx in 0..=SIZE / 2 {
@@ -123,7 +130,7 @@ fn hann(length: usize) -> Vec<f32> {
 
 /// Sums of power in bins: over all directions, along x, across x.
 ///
-/// Three further bins at the ends hold the shares that fall off the axis.
+/// The first and the last two bins receive the shares that fall off the axis.
 pub(super) type Power = [[f64; BINS + 3]; 3];
 
 /// Returns the power of a flattened plane under a Hann window, summed into bins.
@@ -153,6 +160,7 @@ pub(super) fn power_of(flat: &Plane) -> Power {
 /// Returns the sum of the weights of all terms in each bin; sums of power are divided by it to give
 /// means.
 fn bin_weights() -> &'static [[f64; BINS + 3]; 3] {
+    /// Sums of weights, computed on first use.
     static WEIGHTS: OnceLock<[[f64; BINS + 3]; 3]> = OnceLock::new();
     WEIGHTS.get_or_init(|| {
         let mut sums = [[0f64; BINS + 3]; 3];
@@ -174,7 +182,7 @@ impl RingProfile {
         Self::from_powers([&power_of(flat)], flat.dim())
     }
 
-    /// Returns the profile of the mean power of tiles of the given height and width, px.
+    /// Returns the profile of the mean power of tiles of `height` × `width` px.
     pub(super) fn from_powers<'a>(
         tiles: impl IntoIterator<Item = &'a Power>,
         (height, width): (usize, usize),
@@ -187,6 +195,7 @@ impl RingProfile {
         }
         let channel = |c: usize| {
             std::array::from_fn(|b| {
+                // the floors of 1e-12 prevent a division by 0 and the logarithm of 0
                 let power = sums[c][b + 1] / count.max(1.);
                 (power / bin_weights()[c][b + 1].max(1e-12) + 1e-12).ln() as f32
             })
@@ -210,18 +219,19 @@ impl RingProfile {
         RingEstimate { spacing, confidence: self.probability_near(spacing), least: self.least().min(spacing) }
     }
 
-    /// Returns the most probable spacing, in px, that differs from `spacing` by at most the given
-    /// factor, up or down.
+    /// Returns the most probable spacing, in px, that differs from `spacing` by at most the factor
+    /// `factor`, up or down.
     pub(super) fn spacing_near(&self, spacing: f64, factor: f64) -> f64 {
         self.peak_among(|s| (s / spacing).ln().abs() <= factor.ln())
     }
 
-    /// Returns the most probable spacing, px, among the candidates that are `allowed`.
+    /// Returns the most probable spacing, in px, among the candidates that are `allowed`.
     fn peak_among(&self, allowed: impl Fn(f64) -> bool) -> f64 {
         let peak = (0..CANDIDATES)
             .filter(|k| allowed(candidate(*k as f64)))
             .max_by(|&a, &b| self.scores[a].total_cmp(&self.scores[b]))
             .unwrap_or(CANDIDATES - 1);
+        // the first and the last candidate have no neighbour on one side, so they are not refined
         let offset = match self.scores.get(peak.wrapping_sub(1)..peak + 2) {
             Some(&[a, b, c]) if a.is_finite() && a - 2. * b + c < 0. => {
                 f64::from(0.5 * (a - c) / (a - 2. * b + c)).clamp(-0.5, 0.5)
@@ -231,7 +241,7 @@ impl RingProfile {
         candidate(peak as f64 + offset)
     }
 
-    /// Returns the spacing, px, below which the true one lies with the probability [`CLOSER`].
+    /// Returns the spacing, in px, below which the true one lies with the probability [`CLOSER`].
     ///
     /// Within a bin, the probability is spread evenly.
     fn least(&self) -> f64 {
@@ -246,7 +256,7 @@ impl RingProfile {
         SPACING_RANGE.1
     }
 
-    /// Returns the probability, 0–1, that the true spacing is within 15 % of `spacing`, px.
+    /// Returns the probability (0–1) that the true spacing is within 15 % of `spacing`, in px.
     fn probability_near(&self, spacing: f64) -> f64 {
         let near = |s: f64| (s / spacing).ln().abs() <= RIGHT.ln();
         self.probabilities().enumerate().filter(|(k, _)| near(candidate(*k as f64))).map(|(_, p)| p).sum()
@@ -260,7 +270,7 @@ impl RingProfile {
         self.scores.iter().map(move |s| odds(*s) / sum)
     }
 
-    /// Returns the clarity of the image, given its cone spacing in px.
+    /// Returns the clarity of an image whose cones are `spacing` px apart.
     ///
     /// The clarity is the natural logarithm of the ratio of the power around the ring to that of
     /// detail finer than any cone: above 6 on a clear image, 2 where noise is as strong as the
@@ -277,12 +287,13 @@ impl RingProfile {
         mean(RING_BAND.0, RING_BAND.1) - mean(finest / FINEST_BAND, finest * FINEST_BAND)
     }
 
-    /// Returns the natural logarithm of the power at 15 frequencies around the ring of the given
-    /// spacing (px), less the mean over all bins.
+    /// Returns the natural logarithm of the power at 15 frequencies around the ring of cones
+    /// `spacing` px apart, less the mean over all bins.
     ///
     /// The frequencies run from 1.5 octaves below the ring's to two octaves above it, in steps of a
     /// quarter octave. Each value is the mean over five bins.
     pub fn around(&self, spacing: f64) -> [f64; AROUND] {
+        /// Quarter of an octave, in bins.
         const STEP: f64 = PER_OCTAVE / 4.;
         let ring = bin_of(spacing);
         let at = |bin: f64| f64::from(self.all[bin.clamp(0., (BINS - 1) as f64) as usize]);

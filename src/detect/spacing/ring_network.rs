@@ -7,7 +7,8 @@
 use super::bins::{BINS, CANDIDATES, FIRST};
 use std::sync::OnceLock;
 
-/// Number of neighbouring bins that each output of a convolution depends on.
+/// Number of neighbouring bins that each output of a convolution depends on: an octave, half of it
+/// on either side.
 const TAPS: usize = 25;
 /// Numbers of channels into and out of the convolutions.
 ///
@@ -36,14 +37,16 @@ type Channels = Vec<[f32; BINS]>;
 
 /// Returns the logarithm of the odds, up to a constant, that each candidate is the cone spacing.
 ///
-/// Candidates run from the widest to the closest. `log_power` holds the logarithm of the power over
+/// Candidates run from the widest to the closest. `log_power` is the logarithm of the power over
 /// all directions, along x and across x.
 pub(super) fn scores(log_power: [&[f32; BINS]; 3]) -> [f32; CANDIDATES] {
+    /// Numbers in [`FILE`], converted on first use.
     static WEIGHTS: OnceLock<Vec<f32>> = OnceLock::new();
     let mut weights =
         &WEIGHTS.get_or_init(|| FILE.as_chunks().0.iter().map(|b| f32::from_le_bytes(*b)).collect())[..];
     let mut maps: Channels = log_power.map(above_mean).to_vec();
     for layer in 0..WIDTHS.len() - 1 {
+        // weights and biases of this layer
         let own;
         (own, weights) = weights.split_at(count(layer));
         let (taps, biases) = own.split_at(own.len() - WIDTHS[layer + 1]);
@@ -66,10 +69,11 @@ fn above_mean(profile: &[f32; BINS]) -> [f32; BINS] {
     profile.map(|p| p - mean)
 }
 
-/// Returns the sum of the channels' convolutions with their taps, plus the bias.
+/// Returns the sum of the channels' convolutions with their `taps`, plus `bias`.
 ///
 /// Beyond either end, a channel continues with its outermost value.
 fn convolve(channels: &Channels, taps: &[f32], bias: f32) -> [f32; BINS] {
+    /// Number of taps on either side of the middle one.
     const HALF: usize = TAPS / 2;
     let mut sum = [bias; BINS];
     for (channel, taps) in channels.iter().zip(taps.chunks_exact(TAPS)) {

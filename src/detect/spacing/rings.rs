@@ -4,7 +4,8 @@ use crate::detect::flatten;
 use crate::image::{EmptyPixels, Plane, crop};
 use rayon::prelude::*;
 
-/// Largest factor by which a local spacing may differ from that of the entire image.
+/// Largest factor by which the spacing of a tile may differ from that of the entire image; the
+/// tile's other candidates are ignored.
 const LOCAL: f64 = 2.;
 /// Smallest fraction of a tile that must have been imaged for the tile to be measured.
 const IMAGED: f64 = 0.5;
@@ -14,6 +15,7 @@ const IMAGED: f64 = 0.5;
 /// The power of the tiles is averaged for the ring of the entire image (Welch 1967,
 /// <https://doi.org/10.1109/TAU.1967.1161901>).
 pub(in crate::detect) struct Rings {
+    /// Ring of the entire image, from the mean power of the measured tiles.
     whole: RingProfile,
     /// x of the leftmost pixels of each column of tiles.
     columns: Vec<usize>,
@@ -24,7 +26,9 @@ pub(in crate::detect) struct Rings {
     /// Flattened tile that stands for the image: the tile with the largest imaged part and, among
     /// equals, the one nearest to the middle of the image.
     sample: Plane,
+    /// Height of the image in px.
     height: usize,
+    /// Width of the image in px.
     width: usize,
 }
 
@@ -80,7 +84,7 @@ impl Rings {
         &self.sample
     }
 
-    /// Returns the smoothed map of the spacing from place to place.
+    /// Returns the map of the spacing, smoothed.
     ///
     /// The spacing of a tile is the most probable one within a factor of two of the entire image's.
     pub(in crate::detect) fn map(&self) -> SpacingMap {

@@ -8,7 +8,7 @@ use ndarray::Array2;
 pub(super) enum Alpha {
     /// No treatment: alpha is absent or already multiplied in.
     None,
-    /// Multiplication of grey by alpha, which is stored but not yet multiplied in.
+    /// Multiplication of grey by alpha, since alpha is stored but not yet multiplied in.
     Straight,
 }
 
@@ -25,7 +25,7 @@ pub(super) struct Layout {
     /// `true` if every pixel begins with a red, a green and a blue sample, `false` if it begins
     /// with a single grey sample.
     pub(super) colour: bool,
-    /// Treatment of the alpha sample, which follows the colour or grey.
+    /// Treatment of the alpha sample that follows the colour or grey.
     pub(super) alpha: Alpha,
     /// `true` if the samples are stored plane by plane, `false` if pixel by pixel.
     pub(super) planar: bool,

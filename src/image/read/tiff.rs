@@ -25,6 +25,7 @@ const ASSOCIATED_ALPHA: u16 = 1;
 /// Value of the tag PlanarConfiguration for samples stored plane by plane.
 const PLANAR: u16 = 2;
 
+/// Decoder of a TIFF file in memory.
 type Source<'a> = Decoder<Cursor<&'a [u8]>>;
 
 /// Decodes the only picture in the bytes of a TIFF file.
@@ -51,6 +52,7 @@ fn open(bytes: &[u8]) -> Result<Source<'_>, TiffError> {
     let mut limits = Limits::default();
     // the largest kind of pixel that is read, RGBA of 32 bits, takes 16 bytes
     limits.decoding_buffer_size = 16 * MAX_PIXELS;
+    // in bytes: 512 MiB for buffers within the decoder, 16 MiB for the value of one tag
     limits.intermediate_buffer_size = 1 << 29;
     limits.ifd_value_size = 16 << 20;
     Ok(Decoder::new(Cursor::new(bytes))?.with_limits(limits))
@@ -144,8 +146,8 @@ fn unpack(packed: &[u8], bits: u16, width: usize, height: usize) -> Vec<u8> {
     let mask = (1u16 << bits) - 1;
     let sample = |row: &[u8], x: usize| {
         let (byte, shift) = (x * bits / 8, 16 - bits - x * bits % 8);
-        // two bytes are needed for samples of 3, 5, 6 and 7 bits, which may lie across their
-        // boundary
+        // two bytes are needed, because samples of 3, 5, 6 and 7 bits may lie across a boundary of
+        // bytes
         let pair = u16::from_be_bytes([row[byte], row.get(byte + 1).copied().unwrap_or(0)]);
         ((pair >> shift) & mask) as u8
     };
@@ -204,6 +206,7 @@ fn palette_to_grey(bytes: &[u8], decoder: &mut Source, place: &Place) -> Result<
 /// Returns `None` if that directory has no photometric interpretation.
 fn called_grey(bytes: &[u8], offset: u64) -> Option<Vec<u8>> {
     let little = bytes.starts_with(b"II");
+    // the version after the byte order is 42 (“*”) in a classic TIFF and 43 (“+”) in a BigTIFF
     let big_tiff = bytes.get(if little { 2 } else { 3 }) == Some(&b'+');
     let number = |from: usize, length: usize| -> Option<u64> {
         let field = bytes.get(from..from.checked_add(length)?)?;
@@ -211,6 +214,7 @@ fn called_grey(bytes: &[u8], offset: u64) -> Option<Vec<u8>> {
         Some(if little { field.iter().rev().fold(0, join) } else { field.iter().fold(0, join) })
     };
     let start = usize::try_from(offset).ok()?;
+    // bytes of the number of entries, of an entry, and of the part of an entry before its value
     let (count_bytes, entry_bytes, value_at) = if big_tiff { (8, 20, 12) } else { (2, 12, 8) };
     let entries = usize::try_from(number(start, count_bytes)?).ok()?;
     let wanted = u64::from(Tag::PhotometricInterpretation.to_u16());
@@ -218,6 +222,7 @@ fn called_grey(bytes: &[u8], offset: u64) -> Option<Vec<u8>> {
         .map_while(|i| start.checked_add(count_bytes)?.checked_add(i.checked_mul(entry_bytes)?))
         .take_while(|&at| at < bytes.len())
         .find(|&at| number(at, 2) == Some(wanted))?;
+    // a value of type 4 has 32 bits, any other is taken for one of 16 bits
     let long = number(entry + 2, 2)? == 4;
     let value: &[u8] = match (little, long) {
         (true, false) => &[1, 0],
@@ -233,6 +238,7 @@ fn called_grey(bytes: &[u8], offset: u64) -> Option<Vec<u8>> {
 
 /// File that an error is about.
 struct Place<'a> {
+    /// Name of the file.
     name: &'a str,
 }
 
@@ -247,7 +253,7 @@ impl Place<'_> {
         ImageError::Unsupported { name: self.name.to_owned(), format: "TIFF", reason }
     }
 
-    /// Returns the error for a file that holds fewer pixels than its header says.
+    /// Returns the error for a file that contains fewer pixels than its header says.
     fn too_few(&self) -> ImageError {
         self.damaged("fewer pixels than its header says".to_owned())
     }

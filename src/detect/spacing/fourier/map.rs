@@ -7,7 +7,8 @@ use std::f64::consts::TAU;
 
 /// Number of tiles that begin within the side of one tile: tiles overlap by three quarters.
 const PER_SIDE: usize = 4;
-/// Largest factor by which the spacing of a tile may differ from that of the entire image.
+/// Largest factor by which the spacing of a tile may differ from that of the entire image; rings
+/// beyond are ignored.
 const LOCAL: f64 = 2.;
 
 /// Options of a map of the modal spacing, see [`fourier_map`].
@@ -15,8 +16,8 @@ const LOCAL: f64 = 2.;
 pub struct FourierMapOptions {
     /// Side of a tile, in spacings of the entire image: 6–60, default 12.
     ///
-    /// A tile of 12 spacings holds some 160 cones. The Hann window reduces their total weight to
-    /// that of a seventh of them.
+    /// A tile of 12 spacings contains some 160 cones. The Hann window reduces their total weight in
+    /// the spectrum to that of a seventh of them.
     pub side: f64,
     /// Directions of the waves from which the spacing is measured.
     pub sector: Sector,
@@ -32,13 +33,13 @@ impl FourierMapOptions {
     /// Checks that `side` is between 6 and 60 spacings.
     ///
     /// # Errors
-    /// If `side` is outside 6–60.
+    /// Fails if `side` is outside 6–60.
     pub fn validate(&self) -> Result<(), DetectError> {
         if (6. ..=60.).contains(&self.side) { Ok(()) } else { Err(DetectError::TileSide(self.side)) }
     }
 }
 
-/// Modal spacing of an image from place to place, as [`fourier_map`] finds it.
+/// Map of the modal spacing of an image, as [`fourier_map`] finds it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FourierMap {
     /// Side of the tiles in px.
@@ -50,8 +51,8 @@ pub struct FourierMap {
     /// Spacing that each tile shows by itself, row by row, or `None` if a tile has no ring or too
     /// little of it was imaged.
     pub tiles: Vec<Option<FourierSpacing>>,
-    /// Hexagonal spacing in px from place to place: the distance between neighbouring cones in a
-    /// triangular lattice.
+    /// Hexagonal spacing in px as a function of position: the distance between neighbouring cones
+    /// in a triangular lattice.
     ///
     /// At the middle of a tile, the logarithm of the spacing is the mean over the tiles around. A
     /// tile is weighted by the square of its confidence and by a Hann window that falls to 0 at a
@@ -70,13 +71,13 @@ pub struct FourierMap {
 /// most the shorter side of the image. `whole` is the result of
 /// [`fourier_spacing`](super::fourier_spacing) for the image. Only spacings within a factor of two
 /// of the modal spacing in `whole` are found. Where cones are much farther apart than on average, a
-/// tile holds too few of them: beyond a factor of two, the map is not to be trusted.
+/// tile contains too few of them: beyond a factor of two, the map is not to be trusted.
 ///
 /// At a spacing of 9 px, 1024 × 1024 px take .75 s on two cores, 4096 × 4096 px 17 s.
 ///
 /// # Errors
-/// If an option is out of its range, the image is too small, its pixels are all the same or one is
-/// not a number, or the entire image has no ring.
+/// Fails if `options` are out of range, if the image is too small, if its pixels are all the same
+/// or one is not a finite number, or if the entire image has no ring.
 pub fn fourier_map(
     image: &Plane,
     whole: &FourierEstimate,
@@ -108,8 +109,10 @@ pub fn fourier_map(
         starts.iter().map(|s| *s as f64 + 0.5 * side as f64 - 0.5).collect()
     };
     let (x, y) = (middles(&columns), middles(&rows));
+    // weight of a tile whose middle is `d` px away along one axis
     let hann =
         |d: f64| if d.abs() < side as f64 { 0.5 + 0.5 * (TAU / 2. * d / side as f64).cos() } else { 0. };
+    // indices and weights of the tiles whose middles are less than a tile side from `at`
     let near_ones = |nodes: &[f64], at: f64| -> Vec<(usize, f64)> {
         let weights = nodes.iter().map(|v| hann(v - at)).enumerate();
         weights.filter(|(_, w)| *w > 0.).collect()
@@ -119,6 +122,8 @@ pub fn fourier_map(
     for &v in &y {
         let down = near_ones(&y, v);
         for &u in &x {
+            // weighted sums: of the logarithms of spacings, of squared confidences, of confidences,
+            // and of the weights alone
             let (mut logs, mut trusted, mut sure, mut total) = (0., 0., 0., 0.);
             for (i, across) in near_ones(&x, u) {
                 for &(j, weight) in &down {

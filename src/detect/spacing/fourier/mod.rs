@@ -16,7 +16,7 @@
 //!
 //! The method does not depend on the modality. The degree of the background, the width of the ring
 //! and the lowest frequency were chosen among nine combinations on every third or fourth of the
-//! marked images and on simulated ones. The accuracies given for [`fourier_spacing`] are therefore
+//! marked images and on simulated ones. The accuracies stated for [`fourier_spacing`] are therefore
 //! those of the best combination, not of images never seen.
 
 mod map;
@@ -94,7 +94,8 @@ pub struct FourierEstimate {
 /// imaged are left out, unless this is true of all tiles.
 ///
 /// A mosaic has a ring because its patches of lattice are turned every way. A single perfect
-/// lattice has six points instead, which the mean of logarithms hardly shows: it may be missed.
+/// lattice has six points instead. The mean of logarithms hardly shows them, so such a lattice may
+/// be missed.
 ///
 /// The accuracy is measured by `tests/it/fourier_spacing.rs` against the spacing of the lattice
 /// with the density of the marks:
@@ -106,8 +107,8 @@ pub struct FourierEstimate {
 ///   %), as many as by the ring of the marks.
 ///
 /// # Errors
-/// If a side is below [`MIN_SIDE`](crate::detect::MIN_SIDE), if all pixels are the same, or if a
-/// pixel is not a number.
+/// Fails if a side is below [`MIN_SIDE`](crate::detect::MIN_SIDE), if all pixels are the same, or
+/// if a pixel is not a finite number.
 pub fn fourier_spacing(image: &Plane) -> Result<FourierEstimate, DetectError> {
     check(image)?;
     let empty = EmptyPixels::of(image);
@@ -137,8 +138,7 @@ fn estimate(image: &Plane, empty: Option<&EmptyPixels>) -> FourierEstimate {
     FourierEstimate { side, all, row, cell }
 }
 
-/// Returns the profiles of the tiles whose first pixels lie in the given columns and rows, row by
-/// row.
+/// Returns the profiles of the tiles whose first pixels lie in `columns` and `rows`, row by row.
 ///
 /// The profile of a tile is `None` if too little of the tile was imaged.
 fn profiles(

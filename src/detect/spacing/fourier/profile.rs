@@ -7,11 +7,13 @@
 
 use crate::image::{Plane, Spectrum, crop, fast_length, signed_frequency};
 
-/// Zero-padding factor of the transform: tiles are padded to this multiple of their side, which
-/// interpolates the spectrum.
+/// Factor by which tiles are padded with zeros: the side of the transform is at least this multiple
+/// of the side of the tile.
+///
+/// The spectrum is thereby also computed halfway between the tile's own frequencies.
 const PADDING: usize = 2;
-/// Smallest power, as a fraction of the mean, to which all lower values are raised: a power of 0
-/// has no logarithm.
+/// Power to which lower values are raised, as a fraction of the mean power of all terms, because a
+/// power of 0 has no logarithm.
 const FLOOR: f32 = 1e-12;
 
 /// Directions of the spectrum over which the power is averaged.
@@ -20,9 +22,9 @@ pub enum Sector {
     /// All directions of the spectrum.
     #[default]
     All,
-    /// The upper and lower 90°: waves that run up and down, from row to row of cones.
+    /// Directions within 45° of the y axis: waves that run up and down, from row to row of cones.
     Row,
-    /// The left and right 90°: waves that run sideways, from cell to cell of a row.
+    /// Directions within 45° of the x axis: waves that run sideways, from cell to cell of a row.
     Cell,
 }
 
@@ -51,7 +53,7 @@ struct Term {
     radius: u16,
     /// Fraction (0–1) of the term that the upper of the two radii receives.
     upper_share: f32,
-    /// `true` if the term belongs to the row sector.
+    /// `true` if the term belongs to [`Sector::Row`], `false` if it belongs to [`Sector::Cell`].
     row: bool,
     /// Number of terms of the full spectrum that this term stands for: 2 if its mirror image is not
     /// stored, otherwise 1.
@@ -66,9 +68,11 @@ pub(super) struct Polar {
     pub size: usize,
     /// Hann window along a side of the tile.
     taper: Vec<f32>,
-    /// Terms of the transform inside its largest circle.
+    /// Terms of the transform with a frequency below half a cycle per px; the higher frequencies in
+    /// the corners of the spectrum are left out.
     terms: Vec<Term>,
-    /// Sum of the weights of all terms at each radius, for each sector.
+    /// Weights of the terms, summed at each radius and in each sector; sums of logarithms are
+    /// divided by them to give means.
     weights: Profile,
 }
 
@@ -81,10 +85,13 @@ impl Polar {
         for kx in 0..=size / 2 {
             for ky in 0..size {
                 let fy = f64::from(signed_frequency(ky, size)) * size as f64;
+                // the frequency in cycles per side of the transform
                 let radius = fy.hypot(kx as f64);
                 if radius + 1. >= radii as f64 {
                     continue;
                 }
+                // a radius between two whole numbers is shared by both; the cast keeps the lower
+                // one
                 terms.push(Term {
                     index: (kx * size + ky) as u32,
                     radius: radius as u16,
@@ -96,6 +103,7 @@ impl Polar {
             }
         }
         let weights = summed(&terms, radii, |_| 1.);
+        // a Hann window without the zeros at its ends
         let step = std::f64::consts::TAU / (side + 1) as f64;
         let taper = (1..=side).map(|k| (0.5 - 0.5 * (step * k as f64).cos()) as f32).collect();
         Self { side, size, taper, terms, weights }
@@ -113,7 +121,8 @@ impl Polar {
         let mut profile =
             summed(&self.terms, self.size / 2 + 1, |t| power[t.index as usize].max(floor).log10());
         for (sums, weights) in profile.iter_mut().zip(&self.weights) {
-            // a sector may have no term near a radius: its sum is 0, too
+            // if a sector has no term near a radius, its sum and its weight are 0: the mean is then
+            // 0, not 0 / 0
             sums.iter_mut().zip(weights).for_each(|(sum, weight)| *sum /= weight.max(1e-9));
         }
         profile
@@ -135,7 +144,7 @@ fn summed(terms: &[Term], radii: usize, value: impl Fn(&Term) -> f32) -> Profile
     sums
 }
 
-/// Returns the mean of `profiles`, or `None` if there are none.
+/// Returns the mean of `profiles`, or `None` if `profiles` is empty.
 pub(super) fn mean(profiles: &[Profile]) -> Option<Profile> {
     let (first, others) = profiles.split_first()?;
     let mut mean = first.clone();

@@ -16,9 +16,11 @@ use crate::detect::SPACING_RANGE;
 use crate::geometry::lattice_dual;
 use std::ops::RangeInclusive;
 
-/// Number of frequencies per octave at which a profile is read for the fit.
+/// Number of frequencies per octave at which a profile is read for the fit: steps of 2.9 %, a
+/// quarter of a ring's standard deviation ([`WIDTH`]).
 const PER_OCTAVE: f64 = 24.;
-/// Number of frequencies per octave at which a ring is tried.
+/// Number of frequencies per octave at which a ring is tried; a parabola gives the position between
+/// them.
 const TRIED_PER_OCTAVE: f64 = 48.;
 /// Lowest frequency of the fit, in periods per tile.
 ///
@@ -27,7 +29,8 @@ const FIRST: f64 = 3.;
 /// Smallest number of periods per tile of a ring that is tried: slower rings cannot be told from
 /// the background.
 const PERIODS: f64 = 5.;
-/// Degree of the polynomial that models the background.
+/// Degree of the polynomial that models the background; chosen together with [`WIDTH`] and
+/// [`FIRST`] on marked and simulated images.
 const DEGREE: usize = 3;
 /// Standard deviation of a ring in the natural logarithm of frequency.
 ///
@@ -39,10 +42,10 @@ const WIDTH: f64 = 0.12;
 pub(super) struct RingFit {
     /// Side of the tiles in px.
     side: f64,
-    /// Positions at which profiles are read: the index of a radius, and the weight (0–1) of the
-    /// next radius.
+    /// Positions in a profile at which it is read for the fit, each as the index of a radius and
+    /// the weight (0–1) of the next radius.
     places: Vec<(usize, f64)>,
-    /// Orthonormal polynomials over the frequencies at `places`, which model the background.
+    /// Orthonormal polynomials over the frequencies at `places` that model the background.
     background: Vec<Vec<f64>>,
     /// Rings that are tried, each with two values: the natural logarithm of its frequency (cycles
     /// per px), and its component orthogonal to `background`, normalised.
@@ -54,7 +57,7 @@ pub(super) struct RingFit {
 /// The power of noise is exponentially distributed.
 const SCATTER: f64 = 0.3102;
 /// Number of neighbouring terms of a tile's transform, along a line, that a Hann window makes so
-/// alike that they count as one.
+/// alike that they count as one: the equivalent noise bandwidth of the window.
 const CORRELATED: f64 = 1.5;
 /// Number of standard deviations of the scatter of noise that a ring must exceed to have any
 /// confidence.
@@ -99,6 +102,7 @@ impl RingFit {
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let values: Vec<f64> = values.iter().map(|v| v - mean).collect();
         let explained: f64 = self.background.iter().map(|b| dot(b, &values).powi(2)).sum();
+        // sums of squares: what the background leaves, then what each ring explains of it
         let left = dot(&values, &values) - explained;
         let gains: Vec<(f64, f64)> = self
             .rings
@@ -131,12 +135,13 @@ impl RingFit {
         let variance = SCATTER * CORRELATED / (std::f64::consts::PI * radius);
         let shared = CORRELATED / radius * PER_OCTAVE / std::f64::consts::LN_2;
         let all = WIDTH * std::f64::consts::PI.sqrt() * PER_OCTAVE / std::f64::consts::LN_2;
+        // at most twice the number of frequencies that the ring itself covers
         variance * shared.clamp(1., 2. * all)
     }
 }
 
 /// Returns a vector less its components along the orthonormal `others`, normalised to length 1, or
-/// `None` if nothing is left.
+/// `None` if only rounding errors are left.
 fn without(mut vector: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64>> {
     let before = dot(&vector, &vector);
     for other in others {
