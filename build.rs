@@ -35,9 +35,8 @@ fn main() -> io::Result<()> {
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
-        // results depend on the values of options, not on the text of the command line that sets
-        // them; leaving the command line out of the hash lets an edit there recompile the binary
-        // only
+        // results depend on the values of options, not on the command line that sets them; since
+        // its code is not in the hash, an edit there recompiles only the binary
         if path.ends_with("cli") || path.ends_with("main.rs") {
             continue;
         }

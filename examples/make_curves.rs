@@ -1,5 +1,5 @@
-//! Makes the table of samplers' curves that is shipped with the program; `scripts/make-curves`
-//! calls it.
+//! Makes the table of the samplers' mean curves that comes with the program. `scripts/make-curves`
+//! runs this example.
 //!
 //!     make_curves FILE
 

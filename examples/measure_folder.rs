@@ -3,7 +3,7 @@
 //!     cargo run --release --example measure_folder -- fixtures/images [µm per pixel]
 //!
 //! This is `conemosaic run` in its simplest form: image → cones → mosaic → numbers → comparison
-//! with a sampler. An image that fails is reported, and the others go on.
+//! with a sampler. An image that fails is reported and does not stop the others.
 
 use conemosaic::batch::{Input, image_files};
 use conemosaic::compare::{References, l_infinity};
@@ -21,7 +21,8 @@ fn main() -> Outcome<()> {
         None => None,
     };
     let images = image_files(&[PathBuf::from(folder)], None)?;
-    // kept for the whole folder: a mosaic of about the same size gets the same curve
+    // one `References` for the entire folder, so that mosaics of about the same number of points
+    // share a curve
     let references = References::new(vec![sampler("dart-throwing")?], MeasureOptions::default().pcf, 1);
 
     println!(

@@ -3,8 +3,8 @@
 //!     cargo run --release --example modality_features < images.txt
 //!
 //! Each line of the input is the path of an image. Each line of the output has the features of one
-//! image, separated by commas: first those of the modality, then those of the side on which a split
-//! detector shows cones dark.
+//! image, separated by commas: first those by which the modality is decided, then those by which it
+//! is decided on which side a split detector shows cones dark.
 
 use conemosaic::detect::modality_features;
 use conemosaic::image::{decode, read_bytes};

@@ -2,9 +2,10 @@
 //!
 //!     cargo run --release --example own_sampler
 //!
-//! Implement [`Sampler`] and every comparison takes it: curves, l-infinity distances, verdicts. The
-//! sampler here is a hard-core process made by removal: points are drawn at random, and of any two
-//! that are too near each other the later one is removed (Matérn's second process).
+//! A type that implements [`Sampler`] can be used in every comparison: curves, l-infinity
+//! distances, verdicts. The sampler here is a hard-core process made by removal: points are drawn
+//! at random, and of any two points that are too near each other, the later one is removed
+//! (Matérn's second process).
 
 use conemosaic::compare::{References, l_infinity};
 use conemosaic::prelude::*;
@@ -12,12 +13,12 @@ use conemosaic::sample::{Frame, SampleError, sampler};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Points at random, thinned so that no two are nearer than a share of the spacing.
+/// Random points, thinned so that no two are nearer than the fraction `least` of the spacing.
 ///
 /// Matérn, *Spatial Variation*, 2nd ed. (1986), <https://doi.org/10.1007/978-1-4615-7892-5>.
 #[derive(Debug)]
 struct Matern {
-    /// Least distance between two points, in hexagonal spacings of the points that stay.
+    /// Smallest distance allowed between two points, in hexagonal spacings of the points that stay.
     least: f64,
 }
 
@@ -32,8 +33,9 @@ impl Sampler for Matern {
 
     fn fill(&self, n: usize, frame: &Frame, rng: &mut dyn Rng) -> Result<Vec<Point>, SampleError> {
         let radius = self.least * frame.spacing(n);
-        // A point stays if it is the first within `radius` of itself: of λ points per area that is
-        // a share (1 − e^−λc) / λc, where c is the area of that disk. Solved for λ, so that n stay.
+        // a point stays if no earlier point lies within `radius`; of λ points per unit of area,
+        // that is the fraction (1 − e^−λc) / λc, where c is the area of a disk of that radius;
+        // solved for the λ at which n points stay
         let area = frame.width * frame.height;
         let disk = std::f64::consts::PI * radius * radius;
         let drawn = -(1. - n as f64 * disk / area).ln() / disk * area;

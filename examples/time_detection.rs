@@ -1,13 +1,14 @@
-//! Times detection on one core, without reading and writing, for every image of a list in turn.
+//! Times detection on one core, without reading and writing. The images of a list are processed one
+//! after another.
 //!
 //!     cargo run --release --example time_detection -- ROUNDS < LIST
 //!
 //! A line of LIST is `PATH<TAB>SPACING<TAB>MODALITY<TAB>POLARITY`, with the spacing in px. Prints
 //! `stage,round,seconds` for three stages, which `scripts/bench-detect` uses:
 //!
-//! - `filter`: the classical filter, its maxima and their suppression, at the given spacing;
-//! - `classical`: all of classical detection, with nothing given;
-//! - `auto`: all of detection, with nothing given and a network where that is better.
+//! - `filter`: the classical filter, its maxima and their suppression, at the spacing in LIST;
+//! - `classical`: complete classical detection with default options;
+//! - `auto`: complete detection with default options, by a network where that is better.
 
 use conemosaic::detect::{
     DetectOptions, Detector, Modality, Polarity, detect, local_maxima, response, suppress,

@@ -1,5 +1,5 @@
-//! Times statistics of a point pattern, without reading files; `scripts/bench-stats` compares the
-//! times with those of other programs.
+//! Times statistics of a point pattern, without the time for reading files. `scripts/bench-stats`
+//! compares the times with those of other programs.
 //!
 //!     time_statistics POINTS.csv ROUNDS THREADS R_MAX ROWS
 //!

@@ -1,4 +1,4 @@
-//! Scores the detector against marks that were plotted by hand.
+//! Scores the detector against marks that were set by hand.
 //!
 //!     cargo run --release --example validate_marks -- IMAGES MARKS [ORIGIN]
 //!
@@ -54,7 +54,7 @@ fn main() -> Outcome<()> {
     Ok(())
 }
 
-/// Returns the file of marks that belongs to an image, if there is one.
+/// Returns the file of marks that belongs to an image; `None` if there is none.
 fn marks_of(folder: &Path, name: &str) -> Option<PathBuf> {
     let names = [format!("{name}.csv"), format!("{name}_coords.csv")];
     names.iter().map(|file| folder.join(file)).find(|path| path.is_file())

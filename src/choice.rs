@@ -1,4 +1,4 @@
-//! Error for a word that is not among the choices of an option.
+//! Error for an invalid choice: a word that is not among the values that an option accepts.
 //!
 //! # Examples
 //! ```
@@ -11,7 +11,7 @@
 use strum::VariantNames;
 use thiserror::Error;
 
-/// Word that is not among the names of an enum's variants.
+/// Error for an invalid choice: a word that names no variant of an enum.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("“{given}” is not one of {}", .choices.join(", "))]
 pub struct UnknownChoice {
@@ -20,7 +20,7 @@ pub struct UnknownChoice {
 }
 
 impl UnknownChoice {
-    /// Returns the error for `given`, which names no variant of `T`.
+    /// Returns the error for the word `given`, which names no variant of the enum `T`.
     pub fn among<T: VariantNames>(given: &str) -> Self {
         Self { given: given.to_owned(), choices: T::VARIANTS }
     }

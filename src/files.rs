@@ -35,7 +35,7 @@ pub fn write_atomically(
         write(&mut writer)?;
         return writer.flush();
     }
-    // a symbolic link must stay a link to the same place, so the file behind it is replaced
+    // a symbolic link must stay a link to the same file, so the file behind it is replaced
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let (temporary, file) = Temporary::beside(&target)?;
     let mut writer = BufWriter::new(file);
@@ -45,8 +45,8 @@ pub fn write_atomically(
     fs::rename(&temporary.0, &target)
 }
 
-/// Syncs a folder's list of names to the disk, if the operating system can, so that renames in the
-/// folder survive a loss of power.
+/// Syncs the list of names in a folder to the disk, if the operating system can, so that renames in
+/// the folder survive a loss of power.
 pub fn sync_folder(path: &Path) {
     // Windows does not open folders as files and does not need this call. On other systems a
     // refusal is ignored, as the program could do nothing about it.
@@ -61,14 +61,16 @@ struct Temporary(PathBuf);
 impl Temporary {
     /// Creates a temporary file with a new name in the folder of `target`.
     fn beside(target: &Path) -> io::Result<(Self, File)> {
+        // makes names unique among the threads of this process; the process number does so among
+        // processes
         static COUNT: AtomicU64 = AtomicU64::new(0);
         loop {
             let count = COUNT.fetch_add(1, Ordering::Relaxed);
             let path = target.with_file_name(format!(".conemosaic-{}-{count}.tmp", std::process::id()));
             match OpenOptions::new().write(true).create_new(true).open(&path) {
                 Ok(file) => return Ok((Self(path), file)),
-                // a killed process with the same process number has left this file: try the next
-                // name
+                // an earlier process with the same number was killed and left this file behind: try
+                // the next name
                 Err(e) if e.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(e) => return Err(e),
             }

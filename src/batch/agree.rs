@@ -10,11 +10,11 @@ use std::path::{Path, PathBuf};
 /// Options of [`agree_files`], which compares graders, sessions or programs.
 #[derive(Clone, Debug, Default)]
 pub struct AgreementOptions {
-    /// Columns to compare. If the list is empty, all columns are compared that hold numbers in
-    /// every table.
+    /// Names of the columns to compare. If the list is empty, every column that has numbers in all
+    /// tables is compared.
     pub columns: Vec<String>,
-    /// Rule by which images form groups, such as the images of one subject; images of a group do
-    /// not count as independent. `None`: every image counts as independent.
+    /// Rule by which images form groups, such as the images of one subject. Images of one group do
+    /// not count as independent. `None` if every image counts as independent.
     pub grouping: Option<Grouping>,
     /// Formats of the figure besides SVG.
     pub figures: Vec<FigureFormat>,
@@ -33,8 +33,8 @@ pub struct ColumnAgreement {
     pub pairs: Vec<(String, [f64; 2])>,
     /// Bias and limits of agreement of the differences, with their confidence intervals.
     pub agreement: ClusteredAgreement,
-    /// Intraclass correlation of the two graders; its interval takes images as independent. `None`
-    /// if it cannot be computed.
+    /// Intraclass correlation of the two graders; its interval treats images as independent, even
+    /// if they are grouped. `None` if it cannot be computed.
     pub intraclass: Option<Intraclass>,
 }
 
@@ -72,15 +72,15 @@ impl AgreementOutcome {
     }
 }
 
-/// Columns for the two panels of the figure. Each panel shows the first column of its list that was
-/// compared.
+/// Columns that the two panels of the figure can show, one list per panel. A panel shows the first
+/// column of its list that was compared.
 const SHOWN: [&[&str]; 2] =
     [&["density_per_mm2", "density_per_px2", "density", "n"], &["nn_mean_um", "nn_mean_px", "nn_mean", "ri"]];
 
 /// Compares the numbers of graders, sessions or programs image by image.
 ///
 /// Computes paired differences, limits of agreement and intraclass correlations, either for the
-/// columns that `options` name or for every column that holds numbers in all tables.
+/// columns that `options` name or for every column that has numbers in all tables.
 ///
 /// Writes `agreement.csv` (one row per column and pair of graders; with more than two graders also
 /// one row per column over all of them), `differences.csv` (one row per column, pair of graders and
@@ -99,6 +99,7 @@ pub fn agree_files(
         return Err(BatchError::Tables("agreement needs at least two tables: give one per grader".into()));
     }
     let mut readings: Vec<Readings> = files.iter().map(|f| Readings::read(f)).collect::<Result<_, _>>()?;
+    // tables of the same name are told apart by their paths
     for k in 0..readings.len() {
         if readings[..k].iter().any(|r| r.label == readings[k].label) {
             readings[k].label = files[k].display().to_string();
@@ -166,8 +167,8 @@ pub fn agree_files(
     Ok(outcome)
 }
 
-/// Returns the group of every image, with the image's name as key. The map is empty if images are
-/// not to be grouped.
+/// Returns the name of each image's group, with the image's name as key. The map is empty if images
+/// are not to be grouped.
 fn groups_of<'a>(
     items: &[&'a String],
     grouping: Option<&Grouping>,
@@ -215,7 +216,7 @@ fn write(out: &OutputFolder, outcome: &AgreementOutcome, figures: &[FigureFormat
     write_figure(out, "agreement", &figure(outcome), figures)
 }
 
-/// Draws Bland–Altman plots of the first pair of graders.
+/// Draws Bland–Altman plots of the first two graders, for two of the columns.
 fn figure(outcome: &AgreementOutcome) -> String {
     let Some(first) = outcome.columns.first() else { return agreement_figure("", &[]) };
     let of_pair: Vec<&ColumnAgreement> =
@@ -225,6 +226,7 @@ fn figure(outcome: &AgreementOutcome) -> String {
         .filter_map(|names| names.iter().find_map(|n| of_pair.iter().find(|c| c.column == *n)).copied())
         .collect();
     if shown.is_empty() {
+        // no column of `SHOWN` was compared: the first two columns that were
         shown = of_pair.into_iter().take(2).collect();
     }
     let points: Vec<Vec<(f64, f64)>> =

@@ -31,11 +31,12 @@ pub struct DetectionOutcome {
 pub struct DetectionExtras {
     /// `true` to write `NAME.overlay.png`: the image with its cones marked.
     pub overlay: bool,
-    /// `true` to write `NAME.rejected.csv`: candidates that the detector did not take for cones.
+    /// `true` to write `NAME.rejected.csv`: the candidates that the detector considered and
+    /// rejected.
     pub rejected: bool,
-    /// `true` to replace files of coordinates that a person made or corrected; the earlier files
-    /// are moved to the folder of earlier results. `false` to refuse the images to which such files
-    /// belong.
+    /// `true` to replace files of coordinates that a person made or corrected; the replaced files
+    /// are moved to the folder of earlier results. `false` to process no image to which such a file
+    /// belongs, and to report it as failed.
     pub replace_corrections: bool,
 }
 
@@ -86,8 +87,8 @@ pub fn detect_files(
     Ok(DetectionOutcome { images: worked.done.len(), cones, failures: worked.failures, ending })
 }
 
-/// Refuses to replace a file that a person made or changed. Hand marks may have the same name as a
-/// file of detections, and like corrections they are hours of work.
+/// Fails if the file `name` was made or changed by a person, so that it is not replaced. Hand marks
+/// may have the same name as a file of detections, and like corrections they are hours of work.
 fn refuse_foreign(out: &ResultFolder, name: &str) -> Result<(), BatchError> {
     match out.standing(name) {
         Standing::Missing | Standing::Own => Ok(()),
@@ -102,7 +103,7 @@ pub(super) fn read_image(input: &Input) -> Result<(Vec<u8>, Plane), BatchError> 
     Ok((bytes, image))
 }
 
-/// Detects cones in an image. The error names the image file.
+/// Detects cones in an image. An error names the image file.
 pub(super) fn detect_in(
     input: &Input,
     image: &Plane,

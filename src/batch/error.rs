@@ -16,7 +16,7 @@ pub enum BatchError {
     /// A path that does not exist or cannot be listed.
     #[error("{path}: cannot be read ({source}): give an existing file or folder", path = path.display())]
     Unreadable {
-        /// Path as it was given.
+        /// Path as the user wrote it.
         path: PathBuf,
         /// Message of the operating system.
         source: io::Error,
@@ -57,7 +57,7 @@ pub enum BatchError {
     Nowhere {
         /// Path of the image.
         file: PathBuf,
-        /// The word “crop” or “window”, followed by the text that was given for the crop or window.
+        /// The word “crop” or “window”, followed by the crop or window as the user wrote it.
         window: String,
         /// Width of the image in px.
         width: usize,
@@ -95,13 +95,13 @@ pub enum BatchError {
     /// A length in micrometres for a file whose scale is not known.
     #[error("{file}: {what} is in µm, but the scale is not known: give one")]
     NoScale {
-        /// Name of the length, or of the two things that are given in different units.
+        /// Name of the length in µm; if two things have different units, a phrase that names both.
         what: &'static str,
         /// Path of the file that has no scale.
         file: PathBuf,
     },
     /// A shrinkage of tissue for a file whose scale is not known. The shrinkage corrects the scale,
-    /// so it needs one.
+    /// so the file needs a scale.
     #[error(
         "{file}: a shrinkage was given, which corrects lengths in µm, but no scale is known: give one",
         file = file.display()
@@ -110,7 +110,7 @@ pub enum BatchError {
         /// Path of the file that has no scale.
         file: PathBuf,
     },
-    /// An input file that lies in the folder of results and could be overwritten.
+    /// An input file that lies in the folder of results, where results could overwrite it.
     #[error(
         "{file} lies in {folder}, where results would overwrite it: choose another folder for the results",
         folder = folder.display()
@@ -131,7 +131,7 @@ pub enum BatchError {
         /// Path of the file of coordinates.
         path: PathBuf,
     },
-    /// A folder that was to be replaced by results, but holds a file that this program did not
+    /// A folder that results were to replace, but that contains a file that this program did not
     /// write.
     #[error(
         "{path}: holds {file}, which is not a result of this program: move it away, or choose another \
@@ -213,8 +213,8 @@ pub enum BatchError {
     /// A file that cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// A table of regions that has no boxes for a file, or boxes of several identifiers that fit
-    /// its name.
+    /// A table of regions that has no boxes for a file, or in which several identifiers fit the
+    /// name of the file.
     #[error(transparent)]
     RoiTable(#[from] RoiTableError),
     /// A window into which no region fits, although squares were to slide over it.
@@ -225,7 +225,7 @@ pub enum BatchError {
         /// Side of the square regions, in the unit of the coordinates.
         side: f64,
     },
-    /// A table of scales that has no scale for an image, or several.
+    /// A table of scales that has no scale for an image, or more than one.
     #[error(transparent)]
     ScaleTable(#[from] ScaleTableError),
     /// An image whose name fits several rows of the manifest.
@@ -234,7 +234,7 @@ pub enum BatchError {
     /// Tables that cannot be compared with each other.
     #[error("{0}")]
     Tables(String),
-    /// Images that cannot be grouped by the given rule.
+    /// Images that cannot be grouped by the chosen rule.
     #[error("{0}")]
     Group(String),
     /// A scale that is not a positive number.
@@ -254,10 +254,10 @@ pub enum BatchError {
     /// An outline that is no polygon.
     #[error(transparent)]
     Polygon(#[from] PolygonError),
-    /// A comparison with samplers that is impossible.
+    /// A comparison with samplers that is impossible or would be meaningless.
     #[error(transparent)]
     Compare(#[from] CompareError),
-    /// Statistics that cannot be computed with the given options.
+    /// Statistics that cannot be computed with the chosen options.
     #[error(transparent)]
     Stats(#[from] crate::stats::StatsError),
     /// Options of pairing marks with detections, or points to be paired, that are out of range.

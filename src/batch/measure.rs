@@ -20,14 +20,14 @@ pub struct CoordinatesOptions {
     pub read: ReadOptions,
     /// The window: the area in which points could have been seen.
     pub region: Region,
-    /// Folder of the images from which windows are taken, or the only image; `None`: each image
-    /// lies beside its coordinate file.
+    /// Folder of the images from which windows are taken, or path of the only image. `None` if each
+    /// image lies beside its coordinate file.
     pub images: Option<PathBuf>,
-    /// A rectangle to which the window is cut; points outside do not count. `None`: the entire
-    /// window counts.
+    /// A rectangle to which the window is cut, so that points outside the rectangle do not count.
+    /// `None` if the entire window counts.
     pub crop: Option<Crop>,
-    /// `true` to count opposite edges of the window as the same place (a torus). The window must
-    /// then be a rectangle, and there should be no crop.
+    /// `true` to join opposite edges of the window, which makes it a torus. The window must then be
+    /// a rectangle, and there should be no crop.
     pub torus: bool,
 }
 
@@ -47,8 +47,11 @@ pub struct CoordinatesOutcome {
 
 /// Parts of a file's results that stay in memory after they are written.
 struct Done {
+    /// The record of the file, from which tables are made.
     record: CoordinatesRecord,
+    /// The landmarks read off the maps; `None` without maps.
     landmarks: Option<LandmarkRecord>,
+    /// Rows of `rois.csv` that belong to the file.
     regions: Vec<RoiRow>,
 }
 
@@ -82,7 +85,7 @@ pub fn measure_files(
 /// correlation of regularity index and l-infinity distance).
 ///
 /// # Errors
-/// Fails as [`measure_files`] does.
+/// Fails under the same conditions as [`measure_files`].
 pub fn compare_files(
     inputs: &[Input],
     options: &CoordinatesOptions,
@@ -101,8 +104,8 @@ pub fn compare_files(
     })
 }
 
-/// Measures every file and writes the results that both commands have in common; `more` writes
-/// those that only one of the commands adds.
+/// Measures every file and writes the files that [`measure_files`] and [`compare_files`] have in
+/// common. `more` writes any other files and returns the findings.
 fn work_through(
     inputs: &[Input],
     options: &CoordinatesOptions,
@@ -189,8 +192,9 @@ fn line_about(record: &CoordinatesRecord) -> String {
     format!("{}{ri}{closest}", counted(record.mosaic.n, "point"))
 }
 
-/// Correlates the regularity index with the distance to each sampler, over all files. This tests
-/// the main finding of Lanaro et al. on these mosaics.
+/// Correlates the regularity index with the distance to each sampler, over all files. This tests on
+/// these mosaics the main finding of Lanaro et al. (2020): the more regular a mosaic is, the nearer
+/// it is to BNOT and the farther from dart throwing.
 fn findings(done: &[Done], samplers: &[String], seed: u64) -> Vec<FindingRecord> {
     let of = |sampler: &String| {
         let both = |d: &Done| {
@@ -206,8 +210,8 @@ fn findings(done: &[Done], samplers: &[String], seed: u64) -> Vec<FindingRecord>
 /// Reads the mosaic in a coordinate file. Also returns the number of its points that lie outside
 /// the window.
 ///
-/// Points inside the window that a crop cuts off are not counted, since it is the purpose of a crop
-/// to leave them out.
+/// The number does not include points inside the window that a crop cuts off, since it is the
+/// purpose of a crop to leave them out.
 fn load(
     input: &Input,
     options: &CoordinatesOptions,
@@ -215,6 +219,7 @@ fn load(
 ) -> Result<(Mosaic, usize), BatchError> {
     let file = read_coordinates(&input.path, &options.read)?;
     let unit = match options.region {
+        // coordinates in the unit square have no unit, whatever the file says
         Region::Unit => LengthUnit::Unit,
         _ => file.unit.unwrap_or(LengthUnit::Pixel),
     };
@@ -222,6 +227,7 @@ fn load(
     let (window, scale) = regions.of(&input.path, unit, scales)?;
     let mut points = file.points;
     let expansion = scales.expansion();
+    // the file has µm on the slide, but results are in µm of living tissue
     if unit == LengthUnit::Micrometre && expansion != 1. {
         points.iter_mut().for_each(|p| *p = Point::new(p.x * expansion, p.y * expansion));
     }

@@ -6,7 +6,7 @@
 //!
 //! Every command that measures mosaics runs the same pipeline: [`run_files`] takes the cones from
 //! images, [`measure_files`] and [`compare_files`] take points from coordinate files. A [`Plan`]
-//! states what is computed for each mosaic and written.
+//! states what is computed and written for each mosaic.
 //!
 //! # Examples
 //! ```

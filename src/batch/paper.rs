@@ -27,23 +27,24 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Number of points of the patterns behind the mean curves and Figure 1.
+/// Number of points in a pattern for the mean curves and for Figure 1, as in the paper.
 const POINTS: usize = 1024;
-/// Number of points of the patterns behind the spectra of Figure 1.
+/// Number of points in a pattern for the spectra of Figure 1, as in the paper.
 const SPECTRUM_POINTS: usize = 4096;
-/// Highest frequency of the spectra, in units of √n (n points in the unit square).
+/// Highest frequency of the spectra, in units of √n for n points in the unit square.
 const MAX_FREQUENCY: f64 = 2.5;
 
 /// Bandwidths, in hexagonal spacings, at which the distances between the samplers are computed and
-/// compared with the printed rows of Table 2.
+/// compared with the printed rows of Table 2. They lie on both sides of 0.1, the default, to show
+/// that all printed rows are possible near the default only.
 const BANDWIDTHS: [f64; 7] = [0.05, 0.07, 0.09, 0.1, 0.12, 0.15, 0.2];
 
 /// Piece of work for one core.
 #[derive(Clone, Copy)]
 enum Task {
-    /// Draws and measures pattern number `k` of a sampler, with about `n` points.
+    /// Draw and measure pattern number `k` of a sampler, with about `n` points.
     Pattern { sampler: &'static dyn Sampler, n: usize, k: usize },
-    /// Computes the spectrum of one pattern of a sampler on the unit torus.
+    /// Compute the spectrum of one pattern of a sampler on the unit torus.
     Spectrum { sampler: &'static dyn Sampler },
 }
 
@@ -53,18 +54,21 @@ enum Made {
     Spectrum(PowerSpectrum),
 }
 
-/// All patterns, by sampler and number of points, and all spectra, by sampler.
+/// All patterns and spectra that were computed.
 #[derive(Default)]
 struct Everything {
+    /// Patterns by name of the sampler and number of points asked for.
     patterns: BTreeMap<(&'static str, usize), Vec<Pattern>>,
+    /// Spectra by name of the sampler.
     spectra: BTreeMap<&'static str, PowerSpectrum>,
 }
 
-/// Computes again, with the samplers of this library, what Lanaro et al. show about samplers: their
-/// rows of Table 1, Figure 1, and the distances between the samplers of Table 2.
+/// Computes again, with the samplers of this library, the results of Lanaro et al. (2020) about
+/// samplers: their rows of Table 1, Figure 1, and the distances between the samplers of Table 2.
 ///
-/// `patterns` is the number of patterns drawn for each sampler and number of points, at least 2.
-/// Writes `index.html`, `paper.md`, `figure1.svg` and tables as CSV into `out`.
+/// `patterns` is the number of patterns that are drawn for each sampler and each number of points;
+/// it must be at least 2. Writes `index.html`, `paper.md`, `figure1.svg` and tables as CSV into
+/// `out`.
 ///
 /// # Errors
 /// Fails if a sampler is missing or makes no pattern, or `out` cannot be written to.
@@ -141,7 +145,8 @@ fn work(task: &Task, seed: u64, progress: &dyn Progress) -> Result<Made, Compare
 }
 
 impl Everything {
-    /// Returns the patterns of a sampler with about `n` points; empty if there are none.
+    /// Returns the patterns of a sampler for which `n` points were asked; empty if there are no
+    /// such patterns.
     fn of(&self, sampler: &'static str, n: usize) -> &[Pattern] {
         self.patterns.get(&(sampler, n)).map_or(&[], Vec::as_slice)
     }
@@ -233,8 +238,8 @@ fn write(all: &Everything, results: &PaperResults, out: &OutputFolder) -> Result
     out.write("index.html", document.to_html().as_bytes())
 }
 
-/// Pairs each curve with the name of its sampler as it is written in tables: with `_` instead of
-/// `-`.
+/// Returns the curves for a table. Each input has the name of a sampler, x and y; names are written
+/// with `_` instead of `-`.
 fn named<'a>(curves: impl Iterator<Item = (&'a str, &'a Vec<f64>, &'a Vec<f64>)>) -> Vec<SamplerCurve<'a>> {
     curves.map(|(name, x, y)| SamplerCurve { sampler: name.replace('-', "_"), x, y }).collect()
 }

@@ -1,4 +1,4 @@
-//! The imports of the source are the arrows that ARCHITECTURE.md draws.
+//! Modules import each other only as the table in ARCHITECTURE.md allows.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -17,7 +17,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("detect", &["choice", "image", "geometry", "numeric", "mosaic"]),
     ("compare", &["choice", "geometry", "numeric", "mosaic", "stats", "sample"]),
     ("render", &["image", "geometry", "numeric", "mosaic"]),
-    // writes down the results of all of these, and needs their types
+    // `report` writes down the results of all these modules, so it needs their types
     ("report", &["image", "geometry", "numeric", "mosaic", "stats", "sample", "compare", "detect"]),
     (
         "batch",
@@ -32,8 +32,8 @@ const ALLOWED: &[(&str, &[&str])] = &[
 /// itself, and the tables and pages that say which command writes them.
 const FLAGS: &[&str] = &["cli", "report/tables", "report/metrics", "report/landmarks.rs"];
 
-/// Strings that may hold two hyphens before a letter elsewhere: the command that builds the
-/// program, and the colours of a page's style sheet.
+/// Strings that may contain two hyphens before a letter in all other files: the command that builds
+/// the program, and the colours of a page's style sheet.
 const STRINGS: &[&str] = &["cargo install --path . --features onnx", "var(--", ":root {"];
 
 fn source() -> PathBuf {
@@ -51,7 +51,8 @@ fn files_below(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// Returns the path below `src`, in parts, and the code of every file, without comments and tests.
+/// Returns, for every file below `src`, the parts of its path and its code without comments and
+/// tests.
 fn code() -> Vec<(Vec<String>, String)> {
     let mut files = Vec::new();
     files_below(&source(), &mut files);
@@ -72,13 +73,15 @@ fn identifier(text: &str) -> &str {
     &text[..end]
 }
 
-/// Returns the names that follow `prefix` in a path, or that begin a path in braces after it.
+/// Returns the names that directly follow `prefix` (such as `crate::`) in the imports of `code`,
+/// including all names in braces after it.
 ///
-/// With `paths_only`, only names after which the path goes on are returned.
+/// With `paths_only`, only names are returned that are modules: those followed by `::` or a
+/// semicolon.
 fn named_after(code: &str, prefix: &str, paths_only: bool) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     for (at, _) in code.match_indices(prefix) {
-        // in super::super::x the second `super` names another folder
+        // in super::super::x the second `super` is a folder further up
         if code[..at].ends_with("::") {
             continue;
         }
@@ -129,7 +132,7 @@ fn what_may_be_imported_goes_one_way() {
     }
 }
 
-/// Only imports from a file by its name are followed, not those through the `mod.rs` of the folder.
+/// Only imports that name the other file are checked, not those through the `mod.rs` of the folder.
 #[test]
 fn files_of_one_folder_import_each_other_one_way() {
     let mut folders: BTreeMap<String, BTreeMap<String, BTreeSet<String>>> = BTreeMap::new();
@@ -146,8 +149,8 @@ fn files_of_one_folder_import_each_other_one_way() {
         folders.entry(folder).or_default().insert(file.clone(), names);
     }
     for (folder, mut files) in folders {
-        // removes files that import no other file still listed: circles remain, and files that lead
-        // into them
+        // repeatedly removes files that import no other file still listed: circles remain, and
+        // files that lead into circles
         loop {
             let left: BTreeSet<String> = files.keys().cloned().collect();
             let before = files.len();
@@ -156,7 +159,8 @@ fn files_of_one_folder_import_each_other_one_way() {
                 break;
             }
         }
-        // the same from above: removes files that no other file still listed imports
+        // repeatedly removes files that no other file still listed imports: only circles, and files
+        // between circles, remain
         loop {
             let wanted: BTreeSet<String> = files.values().flatten().cloned().collect();
             let before = files.len();

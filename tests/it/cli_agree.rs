@@ -1,4 +1,4 @@
-//! `agree`: graders compared with each other.
+//! The command `agree`: graders compared with each other.
 
 use crate::common::{Place, number};
 
@@ -73,8 +73,8 @@ fn a_run_and_a_grader_are_compared_by_names_without_units() {
     place.ok(&["agree", "run", "marked", "--out", "all", "-q"]);
     let all = place.table("all/agreement.csv");
     assert!(all.iter().any(|r| r["column"] == "nn_mean_px") && !all.iter().any(|r| r["column"] == "nn_mean"));
-    // a table of an earlier version has other names; a grader in µm without a scale cannot be
-    // compared
+    // a table of an earlier version has other names of columns; a grader in µm without a scale
+    // cannot be compared
     place.write("old.csv", "file,unit,spacing,density\na,px,7,0.02\nb,px,7.5,0.019\nc,px,8,0.017\n");
     place.ok(&["agree", "run", "old.csv", "--metrics", "spacing_density,density", "--out", "old", "-q"]);
     assert_eq!(place.table("old/agreement.csv")[1]["column"], "density_per_px2");
@@ -102,9 +102,11 @@ fn tables_that_cannot_be_compared_are_refused_with_a_remedy() {
     }
 }
 
-/// Numbers of three eyes with three images each. The images of an eye have the same error.
+/// Numbers by the first grader for three eyes with three images each. The graders differ by the
+/// same amount in all images of an eye.
 const FIRST: &str =
     "name,nn_mean_um\nA_1,10\nA_2,12\nA_3,14\nB_1,20\nB_2,22\nB_3,24\nC_1,30\nC_2,32\nC_3,34\n";
+/// Numbers by the second grader for the same images.
 const SECOND: &str =
     "name,nn_mean_um\nA_1,9\nA_2,11\nA_3,13\nB_1,22\nB_2,24\nB_3,26\nC_1,25\nC_2,27\nC_3,29\n";
 
@@ -119,7 +121,8 @@ fn images_of_one_subject_do_not_count_as_independent() {
     assert!(grouped.stdout.contains("9 images of 3 groups"), "{}", grouped.stdout);
     let [alone, grouped] =
         ["alone", "grouped"].map(|out| place.table(&format!("{out}/agreement.csv")).remove(0));
-    // the differences are 1, −2 and 5 for the three eyes: the bias is 4/3 with groups and without
+    // the differences are 1, −2 and 5 for the three eyes, so the bias is 4/3 whether or not images
+    // are grouped
     for row in [&alone, &grouped] {
         assert!((number(row, "difference") - 4. / 3.).abs() < 1e-12);
     }
@@ -127,8 +130,8 @@ fn images_of_one_subject_do_not_count_as_independent() {
     let width = |row: &std::collections::BTreeMap<String, String>| {
         number(row, "difference_high") - number(row, "difference_low")
     };
-    // t(2) √(1/3) against t(8) √(1/9) times the standard deviation, which differs only by its
-    // divisor
+    // the half-width of the interval is t(2) √(1/3) SD with groups and t(8) √(1/9) SD without; the
+    // two standard deviations SD differ only in their divisor
     assert!(width(&grouped) > 3. * width(&alone), "{} {}", width(&grouped), width(&alone));
     assert!(grouped["icc_agreement_low"].is_empty() && !alone["icc_agreement_low"].is_empty());
     let error = place.refused(&["agree", "one.csv", "two.csv", "--group-by", "X", "--out", "out"]);

@@ -4,7 +4,7 @@
 use crate::common::Place;
 use std::fs;
 
-/// Returns a grey PNG of a single value.
+/// Returns a PNG in which all pixels have the same grey value.
 fn flat_png(width: u32, height: u32, value: u8) -> Vec<u8> {
     let mut bytes = Vec::new();
     let image = image::GrayImage::from_pixel(width, height, image::Luma([value]));
@@ -22,7 +22,7 @@ fn float_tiff(pages: usize, value: impl Fn(usize) -> f32) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// Makes a folder of one good image and every kind of bad one.
+/// Makes a folder with one good image and one bad image of every kind in [`BAD`].
 fn mixed() -> Place {
     let place = Place::new();
     place.image("mixed/good.png", 1);
@@ -42,6 +42,7 @@ fn mixed() -> Place {
     place
 }
 
+/// Names of the bad images, without extension.
 const BAD: [&str; 9] = ["black", "constant", "nan", "nothing", "pages", "text", "three", "truncated", "zero"];
 
 #[test]

@@ -15,7 +15,8 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Returns μ/σ of the nearest-neighbour distances, from every pair of points; σ has the divisor n.
+/// Returns the regularity index μ/σ of the nearest-neighbour distances, computed from all pairs of
+/// points; σ has the divisor n.
 fn regularity(points: &[[f64; 2]]) -> f64 {
     let n = points.len() as f64;
     let nearest: Vec<f64> = (0..points.len())
@@ -30,8 +31,9 @@ fn regularity(points: &[[f64; 2]]) -> f64 {
     mean / (nearest.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / n).sqrt()
 }
 
-/// Returns g(r) in the unit square from every pair: an untruncated Gaussian of 0.1 s, and the
-/// isotropised set covariance.
+/// Returns g(r) in the unit square, computed from all pairs of points by the definition: with a
+/// Gaussian kernel of 0.1 hexagonal spacings that is not truncated, and the isotropised set
+/// covariance.
 fn correlation(points: &[[f64; 2]], r_in_spacings: f64) -> f64 {
     let n = points.len() as f64;
     let s = (2. / (3f64.sqrt() * n)).sqrt();
@@ -318,7 +320,7 @@ fn render_makes_many_images_and_says_what_each_is_made_from() {
         assert!((0.01..0.05).contains(&number(row, "noise")));
     }
     assert_ne!(rows[0]["noise"], rows[1]["noise"]);
-    // each of the images can be made again from its seed
+    // every image can be made again from its own seed
     let again =
         ["render", "--preset", "parafovea", "--noise", "0.01..0.05", "--seed", "2", "--out", "again.png"];
     place.ok(&[&again[..], &size].concat());
@@ -381,7 +383,7 @@ fn published_marks_are_found_as_well_as_is_asked() {
         let Some(folder) = shared(&format!("data/aoslo/{modality}"), "Dice on published marks") else {
             return;
         };
-        // optimised, the program is fast enough for all images; otherwise a part of them must do,
+        // an optimised build is fast enough for all images; any other build tests a part of them,
         // with a lower bar
         let (step, least) = if cfg!(debug_assertions) { (step, least - 0.01) } else { (1, least) };
         let place = Place::new();

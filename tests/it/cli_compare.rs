@@ -3,7 +3,7 @@
 
 use crate::common::{Place, number};
 
-/// Makes point sets of these samplers, 200 points each, in `marks/`.
+/// Writes one point set of 200 points of each sampler into `marks/`.
 fn marks(samplers: &[(&str, &str)]) -> Place {
     let place = Place::new();
     place.write("marks/readme.md", "not read");
@@ -134,7 +134,7 @@ fn run_gives_verdicts_when_asked() {
 fn a_trend_brings_the_functions_that_allow_for_it() {
     let place = Place::new();
     let mut text = String::from("x,y\n");
-    // rows that lie closer and closer together, with a little scatter along them
+    // rows of points whose distances shrink from row to row, with a little scatter along the rows
     for k in 0..600u32 {
         let (column, row) = (k % 20, k / 20);
         let scatter = f64::from(k * 7919 % 101) / 101.;

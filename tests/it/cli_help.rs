@@ -1,4 +1,5 @@
-//! The help of every command: its tables and examples are shown as they are written.
+//! The help of every command: its tables and examples are shown line by line as they are written in
+//! the source.
 
 use std::process::Command;
 
@@ -16,7 +17,7 @@ const COMMANDS: [&str; 11] = [
     "completions",
 ];
 
-/// Width of the narrowest terminal for which tables and examples are written, in columns.
+/// Width, in columns, of the narrowest terminal in which tables and examples must not be wrapped.
 const NARROWEST: usize = 80;
 
 /// Returns the help of a command, or of the program, on a terminal of this width.

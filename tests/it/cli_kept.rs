@@ -1,4 +1,5 @@
-//! A person's files in a result folder, lost ledgers and odd names.
+//! Result folders that contain a person's files, whose ledger is lost, or whose images have odd
+//! names.
 
 use crate::common::{Outcome, Place};
 
@@ -29,7 +30,7 @@ fn files_of_a_person_are_never_removed() {
     {
         assert_eq!(place.read(&format!("out/{file}")), "mine", "{file}");
     }
-    // files that file managers leave are no work of a person
+    // files that file managers create are no work of a person, so they do not count
     place.write("out/images/b/.DS_Store", "");
     assert_eq!(run(&place, &["--fresh"]).code, 2);
     assert!(!place.path("out/images/b/FAILED.txt").exists());

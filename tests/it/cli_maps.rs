@@ -83,7 +83,7 @@ fn peak_and_centroid_of_a_sampled_density_are_found() {
     {
         assert!(figure.contains(words), "{words}");
     }
-    // files that the program wrote are no input
+    // files that the program wrote are not taken for input
     place.copy("cones.csv", "one/cones.csv");
     place.ok(&["measure", "one", "--window", "200x160", "--out", "again"]);
     assert_eq!(place.table("again/summary.csv").len(), 1);
@@ -187,7 +187,7 @@ fn a_run_maps_every_image_and_keeps_what_is_done() {
     let mended = place.ok(&maps);
     assert!(mended.stdout.contains("1 kept from an earlier run"), "{}", mended.stdout);
     assert_eq!(place.files("out")["images/a/maps.svg"], first["images/a/maps.svg"]);
-    // other windows give other results; a run without maps removes their files
+    // other local windows give other results; a run without maps removes the files of the maps
     let other = place.ok(&[&run[..], &["--maps", "--map-cells", "30", "--resume"]].concat());
     assert!(!other.stdout.contains("kept"), "{}", other.stdout);
     place.ok(&[&run[..], &["--resume"]].concat());

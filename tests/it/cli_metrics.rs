@@ -3,8 +3,8 @@
 use crate::common::{self, Place, number};
 use std::path::Path;
 
-/// Writes two files of marks, one twice as dense along each axis as the other, in windows of 60 ×
-/// 60.
+/// Writes two files of marks in windows of 60 × 60. One has twice as many marks along each axis as
+/// the other.
 fn two_files() -> Place {
     let place = Place::new();
     for (name, step) in [("A1_sparse", 10.), ("B2_dense", 5.)] {
@@ -133,7 +133,7 @@ fn a_manifest_is_carried_through_and_brings_what_is_expected_there() {
     let rows = place.table("out/summary.csv");
     assert_eq!((rows[0]["subject"].as_str(), rows[1]["subject"].as_str()), ("s1", "s2"));
     assert_eq!(rows[0]["manifest_n"], "x");
-    // the place is 1 mm temporal
+    // the manifest puts the image 1 mm temporal of the fovea
     assert_eq!((number(&rows[0], "eccentricity_mm"), rows[0]["meridian"].as_str()), (1., "temporal"));
     assert_eq!(number(&rows[0], "density_expected_per_mm2"), 21_000.);
     let spacing = number(&rows[0], "spacing_expected_um");
@@ -141,8 +141,8 @@ fn a_manifest_is_carried_through_and_brings_what_is_expected_there() {
     let share = number(&rows[0], "density_per_mm2") / 21_000.;
     assert!((number(&rows[0], "density_of_expected_percent") / share - 100.).abs() < 1e-9);
     assert!(rows[1]["density_expected_per_mm2"].is_empty());
-    // 40 000 per mm² are 1.9 times the expected density; half the scale makes that four times as
-    // many
+    // 40 000 cones per mm² are 1.9 times the expected density; with half the scale the density is
+    // four times as high
     assert_eq!(rows[0]["warnings"].matches("average eye").count(), 0, "{}", rows[0]["warnings"]);
     measured(&place, &["--manifest", "manifest.csv", "--um-per-px", "0.25", "--um-per-degree", "400"]);
     let warnings = &place.table("out/summary.csv")[0]["warnings"];
@@ -170,7 +170,7 @@ fn groups_have_means_deviations_and_numbers() {
     assert!((number(row, "mean") - (densities[0] + densities[1]) / 2.).abs() < 1e-15);
     let sd = (densities[0] - densities[1]).abs() / 2f64.sqrt();
     assert!((number(row, "sd") - sd).abs() < 1e-15);
-    // two subjects with one image each: the standard error is that of the means of the subjects
+    // each of the two subjects has one image, so the standard error is that of the subjects' means
     assert_eq!(row["subjects"], "2");
     assert!((number(row, "se") - sd / 2f64.sqrt()).abs() < 1e-15);
     assert!(number(row, "mean_low") < number(row, "mean_of_subjects"), "{row:?}");

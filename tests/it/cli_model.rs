@@ -1,11 +1,11 @@
-//! The option `--model`: networks of the user's own.
+//! The option `--model`: detection with a network of the user's own.
 
 use crate::common::Place;
 use std::fs;
 
 const CONFOCAL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/src/detect/learned/confocal.safetensors");
 
-/// Makes a folder with an image, and the program's own weights as a file.
+/// Makes a folder with an image and a copy of the program's own weights.
 fn place() -> Place {
     let place = Place::new();
     place.image("in/a.png", 1);
@@ -13,7 +13,7 @@ fn place() -> Place {
     place
 }
 
-/// Returns the weights with a lower threshold.
+/// Returns the program's weights with a lower threshold in their header.
 fn lenient() -> Vec<u8> {
     let mut bytes = fs::read(CONFOCAL).unwrap();
     let key = br#""threshold": "-"#;

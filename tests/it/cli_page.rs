@@ -1,4 +1,4 @@
-//! The page of a run, as a browser gets it.
+//! The page `index.html` of a run.
 
 use crate::common::Place;
 
@@ -38,7 +38,8 @@ fn table_of_a_run_fits_whatever_the_number_of_samplers() {
 fn warnings_are_counted_above_the_table_and_told_with_each_image() {
     let page = page_of(&["--samplers", "uniform"]);
     let details = page.split("<details").nth(1).and_then(|d| d.split("</details>").next()).unwrap();
-    // the density of one of the two images varies: one warning above the table, one with the image
+    // the density of one of the two images varies: a warning stands above the table and another
+    // with the image
     assert!(details.contains("⚠ 1 warning, on 1 of 2 images") && details.contains("density"), "{details}");
     assert_eq!(page.matches("<p class=\"warning\">⚠ ").count(), 1);
 }

@@ -23,7 +23,8 @@ fn append(place: &Place, file: &str, text: &str) {
     place.write(file, place.read(file) + text);
 }
 
-/// Returns the files that were put away, by their path in the result folder.
+/// Returns the files in the folder of earlier results, by the path that they had in the result
+/// folder.
 fn put_away(place: &Place, out: &str) -> Vec<String> {
     place.names(&format!("{out}/.conemosaic/earlier"))
 }
@@ -107,7 +108,8 @@ fn a_changed_file_of_a_result_is_made_anew() {
     for file in ["figure.svg", "pcf.csv", "overlay.png", "metrics.json", "points.csv"] {
         let path = place.path(&format!("out/images/1/{file}"));
         let bytes = fs::read(&path).unwrap();
-        // a points.csv that ends within a line was cut off, and is no correction
+        // a points.csv that ends within a line was cut off while it was written, and is no
+        // correction
         fs::write(&path, &bytes[..bytes.len() / 2 - 3]).unwrap();
         let outcome = place.ok(&RUN);
         assert!(outcome.stdout.contains("1 kept"), "{file}: {}", outcome.stdout);
@@ -254,7 +256,8 @@ mod unix {
     use std::process::{Child, Command, Stdio};
     use std::time::{Duration, Instant};
 
-    /// Starts a batch that takes some seconds, and returns when it has begun to write.
+    /// Starts a batch that takes some seconds, and returns as soon as it has begun to write
+    /// results.
     fn begun(place: &Place) -> Child {
         let child = Command::new(env!("CARGO_BIN_EXE_conemosaic"))
             .current_dir(place.path(""))

@@ -9,8 +9,8 @@ fn cones(place: &Place, name: &str, seed: &str) {
     place.ok(&["sample", "dart-throwing", "-n", "800", "--window", "120x100", "--seed", seed, "--out", name]);
 }
 
-/// Returns the values on which a region and a window of its own must agree: all but those that name
-/// them.
+/// Returns the values that must be equal for a region and for a mosaic whose window is that region:
+/// all but those that name or describe the region.
 fn values(row: &Row) -> Row {
     let other = ["file", "roi", "flag", "x0", "y0", "x1", "y1", "outside_window", "warnings"];
     row.iter()
@@ -177,7 +177,7 @@ fn regions_that_cannot_be_are_refused() {
         let error = place.refused(&[&measure[..], extra].concat());
         assert!(words.iter().all(|w| error.contains(w)), "{extra:?}: {error}");
     }
-    // the table of regions is never overwritten by results
+    // results never overwrite the table of regions that was read
     place.write("here/rois.csv", "x0,y0,x1,y1\n0,0,1,1\n");
     let error =
         place.refused(&["measure", "a.csv", "--window", "unit", "--rois", "here/rois.csv", "--out", "here"]);

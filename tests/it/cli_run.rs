@@ -1,4 +1,5 @@
-//! The files that `run` and `detect` write, their names, and that they are the same every time.
+//! The files that `run` and `detect` write: their names, and that a repeated run writes the same
+//! bytes.
 
 use crate::common::{Place, number};
 use sha2::{Digest, Sha256};

@@ -4,7 +4,8 @@
 use crate::common::{Place, number, table};
 use std::path::Path;
 
-/// Returns the columns `x` and `y` of a table, for x from `low` up to `high`.
+/// Returns the columns named `x` and `y` of a table, in the rows whose x lies between `low` and
+/// `high`.
 fn curve(file: &Path, x: &str, y: &str, low: f64, high: f64) -> Vec<(f64, f64)> {
     let rows = table(file);
     rows.iter().map(|r| (number(r, x), number(r, y))).filter(|(x, _)| (low..high).contains(x)).collect()
@@ -54,7 +55,7 @@ fn the_miss_of_a_target_is_told_written_and_warned_of() {
     };
     let (words, miss) = reached("measured/darts.pcf.csv", "900");
     assert!(miss < 0.1 && words.contains("l∞") && !words.contains("warning"), "{miss}: {words}");
-    // no pattern has pairs at one distance only
+    // the target has pairs at one distance only, which no pattern has
     place.write("spike.csv", "r,g\n0.15,0\n0.9,0\n1,9\n1.1,0\n2.5,0\n");
     let (words, miss) = reached("spike.csv", "900");
     assert!(miss > 0.1 && words.contains("warning"), "{miss}: {words}");

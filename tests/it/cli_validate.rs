@@ -13,7 +13,8 @@ fn csv(header: &str, rows: impl IntoIterator<Item = String>) -> String {
     [header.to_owned()].into_iter().chain(rows).map(|line| line + "\n").collect()
 }
 
-/// Makes marks of four images of two subjects, and detections with a column `confidence`.
+/// Writes marks and detections of four images of two subjects. The scores of the detections are in
+/// a column `confidence`.
 ///
 /// The detections of image k lack its first `k` marks and have one false alarm of low confidence.
 fn made_up() -> Place {
@@ -28,8 +29,8 @@ fn made_up() -> Place {
     place
 }
 
-/// Arguments with a reach so short that the false alarm at (18, 18), 8.5 px from the nearest marks,
-/// is out of reach.
+/// Arguments of a validation. Its cut-off distance is so short that the false alarm at (18, 18),
+/// which is 8.5 px from the nearest marks, is paired with none of them.
 const VALIDATE: [&str; 9] =
     ["validate", "--reference", "marks", "--detections", "cones", "--size", "60x60", "--reach", "0.5"];
 
@@ -60,7 +61,8 @@ fn files_may_be_given_instead_of_folders() {
     let row = scored("marks/s1_b.csv", "other.csv", "one");
     assert_eq!(row["name"], "s1_b");
     assert_eq!(row["dice"], scored("marks/s1_b.csv", "cones", "same")["dice"]);
-    // a single file of detections belongs to the marks of its name, among several files of marks
+    // among several files of marks, a single file of detections belongs to the marks of the same
+    // name
     assert_eq!(row["dice"], scored("marks", "cones/s1_b.csv", "named")["dice"]);
 }
 
@@ -73,7 +75,7 @@ fn groups_are_subjects_and_every_table_speaks_of_them() {
     assert_eq!(groups.iter().map(|g| g["group"].as_str()).collect::<Vec<_>>(), ["s1", "s2"]);
     let rows = place.table("out/validation.csv");
     let dice: Vec<f64> = rows.iter().map(|r| number(r, "dice")).collect();
-    // 16 − k hits, k misses and one false alarm
+    // image k has 16 − k hits, k misses and one false alarm
     for (k, dice) in dice.iter().enumerate() {
         assert!((dice - 2. * (16. - k as f64) / (33. - k as f64)).abs() < 1e-12);
     }
@@ -85,7 +87,7 @@ fn groups_are_subjects_and_every_table_speaks_of_them() {
     assert!((mean - dice.iter().sum::<f64>() / 4.).abs() < 1e-12);
     let ends: Vec<f64> =
         json["intervals"]["dice"].as_array().unwrap().iter().filter_map(|v| v.as_f64()).collect();
-    // the means of the two subjects bound every resample
+    // the mean of a resample lies between the means of the two subjects
     assert!(ends[0] >= (dice[2] + dice[3]) / 2. - 1e-12 && ends[1] <= (dice[0] + dice[1]) / 2. + 1e-12);
     for words in ["mean over 2 groups", "resamples of the 2 groups", "Dice (= F1)", "localisation error, µm"]
     {
@@ -138,7 +140,7 @@ fn the_score_makes_a_curve_and_its_best_threshold_leaves_the_false_alarms_out() 
     let best = &place.json("out/validation.json")["best_threshold"];
     assert_eq!((best["threshold"].as_f64(), best["precision"].as_f64()), (Some(0.9), Some(1.)));
 
-    // 58 hits with a score of 0.9, and 4 false alarms with 0.25
+    // there are 58 hits with a score of 0.9 and 4 false alarms with a score of 0.25
     let bins = place.table("out/reliability.csv");
     assert_eq!((bins[9]["n"].as_str(), bins[2]["n"].as_str()), ("58", "4"));
     let record = &place.json("out/validation.json")["reliability"];
@@ -196,8 +198,8 @@ fn two_detectors_are_compared_image_by_image() {
     assert!(outcome.stdout.contains("smallest possible p"));
     let images = place.table("out/validation.csv");
     assert!(images.iter().all(|r| number(r, "versus_dice") == 1.));
-    // the other detections are the marks themselves: a comparison with one is a comparison with the
-    // other
+    // the second detections are the marks themselves, so a comparison with them is a comparison
+    // with the marks
     assert!(images.iter().all(|r| r["between_dice"] == r["dice"]));
     assert!(outcome.stdout.contains("sign-flip permutation") && place.path("out/comparison.svg").exists());
 

@@ -1,9 +1,9 @@
-//! The area that counts: `--window` of `run` and `measure`.
+//! The option `--window` of `run` and `measure`: the area that counts.
 
 use crate::common::{Place, number};
 
-/// Writes a simulated image of 120 × 100 px that is black outside an L of two tiles, the right one
-/// lower.
+/// Writes a simulated image of 120 × 100 px that is black outside an L-shaped area. The L consists
+/// of two tiles, of which the right one lies lower.
 fn montage(place: &Place) {
     place.image_of("whole.png", 120, 100, 3);
     let mut image = image::open(place.path("whole.png")).unwrap().to_luma8();
@@ -14,7 +14,8 @@ fn montage(place: &Place) {
     image.save(place.path("montage.png")).unwrap();
 }
 
-/// Area of the L in px², without 1 px along its black edges: x ≤ 68.5 or y ≥ 50.5.
+/// Area of the imaged part in px²: the L without the 1 px along its black edges, that is x ≤ 68.5
+/// or y ≥ 50.5.
 const AREA: f64 = 120. * 100. - 51. * 51.;
 
 #[test]
@@ -85,14 +86,14 @@ fn measure_takes_the_same_windows() {
         place.ok(&[&["measure", "montage.csv", "--out", out, "-q"], window].concat());
         place.table(&format!("{out}/summary.csv")).remove(0)
     };
-    // 30 points without those at x = 85 and 105 and y = 5, 25 and 45
+    // of the 30 points, those at x = 85 and 105 with y = 5, 25 or 45 lie outside
     let auto = measured("1", &[]);
     assert_eq!(
         (number(&auto, "window_area"), number(&auto, "n"), number(&auto, "outside_window")),
         (AREA, 24., 6.)
     );
     assert_eq!(number(&measured("2", &["--window", "image"]), "n"), 30.);
-    // 5 × 4 points without the four in the hole
+    // of the 5 × 4 points, four lie in the hole
     let hole = measured("3", &["--window", "hole.csv"]);
     assert_eq!((number(&hole, "window_area"), number(&hole, "n")), (8000. - 1600., 16.));
     for edge in ["set-covariance", "translation", "isotropic", "none"] {

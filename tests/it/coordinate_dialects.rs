@@ -1,4 +1,4 @@
-//! Coordinate files as laboratories have them, and damaged ones.
+//! Coordinate files in the formats that laboratories use, and damaged files.
 
 use conemosaic::geometry::Point;
 use conemosaic::mosaic::LengthUnit;
@@ -26,7 +26,8 @@ fn origin(origin: Origin) -> ReadOptions {
     ReadOptions { origin: Some(origin), ..ReadOptions::default() }
 }
 
-/// Returns the message of a failure, which is one short line that begins with the file.
+/// Returns the error message of a file that cannot be read, and checks that it is one short line
+/// that begins with the name of the file.
 fn failure(bytes: impl AsRef<[u8]>) -> String {
     let message = read(bytes).unwrap_err().to_string();
     assert!(message.starts_with("marks"), "{message}");
@@ -92,8 +93,8 @@ fn a_header_alone_means_no_points() {
 fn the_origin_is_taken_off_and_upward_y_turned_round() {
     assert_eq!(with(origin(Origin::One), "1,1\n13.25,24.25\n"), [[0., 0.], [12.25, 23.25]]);
     assert_eq!(with(origin(Origin::Half), "0.5,0.5\n"), [[0., 0.]]);
-    // The image has 100 rows: the centre of the top row, counted upwards from the bottom, by each
-    // convention.
+    // the image has 100 rows, counted upwards from the bottom; the numbers are the y of the centre
+    // of the top row in each convention
     for (o, top) in [(Origin::Zero, 99.), (Origin::Half, 99.5), (Origin::One, 100.)] {
         let options = ReadOptions { flip_y: Some(100.), ..origin(o) };
         assert_eq!(with(options, format!("{},{top}\n", o.value())), [[0., 0.]]);
@@ -206,7 +207,7 @@ fn roi(version: u16, points: &[[f32; 2]], sub_pixel: bool) -> Vec<u8> {
             bytes.extend(points.iter().flat_map(|p| p[axis].to_be_bytes()));
         }
     }
-    // The second header holds nothing needed here.
+    // the second header contains nothing that is needed here
     bytes.extend([0; 64]);
     bytes
 }
@@ -217,7 +218,8 @@ fn imagej_points_count_from_where_their_version_does() {
     let whole = [[10., 20.], [3., 5.], [40., 7.]];
     assert_eq!(points(roi(217, &marks, false)), whole);
     assert_eq!(points(roi(228, &marks, false)), whole);
-    // Since version 1.52t centres of pixels are whole numbers; before, they were at .5.
+    // since version 1.52t the centres of pixels have integer coordinates; before, their coordinates
+    // ended in .5
     assert_eq!(points(roi(228, &marks, true)), [[10., 20.], [3., 5.], [40.25, 7.75]]);
     assert_eq!(points(roi(227, &marks, true)), [[9.5, 19.5], [2.5, 4.5], [39.75, 7.25]]);
     assert_eq!(with(origin(Origin::Zero), roi(227, &marks[..1], true)), [[10., 20.]]);
@@ -361,7 +363,7 @@ fn a_hundred_thousand_rows_are_read_at_once() {
     assert_eq!(points(text).len(), 100_000);
 }
 
-/// Returns files of every dialect, to be damaged.
+/// Returns one valid file of every dialect, for a test that damages them.
 fn seeds() -> Vec<Vec<u8>> {
     let marks = roi(227, &[[10., 20.], [3., 5.]], true);
     vec![

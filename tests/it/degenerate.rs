@@ -4,7 +4,7 @@
 use crate::common::Place;
 use std::collections::BTreeSet;
 
-/// Columns that are empty below two points.
+/// Columns that are empty for fewer than two points.
 const NEED_TWO: &[&str] = &[
     "nn_mean",
     "nn_sd",
@@ -15,8 +15,8 @@ const NEED_TWO: &[&str] = &[
     "recovery_reliability",
     "recovery_bin_width",
 ];
-/// Columns that are empty below three points: of two points both distances are the same, and so are
-/// both axes, and neither point is interior.
+/// Columns that are empty for fewer than three points. With two points, both nearest-neighbour
+/// distances are equal, both axes to the neighbour are equal, and neither point is interior.
 const NEED_THREE: &[&str] = &["ri", "clark_evans_cdf", "nn_axis_resultant", "nn_axis_deg"];
 /// Columns that are empty without a bound cell, which takes at least four points.
 const NEED_BOUND: &[&str] = &[
@@ -40,8 +40,8 @@ const NEED_BOUND: &[&str] = &[
     "neighbour_ellipse_minor",
     "hexagon_axis_deg",
 ];
-/// Columns that are empty below 20 points: they need 10 groups of neighbours, or two interior
-/// distances that differ.
+/// Columns that are empty for fewer than 20 points: they need 10 groups of neighbours, or two
+/// different distances of interior points.
 const NEED_MORE: &[&str] = &[
     "ri_interior",
     "nn_axis_p",
@@ -54,8 +54,8 @@ const NEED_MORE: &[&str] = &[
     "density_variation_high",
     "density_ratio",
 ];
-/// Columns that are empty where the density recovery profile of three points or fewer never
-/// recovers.
+/// Columns that can be empty for up to three points, because the density recovery profile never
+/// exceeds the mean density.
 const NEED_RECOVERY: &[&str] = &["recovery_effective_radius", "recovery_packing"];
 
 /// Name and coordinates of every pattern, in a window of 10 × 10.
@@ -80,7 +80,8 @@ fn patterns() -> Place {
     place
 }
 
-/// Returns the empty columns of a row, without those that only lack a scale or a manifest.
+/// Returns the names of the empty columns of a row, except those that are empty only for lack of a
+/// scale or a manifest.
 fn empty(row: &std::collections::BTreeMap<String, String>) -> BTreeSet<String> {
     let known = ["_um", "_mm2", "_deg2", "_arcmin", "_arcmin2", "_um_per_unit"];
     let other = [
@@ -95,13 +96,14 @@ fn empty(row: &std::collections::BTreeMap<String, String>) -> BTreeSet<String> {
     let unscaled = |name: &str| {
         known.iter().any(|end| name.ends_with(end))
             || other.contains(&name)
-            // columns in px repeat a column in the unit of the coordinates, which is px here
+            // the unit of the coordinates is px here, so a column in px repeats a column without a
+            // unit
             || ["_px", "_per_px2", "_px2"]
                 .iter()
                 .filter_map(|end| name.strip_suffix(end))
                 .any(|stem| row.get(stem).is_some_and(String::is_empty))
-            // a length in degrees has a column of the same name without unit beside it; an angle
-            // has none
+            // a column of lengths in degrees repeats a column without a unit; a column of angles
+            // does not
             || name.strip_suffix("_deg").is_some_and(|stem| row.contains_key(stem))
     };
     row.iter()

@@ -21,7 +21,7 @@ struct Data {
 }
 
 impl Data {
-    /// Scatters `n` points over a picture of noise, `width` × `height` px.
+    /// Makes a picture of noise, `width` × `height` px, and scatters `n` points over it.
     fn new(n: usize, width: usize, height: usize) -> Self {
         let mut rng = ChaCha8Rng::seed_from_u64(7);
         let picture = Plane::from_shape_simple_fn((height, width), || rng.random::<f32>());

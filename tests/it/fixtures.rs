@@ -1,5 +1,5 @@
-//! The files shipped in `fixtures/`: made again by their script, found by the detector, read in
-//! every dialect.
+//! The files in `fixtures/`: the script makes the same files again, the detector finds the cones,
+//! and every dialect of coordinates is read.
 
 use conemosaic::compare::{MatchOptions, validate};
 use conemosaic::detect::{DetectOptions, Modality, Polarity, detect};
@@ -40,11 +40,12 @@ fn largest_distance(a: &[Point], b: &[Point]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0., f64::max)
 }
 
-/// Name of an image, its modality and polarity, and the Dice coefficient that detection must reach
-/// with all options left open.
+/// Images, each with its modality, its polarity, and the Dice coefficient that detection must reach
+/// with default options.
 ///
-/// The measured coefficients are .01 to .02 higher. The network for split-detector images finds the
-/// small inner segments of `split_sparse` less well (.945) than the classical filters do.
+/// The measured coefficients are .01 to .02 higher. In `split_sparse`, the network for
+/// split-detector images reaches only .945: it finds the small inner segments less well than the
+/// classical filter does.
 const IMAGES: [(&str, Modality, Polarity, f64); 10] = [
     ("confocal_16bit.tif", Modality::Confocal, Polarity::Positive, 0.985),
     ("confocal_dense.png", Modality::Confocal, Polarity::Positive, 0.98),
@@ -169,13 +170,14 @@ fn number(text: &str) -> f64 {
     text.parse().unwrap()
 }
 
-/// Returns one unit in the last place printed.
+/// Returns one unit of the last decimal of a printed number.
 fn unit(text: &str) -> f64 {
     0.1f64.powi(text.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32))
 }
 
-/// The paper divides the full numbers, and cuts decimals for print instead of rounding them: each
-/// number may be one unit higher than printed.
+/// The paper divides the numbers before they are shortened, and cuts off decimals for print instead
+/// of rounding them. Each number may thus be up to one unit of its last decimal larger than
+/// printed.
 #[test]
 fn regularity_indices_of_table_1_are_mean_over_deviation() {
     let rows = table("table1.csv", "mosaic,mean,sd,ri");
@@ -188,8 +190,8 @@ fn regularity_indices_of_table_1_are_mean_over_deviation() {
     }
 }
 
-/// Each row satisfies the triangle inequality with any other row, by way of the distances between
-/// samplers.
+/// The triangle inequalities of all rows must allow a common distance between the samplers, for
+/// every pair of samplers.
 #[test]
 fn distances_of_table_2_are_those_of_one_metric() {
     let rows = table("table2.csv", "mosaic,bnot_1024,dart_throwing_1024,jitter_1024");
@@ -209,7 +211,7 @@ fn both_tables_of_the_paper_name_the_same_mosaics() {
     let samplers = ["GN_", "PN_", "BNOT_"];
     let mut mosaics: Vec<&str> =
         first.iter().map(|r| r.0.as_str()).filter(|m| !samplers.iter().any(|s| m.starts_with(s))).collect();
-    // Table 1 has no row of this mosaic
+    // Table 1 has no row for this mosaic
     mosaics.push("3-D");
     mosaics.sort_unstable();
     assert_eq!(mosaics, second.iter().map(|r| r.0.as_str()).collect::<Vec<_>>());

@@ -23,8 +23,8 @@ fn curve(marks: &[Point], found: &[Point], scores: &[f64]) -> Froc {
 #[test]
 fn thresholds_of_four_detections_give_the_rates_counted_by_hand() {
     let marks = grid();
-    // the second detection finds its mark taken, and the next mark is 9.5 px away: the reach is 7.5
-    // px
+    // the mark of the second detection is taken, and the next mark is 9.5 px away, beyond the
+    // cut-off distance of 7.5 px
     let found = [Point::new(20., 20.), Point::new(20.5, 20.), Point::new(31., 30.), Point::new(40., 41.)];
     let froc = curve(&marks, &found, &[0.9, 0.8, 0.7, 0.7]);
     let rows: Vec<_> = froc
@@ -32,7 +32,7 @@ fn thresholds_of_four_detections_give_the_rates_counted_by_hand() {
         .iter()
         .map(|p| (p.threshold, p.sensitivity, p.false_alarms_per_image, p.precision))
         .collect();
-    // 25 marks; detections of equal score share one threshold
+    // there are 25 marks; detections of equal score share one threshold
     assert_eq!(rows, [(0.9, 1. / 25., 0., 1.), (0.8, 1. / 25., 1., 0.5), (0.7, 3. / 25., 1., 0.75)]);
     let best = &froc.points[froc.best];
     assert_eq!((best.threshold, best.dice), (0.7, Rates::new(3, 22, 1).dice));
@@ -63,7 +63,7 @@ fn pairs_with_a_member_in_the_border_are_neither_hits_nor_errors() {
     assert_eq!(verdicts, [Verdict::Nothing, Verdict::Excuse, Verdict::Nothing, Verdict::Hit]);
     assert_eq!(image.marks, 3);
     let froc = froc(&[image]).unwrap();
-    // of three marks outside the border one is excused, one is a hit, one is a miss
+    // of the three marks outside the border strip, one is excused, one is a hit and one is a miss
     let last = froc.points.last().unwrap();
     assert_eq!((last.sensitivity, last.precision), (0.5, 1.));
     let m = match_points(&marks, &found, 60, 60, &MatchOptions::default()).unwrap();
@@ -110,9 +110,9 @@ proptest! {
         }
     }
 
-    /// The curve lets detections choose marks, the published rule lets marks choose detections.
-    /// Where no mark has two detections within reach and no detection two marks, that makes no
-    /// difference.
+    /// Detections choose marks for the curve, whereas marks choose detections by the published
+    /// rule. This makes no difference if no mark has two detections within the cut-off distance and
+    /// no detection has two marks.
     #[test]
     fn the_whole_curve_ends_where_the_published_rule_does(
         keep in prop::collection::vec(any::<bool>(), 25), noise in prop::collection::vec(-1f64..1., 50),

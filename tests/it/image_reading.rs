@@ -1,4 +1,5 @@
-//! Every kind of PNG and TIFF becomes the same grey plane; everything else becomes an error.
+//! Reading of images: every kind of PNG and TIFF gives the same grey plane, and any other file an
+//! error.
 
 use conemosaic::image::{
     BitDepth, ImageError, Plane, decode, is_image_path, read, write_grey, write_png, write_tiff,
@@ -11,7 +12,7 @@ use tiff::encoder::{Compression, TiffEncoder, colortype};
 const WIDTH: usize = 5;
 const HEIGHT: usize = 3;
 
-/// Returns 15 different grey values, so that a swapped row, column or byte shows.
+/// Returns a plane of 15 different grey values, in which a swapped row, column or byte would show.
 fn greys() -> Vec<u8> {
     (0..WIDTH * HEIGHT).map(|i| (i * 17) as u8).collect()
 }
@@ -284,7 +285,8 @@ fn every_kind_of_tiff_is_read_as_the_same_plane() {
 
 #[test]
 fn palette_tiff_is_looked_up_in_either_byte_order_and_at_any_depth() {
-    // ImageJ writes such files. Index i stands for grey 255 − 17 i, in the 16 bits of a colour map.
+    // ImageJ writes such files; index i stands for grey 255 − 17 i, with 16 bits per entry of the
+    // colour map
     let map: Vec<u64> = (0..256).map(|i| (255 - (i * 17) % 256) * 257).collect();
     let wanted = expected().mapv(|v| 1. - v);
     let indexes: Vec<u8> = (0..15).collect();
@@ -380,8 +382,8 @@ fn a_file_cut_short_anywhere_is_an_error() {
     let lzw =
         tiff_written(|t| t.write_image::<colortype::Gray8>(WIDTH as u32, HEIGHT as u32, &greys()).unwrap());
     for whole in [png_of(8, 0, |v| vec![v]), lzw] {
-        // The last chunk of a PNG and the offset of a next page do not concern the picture: without
-        // them a file may be read.
+        // the last chunk of a PNG and the offset of a TIFF's next page are not needed for the
+        // picture, so a file that lacks them may be read
         for length in 0..whole.len() - 20 {
             assert!(decode(&whole[..length], "cut").is_err(), "{length} of {} bytes", whole.len());
         }
@@ -445,7 +447,7 @@ fn writing_into_a_folder_that_is_not_there_is_an_error_and_leaves_nothing() {
     let path = folder.path().join("none/a.png");
     let message = write_png(&path, &expected(), BitDepth::Eight).unwrap_err().to_string();
     assert!(message.contains("cannot be written"), "{message}");
-    // A folder lies in the place of the file: renaming fails after the bytes are written.
+    // a folder has the path of the file, so renaming fails after the bytes are written
     let taken = folder.path().join("taken.png");
     std::fs::create_dir_all(taken.join("full")).unwrap();
     assert!(write_png(&taken, &expected(), BitDepth::Eight).is_err());

@@ -3,10 +3,10 @@
 //! - `scripts/simulate_coherent.py` adds up fields of coherent light.
 //! - `scripts/simulate_cut_cells.py` divides a plane among cut cells.
 //!
-//! No weights, thresholds or constants were fitted to these images. But the first simulator was one
-//! of the reasons to give up two ways of training the confocal network, and the second showed that
-//! histology needed a network, which kinds of image its training lacked, and that a single network
-//! for the modality depends on its seed.
+//! No weights, thresholds or constants were fitted to these images. But the images influenced some
+//! decisions. The first simulator was one of the reasons to give up two ways of training the
+//! confocal network. The second showed that histology needed a network, which kinds of images its
+//! training lacked, and that the results of a single network for the modality depend on its seed.
 
 use crate::common;
 use conemosaic::detect::{DetectOptions, Modality, detect};
@@ -19,20 +19,22 @@ use std::path::Path;
 
 /// Number of images in each set.
 const COUNT: usize = 4;
-/// Part of the pixels that are white where an image is overexposed.
+/// Fraction of the pixels that are made white in an overexposed image.
 const WHITE: f64 = 0.1;
 /// Largest ratio, either way, between the spacing found in a clear image and the true one.
 const TOLERANCE: f64 = 1.15;
 
 struct Set {
+    /// Name of the set, as the script knows it.
     name: &'static str,
-    /// Requires that the spacing of every image is right.
+    /// `true` if the spacing of every image must be right, within [`TOLERANCE`].
     clear: bool,
-    /// The modality that every image must be taken to have.
+    /// Modality that the program must find in every image; `None` if any modality is accepted.
     modality: Option<Modality>,
     /// Lowest mean Dice coefficient.
     dice: f64,
-    /// Lowest mean Dice coefficient of the overexposed images; their modality must be right, too.
+    /// Lowest mean Dice coefficient after the images are overexposed; `None` if they are not. The
+    /// other requirements stay the same.
     overexposed: Option<f64>,
 }
 
@@ -40,7 +42,7 @@ const fn set(name: &'static str, clear: bool, modality: Option<Modality>, dice: 
     Set { name, clear, modality, dice, overexposed: None }
 }
 
-/// Results for one image, with every option left to the program.
+/// Results for one image with default options.
 #[derive(Debug)]
 struct Judged {
     dice: f64,

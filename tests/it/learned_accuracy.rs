@@ -1,8 +1,8 @@
 //! The shipped networks on hand-marked images.
 //!
-//! They were trained on these images; MODEL_CARD.md says how well they generalise. Tested here is
-//! that the program reaches the accuracy that the training script measured, and that gamma, noise
-//! and scale do it little harm.
+//! The networks were trained on these images; MODEL_CARD.md says how well they generalise. The
+//! tests check that the program reaches the accuracy that the training script measured, and that
+//! changes of gamma, noise and scale lower the accuracy little.
 
 use crate::common;
 use conemosaic::detect::{DetectOptions, Detector, Modality, detect};
@@ -19,7 +19,8 @@ struct Marked {
     marks: Vec<Point>,
 }
 
-/// Reads images spread over all subjects; none if the data are not there.
+/// Reads `count` images, spread evenly over the sorted files and so over the subjects. The list is
+/// empty if the data are not there.
 fn marked(modality: Modality, count: usize) -> Vec<Marked> {
     let folder = format!("data/aoslo/{modality}");
     let Some(folder) = common::shared(&folder, "accuracy of the learned detector") else { return Vec::new() };
@@ -57,14 +58,14 @@ fn with_gamma(gamma: f32) -> impl Fn(&Marked) -> Marked {
     move |m| Marked { image: m.image.mapv(|v| v.max(0.).powf(gamma)), marks: m.marks.clone() }
 }
 
-/// Applies gamma 2 and rounds to 256 grey levels, of which few are left for the dark ground between
+/// Applies gamma 2 and rounds to 256 grey levels. Few levels are left for the dark ground between
 /// cones.
 fn in_8_bits(m: &Marked) -> Marked {
     let Marked { image, marks } = with_gamma(2.)(m);
     Marked { image: image.mapv(|v| (255. * v).round() / 255.), marks }
 }
 
-/// Adds uniform noise whose standard deviation is .3 of the image's.
+/// Adds uniform noise with .3 times the standard deviation of the image.
 fn with_noise(m: &Marked) -> Marked {
     let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
     let amplitude = 0.3 * m.image.std(0.) * 12f32.sqrt();
@@ -91,7 +92,7 @@ fn scaled(factor: f64) -> impl Fn(&Marked) -> Marked {
     }
 }
 
-/// Scales as if taken with fewer pixels: 5.5 px between cones, as at the foveal centre.
+/// Shrinks the image so that the hexagonal spacing of the marks is 5.5 px, as at the foveal centre.
 fn with_fewer_pixels(m: &Marked) -> Marked {
     let area = (m.image.ncols() as f64 - 14.) * (m.image.nrows() as f64 - 14.);
     let inside = |v: f64, n: usize| v > 6.5 && v < n as f64 - 7.5;
@@ -100,8 +101,8 @@ fn with_fewer_pixels(m: &Marked) -> Marked {
     scaled(5.5 / conemosaic::mosaic::hexagonal_spacing(count, area).unwrap())(m)
 }
 
-/// Checks the accuracy on the images as they are against `bar`, and that no change costs more than
-/// `loss`.
+/// Checks that the mean Dice coefficient is at least `bar` for the images as they are, and that no
+/// change of the images lowers it by more than `loss`.
 fn holds(modality: Modality, bar: f64, loss: f64) {
     let images = marked(modality, 20);
     if images.is_empty() {

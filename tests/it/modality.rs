@@ -13,15 +13,16 @@ use rayon::prelude::*;
 use std::path::Path;
 use strum::VariantArray;
 
-/// Number of simulated images of each modality and polarity in which everything is drawn at random.
+/// Number of simulated images of each modality and polarity whose properties are all drawn at
+/// random.
 const EACH: u64 = 60;
-/// Part of these images that must be recognised: some combinations of gamma, noise, vessels and few
-/// cones look like another kind.
+/// Fraction of the [`EACH`] images that must be recognised. It is below 1 because some combinations
+/// of gamma, noise, vessels and few cones look like another kind of image.
 const RIGHT: f64 = 0.97;
-/// Number of densities for each modality, polarity, look and degradation.
+/// Number of random densities for each preset, polarity and degradation.
 const DENSITIES: u64 = 4;
 
-/// A way in which an image is degraded.
+/// Way in which a simulated image is degraded.
 #[derive(Clone, Copy, Debug)]
 enum Degraded {
     Not,
@@ -46,8 +47,9 @@ const DEGRADED: [Degraded; 9] = [
     Degraded::OverExposed,
     Degraded::UnderExposed,
 ];
-/// Parts of the pixels that are white or black where an image was badly exposed.
+/// Fraction of the pixels that are made white in an overexposed image.
 const WHITE: f64 = 0.1;
+/// Fraction of the pixels that are made black in an underexposed image.
 const BLACK: f64 = 0.1;
 
 struct Case {
@@ -165,8 +167,8 @@ fn pick<'a, T>(rng: &mut ChaCha8Rng, all: &'a [T]) -> &'a T {
     &all[rng.random_range(0..all.len())]
 }
 
-/// Returns a table of how often each kind was taken for each other, and the names of the images
-/// taken wrongly.
+/// Returns a table of how often each kind of image was taken for each kind, and the names of the
+/// images that were taken for a wrong kind.
 fn confusion(cases: impl IntoParallelIterator<Item = Case>) -> (String, Vec<String>) {
     let classical = DetectOptions { detector: Detector::Classical, ..DetectOptions::default() };
     let kind = |m: Modality, p: Polarity| 2 * m as usize + p as usize;
@@ -223,10 +225,10 @@ fn nearly_all_images_are_taken_for_what_they_are_however_much_is_wrong_with_them
     assert!(wrong.len() as f64 <= (1. - RIGHT) * count as f64, "{} of {count}: {wrong:#?}", wrong.len());
 }
 
-/// Every image is tested as it is. Every fifth is also tested with gamma ½ and 2, with noise of .3
-/// standard deviations, blurred by 1 px, as a negative, over- and underexposed, and cropped to 80 ×
-/// 80 px (confocal) or 112 × 112 px (split detector: spacings reach 22 px, and a ring needs five of
-/// them).
+/// Every image is tested as it is. Every fifth image is also tested with gamma ½ and 2, with noise
+/// of .3 times its standard deviation, blurred by 1 px, as a negative, over- and underexposed, and
+/// cropped. The crop has 80 × 80 px for confocal images and 112 × 112 px for split-detector images,
+/// whose spacings go up to 22 px: reading a ring takes five spacings.
 #[test]
 #[ignore = "slow: hundreds of images"]
 fn hand_marked_images_are_taken_for_what_they_are() {

@@ -1,7 +1,7 @@
-//! The ring of the spectrum keeps noise from being counted.
+//! Noise is not counted as cones, because Yellott's ring in the spectrum limits the spacing.
 //!
-//! Noise has maxima of its own, which give more cones, so a smaller spacing, and so still more
-//! cones.
+//! Noise has maxima of its own. Without the limit, maxima taken for cones would lower the spacing,
+//! and a smaller spacing would let in still more of them.
 
 use crate::common;
 use conemosaic::detect::{DetectOptions, Detector, detect};
@@ -12,12 +12,12 @@ use rand_distr::{Distribution, Normal};
 
 /// Number of images of each kind.
 const EACH: u64 = 4;
-/// Range of the spacing of the cones found over the true one. Without the bound by the ring it
-/// falls to .5.
+/// Range in which the spacing of the cones found, divided by the true spacing, must lie. Without
+/// the lower bound from the ring, the ratio falls to .5.
 const OFF: std::ops::Range<f64> = 0.8..1.12;
 
-/// Checks the spacing in images of a preset with noise of this standard deviation, in grey values,
-/// correlated over `grain` px.
+/// Checks the spacing in images of a preset with added noise. `noise` is its standard deviation as
+/// a fraction of the full range of grey, `grain` the distance in px over which it is correlated.
 fn spacings_hold(preset: &str, noise: f64, grain: f64) {
     for seed in 0..EACH {
         let (image, true_spacing) = common::of_preset(preset, seed, |options| {
@@ -59,8 +59,8 @@ fn no_spacing_of_white_noise_is_believed() {
     white_noise_is_not_believed(3..12);
 }
 
-/// Checks that a low confidence is given to white noise, whose maxima are about equally far apart
-/// and whose spectrum has a ring by chance.
+/// Checks that the confidence is low for images of white noise. Their maxima are about equally far
+/// apart, and their spectrum has a ring by chance.
 fn white_noise_is_not_believed(seeds: std::ops::Range<u64>) {
     for seed in seeds {
         let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(seed);

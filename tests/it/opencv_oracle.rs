@@ -14,22 +14,22 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-/// Largest difference of planes, as a part of their range. From σ = 8 px on, Gaussians are not
-/// summed pixel by pixel.
+/// Largest difference between planes, as a fraction of their range. The two programs differ because
+/// this one does not sum Gaussians of σ ≥ 8 px pixel by pixel.
 const PLANE: f32 = 1e-3;
-/// Prominence, as a part of the range, up to which a maximum found by one side only counts as a
-/// tie.
+/// Largest prominence, as a fraction of the range, of a maximum that only one of the two programs
+/// finds. Such a maximum counts as a tie.
 ///
 /// The value is five times the measured effect of rounding to `f32`.
 const TIE: f32 = 1e-4;
-/// Largest part of the maxima that may be ties.
+/// Largest fraction of the maxima that may be ties.
 const TIES: f64 = 0.01;
-/// Distance, in px, within which a cone of one side must have a cone of the other.
+/// Largest distance, in px, between cones of the two programs that count as the same cone.
 const NEAR: f64 = 0.25;
-/// Part of the cones that must have one.
+/// Fraction of the cones that both programs must find.
 const AGREEMENT: f64 = 0.995;
-/// Largest distance, in px, between the same maximum of the same plane: the effect of rounding on a
-/// parabola.
+/// Largest distance, in px, between the positions that the two programs find for a maximum of the
+/// same plane. It allows for the effect of rounding on the parabola.
 const SAME: f64 = 1e-3;
 
 struct Case {
@@ -84,12 +84,14 @@ fn range(plane: &Plane) -> f32 {
     high - low
 }
 
-/// Returns the largest difference as a part of the oracle's range.
+/// Returns the largest difference between two planes as a fraction of the range of the oracle's
+/// plane.
 fn difference(ours: &Plane, oracle: &Plane) -> f32 {
     ours.iter().zip(oracle).map(|(a, b)| (a - b).abs()).fold(0., f32::max) / range(oracle)
 }
 
-/// Returns the height of a pixel above its highest neighbour or the threshold, whichever is higher.
+/// Returns the prominence of a pixel: its height above its highest neighbour or above the
+/// threshold, whichever is higher.
 fn prominence(plane: &Plane, row: usize, column: usize, threshold: f32) -> f32 {
     let (h, w) = plane.dim();
     let neighbours = (row.saturating_sub(1)..(row + 2).min(h))
@@ -108,7 +110,7 @@ fn pixel_of(d: &Detection, response: &Plane) -> (usize, usize) {
         .expect("the score of a maximum is the response at its pixel")
 }
 
-/// One image, with the results of both sides.
+/// One image with the results of both programs.
 struct Compared {
     name: String,
     image: Plane,
@@ -125,7 +127,8 @@ struct Compared {
     oracle_cones: Vec<[f64; 3]>,
 }
 
-/// Returns all fixtures with the results of both sides; none without OpenCV.
+/// Returns all images in `fixtures/` with the results of both programs; the list is empty without
+/// OpenCV.
 fn compared() -> &'static [Compared] {
     static COMPARED: LazyLock<Vec<Compared>> = LazyLock::new(|| {
         let Some(python) = python() else {
@@ -188,7 +191,7 @@ fn responses_agree_with_opencv() {
 fn one_response_has_the_same_maxima_by_opencv() {
     for c in compared() {
         let ours = local_maxima(&c.oracle_response, c.criterion.threshold);
-        // on a plateau this program takes the first pixel, dilation takes all
+        // of a plateau, this program takes the first pixel and dilation takes all pixels
         let plateaus = c.oracle_maxima.iter().filter(|m| {
             prominence(&c.oracle_response, m[1] as usize, m[0] as usize, c.criterion.threshold) == 0.
         });

@@ -1,4 +1,4 @@
-//! The density recovery profile, compared with numbers of another program for the points of
+//! The density recovery profile, compared with that of another program for the points in
 //! `../shared/oracle/metrics`.
 
 use conemosaic::geometry::{Point, Window};

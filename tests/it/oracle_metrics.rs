@@ -36,8 +36,9 @@ fn points(table: &Table) -> Vec<Point> {
 
 const MOSAICS: [&str; 3] = ["m1_confocal", "m3_confocal", "m4_split"];
 
-/// Returns the oracle's window, [.5, W + .5] × [.5, H + .5], from the distances of points to its
-/// border, which reach each side.
+/// Returns the oracle's window, [.5, W + .5] × [.5, H + .5]. W and H follow from the oracle's
+/// distances between points and border, since some points are nearest to the right side and some to
+/// the lower side.
 fn window(per_point: &Table) -> Window {
     let far = |axis: &str| {
         let sums = column(per_point, axis).into_iter().zip(column(per_point, "bdist")).map(|(v, b)| v + b);
@@ -66,14 +67,15 @@ fn functions_of_distance_are_those_of_spatstat() {
             for name in theirs.keys().filter(|name| *name != "r") {
                 let mut worst = (0., 0);
                 for (k, (a, b)) in ours[name.as_str()].iter().zip(&theirs[name]).enumerate() {
-                    // spatstat has an infinite value at r = 0 where a pair is close enough: it
-                    // divides by r
+                    // spatstat divides by r, so its value at r = 0 is infinite if a pair of points
+                    // is close enough
                     let Some(b) = b.filter(|b| b.is_finite()) else {
                         assert!(a.is_nan(), "{mosaic}{suffix} {name} row {k}: {a}, spatstat has none");
                         continue;
                     };
                     let miss = match name.as_bytes()[0] {
-                        // one of the 16384 places may fall on the other side of the end of a bin
+                        // F is evaluated at 16384 positions; by rounding, one of them may fall on
+                        // the other side of the end of a bin
                         b'F' => ((a - b).abs() - 2. / 16384.).max(0.) * 1e-3,
                         b'p' => (a - b).abs() * 1e-3,
                         _ if b == 0. => a.abs(),
@@ -107,7 +109,8 @@ fn neighbours_borders_and_cells_are_those_of_spatstat() {
                 ];
                 for (name, value) in checks {
                     let miss = relative(value, theirs[name][k].unwrap());
-                    // spatstat's own areas differ by up to 1.5e-7 from those in rational arithmetic
+                    // spatstat's areas differ by up to 1.5e-7 from areas computed in rational
+                    // arithmetic
                     let bound = if name == "dirichlet_area" { 2e-7 } else { 1e-9 };
                     assert!(miss <= bound, "{mosaic}{suffix} {name} of point {k}: {value}, {miss:.1e} off");
                 }
@@ -134,7 +137,7 @@ fn clark_evans_is_that_of_spatstat() {
 
 #[test]
 fn cells_and_neighbours_are_those_of_metricks() {
-    // in the order of the assertions below; lengths in µm, densities per mm²
+    // values in the order of the assertions below; lengths in µm, densities per mm²
     let expected = [
         (
             "m1_confocal",

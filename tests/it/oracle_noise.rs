@@ -23,8 +23,8 @@ fn column(table: &str, name: &str) -> Option<Vec<f64>> {
     Some(reader.records().map(|row| row.unwrap()[index].parse().unwrap()).collect())
 }
 
-/// Returns the mean curve and mean regularity index over ten seeds in the unit square, from all
-/// points, with the population standard deviation.
+/// Returns the mean pair correlation function and the mean regularity index of ten patterns in the
+/// unit square. The index is computed from all points, with the population standard deviation.
 fn mean(name: &str, n: usize) -> (Pcf, f64) {
     let window = Window::unit_square();
     let seeds = 10;
@@ -63,8 +63,8 @@ fn shaped_noise_has_the_pair_correlation_of_the_reference() {
     }
 }
 
-/// The published indices are 1.3081 (n = 512) and 1.3849 (n = 1024) for green, 1.4197 and 1.4367
-/// for pink.
+/// The published indices are 1.3081 (n = 512) and 1.3849 (n = 1024) for green noise, and 1.4197 and
+/// 1.4367 for pink noise.
 #[test]
 fn regularity_index_of_green_and_pink_is_near_the_published_one() {
     for (name, range) in [("green", 1.31..=1.40), ("pink", 1.34..=1.46)] {
@@ -92,11 +92,11 @@ fn mean_power(name: &str, seeds: u64, frequencies: &[f64]) -> Vec<f64> {
     sum.iter().map(|s| s / seeds as f64).collect()
 }
 
-/// The tolerance follows from scatter: over m patterns, the mean power of an annulus with k waves
-/// scatters by P/√(m k).
+/// The tolerance follows from chance: the mean power P of an annulus with k waves, averaged over m
+/// patterns, has a standard deviation of P/√(m k).
 ///
-/// The annulus at f has about 3 f √n waves, each counted once with its opposite. The reference
-/// curves are means of ten or more patterns.
+/// The annulus at the frequency f has about 3 f √n waves, if a wave and its opposite count once.
+/// The reference curves are means of ten or more patterns.
 #[test]
 fn spectra_of_samplers_agree_with_those_of_another_program() {
     let Some(frequencies) = column("spectrum_mean.csv", "frequency_in_sqrt_n") else { return };
@@ -123,8 +123,8 @@ fn spectra_of_samplers_agree_with_those_of_another_program() {
         let (off, f, a, b) = worst;
         println!("{name}: at most {off:.1} standard deviations, at {f:.2} √n: {a:.3}, reference {b:.3}");
         if name == "step" {
-            // this program is nearer to the definition than the reference, whose power reaches .08
-            // below the step
+            // below the step the power should be 0; this program is nearer to that than the
+            // reference, whose power goes up to .08
             let below = frequencies.iter().zip(&ours).filter(|(f, _)| **f < 0.52).map(|(_, p)| *p);
             assert!(below.fold(0., f64::max) < 0.02);
         } else {

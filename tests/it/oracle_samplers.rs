@@ -42,7 +42,7 @@ const POINT_SETS: [&str; 11] = [
     "white_1024_1",
 ];
 
-/// Returns nearest-neighbour distances from every pair, as the definition says.
+/// Returns nearest-neighbour distances, computed from all pairs of points by the definition.
 fn nearest_directly(points: &[Point]) -> Vec<f64> {
     let to_others = |i: usize| {
         points.iter().enumerate().filter(move |&(j, _)| j != i).map(move |(_, q)| points[i].distance(*q))
@@ -64,7 +64,8 @@ fn regularity_index_of_the_oracle_point_sets_is_that_of_all_pairs() {
     }
 }
 
-/// The indices of green and pink noise in the paper are computed from all distances.
+/// The paper computes the regularity indices of green and pink noise from the distances of all
+/// points.
 #[test]
 fn regularity_index_of_green_and_pink_is_the_published_one() {
     let mut found = Vec::new();
@@ -133,7 +134,7 @@ fn mean_curves_of_samplers_agree_with_those_of_another_program() {
         let index = rows[0].iter().position(|c| c == column).unwrap();
         let ours = mean_curve(sampler, n, seeds);
         let of = |column: usize| rows[1..].iter().map(move |row| row[column].parse::<f64>().unwrap());
-        // The oracle's distances are printed with six digits.
+        // the oracle's distances are printed with six digits
         assert!(of(0).zip(&ours.r).all(|(a, b)| (a - b).abs() < 1e-5));
         let theirs = Pcf { g: of(index).collect(), ..ours.clone() };
         let distance = l_infinity(&ours, &theirs).unwrap();
@@ -143,9 +144,11 @@ fn mean_curves_of_samplers_agree_with_those_of_another_program() {
     }
 }
 
-/// An independent implementation gave .007 at n = 300, and −.18 at the first peak without
-/// correction, for a pattern that is not named. Dart throwing gives .0076 and .0078 (40 seeds),
-/// hence the bar of .01 here; its peak is lower, and 6.7 % of it is .107.
+/// An independent implementation found, for 300 points of a sampler that is not named, that
+/// corrections agree within .007 and that g without correction is .18 too low at the first peak.
+/// For dart throwing, the two corrections differ from the default by .0076 and .0078 (means of 40
+/// patterns), so the bar is .01. Its peak is lower: g without correction is .107 too low there,
+/// which is 6.7 %.
 #[test]
 fn edge_corrections_agree_on_average_and_none_is_low_at_the_peak() {
     let window = Window::unit_square();
@@ -173,7 +176,7 @@ fn edge_corrections_agree_on_average_and_none_is_low_at_the_peak() {
     assert!((-0.12..-0.095).contains(&bias), "{bias}");
 }
 
-/// The distances and areas are spatstat's, in the window [.5, 150.5]².
+/// The expected distances and areas are those of spatstat, in the window [.5, 150.5]².
 #[test]
 fn nearest_neighbours_and_inner_cells_agree_with_spatstat() {
     for name in ["m1_confocal", "m3_confocal"] {
@@ -193,7 +196,7 @@ fn nearest_neighbours_and_inner_cells_agree_with_spatstat() {
     }
 }
 
-/// The numbers are those of Metricks for jittered points, strictly inside [0, 150]².
+/// The expected numbers are those of Metricks for jittered points, strictly inside [0, 150]².
 #[test]
 fn bound_cells_agree_with_metricks() {
     struct Expected {

@@ -35,7 +35,7 @@ fn column(table: &Table, name: &str) -> Vec<f64> {
 
 /// Point sets in rectangles, the only windows in which spatstat has periodic functions.
 const RECTANGLES: [&str; 4] = ["bnot", "gradient", "lattice", "uniform"];
-/// A point set in an outline with slanting edges, a bay and a hole.
+/// Point set in a polygon with slanting edges, a bay and a hole.
 const POLYGON: &str = "polygon";
 
 fn sets() -> impl Iterator<Item = &'static str> {
@@ -70,8 +70,8 @@ fn ours(name: &str, window: &Window, theirs: &Table) -> BTreeMap<&'static str, V
     found.columns().into_iter().collect()
 }
 
-/// Returns the largest difference of two columns, as measured by `miss`, and its row. Where
-/// spatstat has no finite value, this program must have none.
+/// Returns the largest difference between two columns, as measured by `miss`, and its row. Where
+/// spatstat has no finite value, this program must have NaN; otherwise the difference is infinite.
 fn worst(ours: &[f64], theirs: &[Option<f64>], miss: impl Fn(f64, f64) -> f64) -> (f64, usize) {
     assert_eq!(ours.len(), theirs.len());
     let mut worst = (0., 0);
@@ -101,7 +101,7 @@ fn check(name: &str, what: &str, (miss, row): (f64, usize), bar: f64) {
     assert!(miss <= bar, "{name} {what}: {miss:e} at row {row}, bar {bar:e}");
 }
 
-/// Effect of two of the 16384 places at which F is evaluated.
+/// Effect on F of two of the 16384 positions at which F is evaluated.
 const TWO_PLACES: f64 = 2. / 16384.;
 
 #[test]
@@ -112,12 +112,13 @@ fn functions_in_rectangles_are_those_of_spatstat() {
         for (what, values) in theirs.iter().filter(|(what, _)| !matches!(what.as_str(), "r" | "K_periodic")) {
             let of = |miss: fn(f64, f64) -> f64| worst(&ours[what.as_str()], values, miss);
             match what.as_bytes()[0] {
-                // rounding may move a place to the other side of the end of a bin; the border rules
-                // have fewer places, so that each weighs more
+                // rounding may move a position to the other side of the end of a bin; border rules
+                // use fewer positions, so that each weighs more
                 b'F' if what == "F_none" => check(name, what, of(absolute), TWO_PLACES),
                 b'F' => check(name, what, of(absolute), 2e-4),
                 b'J' => {
-                    // the tolerance of F, over 1 − F
+                    // J divides by 1 − F, so the tolerance is that of F divided by the smallest 1 −
+                    // F compared
                     let f = column(&theirs, &what.replace('J', "F"));
                     let kept: Vec<Option<f64>> =
                         values.iter().zip(f).map(|(v, f)| v.filter(|_| 1. - f > 0.02)).collect();
@@ -151,11 +152,11 @@ fn k_on_a_torus_is_that_of_spatstat() {
     }
 }
 
-/// Only some functions of spatstat are exact in polygons: G without its Hanisch estimate, and K
-/// without its translation correction.
+/// Not all functions of spatstat are exact in polygons. Exact are G except for its Hanisch
+/// estimate, and K except with translation correction.
 ///
-/// For the rest it uses pixels: border distances of F are those to the nearest pixel outside, and
-/// set covariances are looked up in an image.
+/// For the others spatstat uses pixels: the border distances of F are those to the nearest pixel
+/// outside, and set covariances are looked up in an image.
 #[test]
 fn functions_in_polygons_are_those_of_spatstat_where_it_is_exact() {
     let theirs = spatstat(POLYGON, "functions");
@@ -166,18 +167,20 @@ fn functions_in_polygons_are_those_of_spatstat_where_it_is_exact() {
     for what in ["pcf_iso_divr", "pcf_iso_divd"] {
         check(POLYGON, what, worst(&ours[what], &theirs[what], absolute), 1e-6);
     }
-    // two thirds of the 16384 places lie inside the polygon
+    // only two thirds of the 16384 positions lie inside the polygon, so each weighs 1.5 times as
+    // much
     check(POLYGON, "F_none", worst(&ours["F_none"], &theirs["F_none"], absolute), 1.5 * TWO_PLACES);
     for (what, exact) in [("F_rs", "F_rs_exact"), ("F_km", "F_km_exact")] {
         check(POLYGON, exact, worst(&ours[what], &theirs[exact], absolute), 5e-4);
     }
-    // this program interpolates its set covariance too, which shows most near its tip, at short
-    // distances
+    // this program interpolates its set covariance too; the error is largest at short distances,
+    // near the tip of the covariance
     let (ours, exact) = (&ours["K_trans"], &theirs["K_trans_exact"]);
     check(POLYGON, "K_trans_exact", worst(ours, exact, relative), 2e-3);
 }
 
-/// Pixels take spatstat farther from its own exact values than tables take this program.
+/// spatstat's approximation by pixels deviates more from its own exact values than this program's
+/// interpolation in tables does.
 #[test]
 fn in_polygons_pixels_cost_spatstat_more_than_our_tables_cost_us() {
     let theirs = spatstat(POLYGON, "functions");
@@ -214,8 +217,8 @@ fn neighbours_borders_and_cells_are_those_of_spatstat() {
         check(name, "nndist", worst(&ours.neighbours.distances, &theirs["nndist"], relative), 1e-9);
         check(name, "nnwhich", worst(&which, &theirs["nnwhich"], absolute), 0.);
         check(name, "bdist", worst(&borders, &theirs["bdist"], relative), 1e-9);
-        // spatstat's areas are rounded to six decimals in rectangles (deldir) and up to 2e-7 off
-        // elsewhere; those of this program add up to the area of the window
+        // in rectangles, spatstat's areas (by deldir) are rounded to six decimals; in polygons they
+        // are up to 2e-7 off, whereas the areas of this program add up to the area of the window
         let beyond_rounding = |a: f64, b: f64| ((a - b).abs() - 1e-6).max(0.) / b;
         check(name, "dirichlet_area", worst(&areas, &theirs["dirichlet_area"], beyond_rounding), 2e-7);
         assert!(relative(areas.iter().sum(), mosaic.window().area()) < 1e-12, "{name}");
@@ -245,7 +248,7 @@ fn clark_evans_is_that_of_spatstat() {
     }
 }
 
-/// The values compared with are made by spatstat, and not typed by hand.
+/// The script makes the shipped values again with spatstat: they were not typed by hand.
 #[test]
 fn the_script_has_the_same_values_from_spatstat_again() {
     let there = Command::new("Rscript").args(["-e", "library(spatstat)"]).output();
@@ -265,8 +268,8 @@ fn the_script_has_the_same_values_from_spatstat_again() {
             assert!(new.keys().eq(shipped.keys()), "{file}");
             for (column, values) in &shipped {
                 let new: Vec<f64> = new[column].iter().map(|v| v.unwrap_or(f64::NAN)).collect();
-                // pcf.ppp uses a Fourier transform, whose rounding errors remain where there is no
-                // pair
+                // pcf.ppp uses a Fourier transform: where there is no pair of points, its rounding
+                // errors remain
                 let (miss, row) = worst(&new, values, |a, b| (a - b).abs() / b.abs().max(1e-3));
                 assert!(miss < 1e-9, "{file} {column}: {miss:e} at row {row}");
             }
@@ -274,7 +277,7 @@ fn the_script_has_the_same_values_from_spatstat_again() {
     }
 }
 
-/// A rectangle with a notch of no width is a polygon; its functions are those of the rectangle.
+/// A polygon with the corners of a rectangle has the functions of the rectangle.
 #[test]
 fn a_rectangle_as_a_polygon_has_the_functions_of_the_rectangle() {
     let theirs = spatstat("lattice", "functions");
@@ -286,7 +289,7 @@ fn a_rectangle_as_a_polygon_has_the_functions_of_the_rectangle() {
     let (a, b) = (ours("lattice", &rectangle, &theirs), ours("lattice", &polygon, &theirs));
     for (what, values) in &a {
         let values: Vec<Option<f64>> = values.iter().map(|v| Some(*v).filter(|v| v.is_finite())).collect();
-        // the areas of eroded polygons are counted in pixels
+        // Hanisch estimates need areas of eroded polygons, which are counted in pixels
         let bar = if what.ends_with("han") { 0.02 } else { 1e-9 };
         // translation weights are interpolated from a table
         let bar = if what.contains("trans") { 1e-6 } else { bar };

@@ -1,4 +1,5 @@
-//! Images with so many pixels that cones are farther apart than filters and networks are made for.
+//! Images with so many pixels that the cones are farther apart, in px, than filters and networks
+//! are made for.
 
 use crate::common;
 use conemosaic::detect::{DetectOptions, Detections, Detector, detect};
@@ -7,7 +8,7 @@ use conemosaic::image::{Plane, crop};
 use image::imageops::{FilterType, resize};
 use image::{ImageBuffer, Luma};
 
-/// Length, in px along either side, of the black upper left corner.
+/// Length, in px, of the black triangle in the upper left corner along the two sides of the image.
 const CORNER: usize = 200;
 
 /// Returns the image with `times` as many pixels along each side, by bilinear interpolation.
@@ -20,8 +21,8 @@ fn enlarged(image: &Plane, times: usize) -> Plane {
     Plane::from_shape_vec((h * times, w * times), large.into_raw()).unwrap()
 }
 
-/// Returns the agreement (a Dice coefficient) of the cones found in an image and in its
-/// enlargement.
+/// Returns the agreement, as a Dice coefficient, between the cones found in an image and in its
+/// enlargement by the factor `times`.
 fn shared(small: &Detections, large: &Detections, times: f64) -> f64 {
     let reach = 0.3 * large.spacing;
     let there = |p: &Point| {
@@ -43,8 +44,8 @@ fn cones_far_apart_are_found_as_those_of_fewer_pixels_are() {
             (options.width, options.height) = (200, 180);
         });
         let mut large = enlarged(&image, times);
-        // a corner is black as if not imaged, and the sides are no multiples of the blocks that are
-        // averaged
+        // a corner is black, as if it was not imaged, and the sides of the image are no multiples
+        // of the side of the blocks that detection averages
         let cut = (large.nrows() - 3, large.ncols() - 1);
         large = crop(&large, 0, 0, cut.0, cut.1);
         large.indexed_iter_mut().filter(|((y, x), _)| x + y < CORNER).for_each(|(_, v)| *v = 0.);

@@ -36,7 +36,7 @@ fn mean_around(image: &Plane, x: f64, y: f64, radius: f64) -> f64 {
     sum / n
 }
 
-/// Returns the cones that lie far enough from the border to be wholly in the picture.
+/// Returns the cones that lie so far from the border that the picture shows all of them.
 fn inner(simulation: &Simulation) -> Vec<Point> {
     let (height, width) = simulation.image.dim();
     let inside = |v: f64, side: usize| v > SPACING && v < side as f64 - SPACING;
@@ -95,7 +95,7 @@ fn histology_discs_differ_from_what_lies_between_them() {
         for ((j, i), &v) in made.image.indexed_iter() {
             let distance = |p: &Point| (p.x - i as f64).hypot(p.y - j as f64);
             let nearest = made.cones.iter().map(distance).fold(f64::INFINITY, f64::min);
-            // Edges and outlines of cones belong to neither.
+            // edges and outlines of cones count neither as inside nor as between
             let bin = match nearest / SPACING {
                 d if d < 0.3 => &mut inside,
                 d if d > 0.48 => &mut between,
@@ -150,8 +150,8 @@ fn a_mosaic_is_as_dense_and_as_regular_as_a_real_one() {
 
 #[test]
 fn a_mosaic_is_not_a_single_crystal() {
-    // In a single crystal all directions to neighbours are equal modulo 60°, and the global order
-    // would equal the local one.
+    // in a single crystal all directions to neighbours are equal modulo 60°, so that the order of
+    // the entire mosaic equals the local order
     let options = MosaicOptions { width: 500, height: 500, spacing: 10., jitter: 0., ..Default::default() };
     let points = cone_mosaic(&options, &mut rng(1)).unwrap();
     let (mut sum, mut local, mut cells) = ((0., 0.), 0., 0.);
@@ -178,7 +178,8 @@ fn a_gradient_makes_one_side_denser_and_its_cones_smaller() {
     let made = simulate(&mosaic, &o, &mut rng(8)).unwrap();
     let count = |from: f64, to: f64| made.cones.iter().filter(|p| p.x >= from && p.x < to).count() as f64;
     let ratio = count(-0.5, 39.5) / count(359.5, 399.5);
-    // The middles of the outer tenths differ in density by 4^0.9.
+    // the middles of the first and the last tenth are 0.9 of the width apart, so their densities
+    // differ by a factor of 4^0.9
     assert!((ratio / 4f64.powf(0.9) - 1.).abs() < 0.25, "{ratio}");
     let expected = 400. * 300. / (0.75f64.sqrt() * 81.);
     assert!((made.cones.len() as f64 / expected - 1.).abs() < 0.05, "{} of {expected}", made.cones.len());
@@ -195,7 +196,7 @@ fn noise_blur_and_contrast_do_what_they_say() {
         let o = RenderOptions { noise: 0., ..options(modality) };
         assert!(deviation(&RenderOptions { contrast: 0.5 * o.contrast, ..o.clone() }) < 0.9 * deviation(&o));
         assert!(deviation(&RenderOptions { blur: 0.3, ..o.clone() }) < 0.8 * deviation(&o));
-        // Noise is added last: the same seed makes the same picture beneath it.
+        // noise is added last, so the same seed makes the same picture beneath the noise
         let noisy = picture(&RenderOptions { noise: 0.05, ..o.clone() }, 9).image;
         let difference = (noisy - picture(&o, 9).image).mapv(|v| v * v).mean().unwrap().sqrt();
         assert!((0.03..0.055).contains(&difference), "{difference}");
@@ -312,7 +313,7 @@ fn a_radial_gradient_is_densest_in_the_middle_at_the_spacing_asked_for() {
         };
         let expected = |r: f64| 5. * (1. + (gradient.sqrt() - 1.) * r / 200.);
         for (from, to) in [(0., 40.), (90., 110.), (170., 190.)] {
-            // points of a disc are on average 2/3 of its radius away from its middle
+            // the mean distance of the points of a disc from its centre is 2/3 of its radius
             let r = if from == 0. { to * 2. / 3. } else { 0.5 * (from + to) };
             let found = spacing(from, to);
             assert!((found / expected(r) - 1.).abs() < 0.06, "{gradient} at {r}: {found}, {}", expected(r));
@@ -327,8 +328,9 @@ fn an_anisotropic_mosaic_is_as_dense_and_longer_along_y() {
     let points = cone_mosaic(&mosaic, &mut rng(13)).unwrap();
     let s = hexagonal_spacing(points.len(), 160_000.).unwrap();
     assert!((s / 10. - 1.).abs() < 0.03, "{s}");
-    // counts pairs that lie in a strip of ±0.2 s along a direction, up to 0.8 s apart: cones keep a
-    // distance of about 0.6 s along x and 0.9 s along y
+    // counts pairs of cones in a direction: up to 0.8 spacings apart along it, and up to 0.2
+    // spacings to its side. Cones keep a distance of about 0.6 spacings along x and 0.9 along y, so
+    // there are many such pairs along x and few along y
     let pairs = |along: fn(f64, f64) -> (f64, f64)| {
         let in_strip = |p: &Point, q: &Point| {
             let (forth, aside) = along(q.x - p.x, q.y - p.y);

@@ -15,8 +15,9 @@ fn off(spacing: f64, true_spacing: f64) -> f64 {
     (spacing / true_spacing).ln().abs()
 }
 
-/// Checks the rings in images of a preset, 300 px wide, with this additional blur (in spacings) and
-/// noise.
+/// Checks the spacings that are read from the rings of simulated images. The images have 300 × 300
+/// px, the options of a preset, this `blur` (in spacings) and this `noise` (standard deviation as a
+/// fraction of the range of grey).
 fn simulated_rings_are_read(preset: &str, blur: f64, noise: f64) {
     for seed in 100..106 {
         let (image, true_spacing) = common::of_preset(preset, seed, |options| {

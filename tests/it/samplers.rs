@@ -1,4 +1,5 @@
-//! Properties that every sampler in the registry promises.
+//! Properties that every sampler of the library must have: exact numbers of points, no seam on a
+//! torus, and more.
 
 use conemosaic::geometry::{Point, Rectangle, Window};
 use conemosaic::mosaic::hexagonal_spacing;
@@ -29,7 +30,8 @@ fn few_points_and_extreme_windows_give_correct_points_or_an_error() {
     for size in [1e-100, 1e-9, 1e9, 1e100] {
         windows.push(Rectangle::new(-size, size, size, 3. * size).unwrap());
     }
-    // a window far from the origin, where coordinates have few digits left
+    // a window far from the origin, where coordinates have few significant digits left for
+    // differences
     windows.push(Rectangle::new(1e12, -1e12, 1e12 + 1., 1. - 1e12).unwrap());
     for sampler in samplers() {
         for bounds in &windows {
@@ -57,7 +59,7 @@ fn those_that_promise_exactly_n_points_make_them_and_the_others_come_near() {
         for window in [Window::Rectangle(bounds), Window::Torus(bounds)] {
             for n in [10, 97, 640] {
                 let found = sampler.sample(n, &window, &mut seeded(n as u64)).unwrap().len();
-                // lattices that are not exact gain and lose whole rows
+                // lattices that are not exact gain or lose whole rows
                 let most = if sampler.exact() { 0 } else { 2 + (1.5 * (n as f64).sqrt()) as usize };
                 assert!(found.abs_diff(n) <= most, "{}, {n}: {found}", sampler.name());
             }
@@ -65,8 +67,8 @@ fn those_that_promise_exactly_n_points_make_them_and_the_others_come_near() {
     }
 }
 
-/// A sampler that promises a torus shows no seam: neighbours across it are as near as elsewhere, on
-/// average.
+/// Patterns of a `periodic` sampler on a torus show no seam: the mean nearest-neighbour distance is
+/// the same near the seam as elsewhere.
 #[test]
 fn the_seam_of_a_torus_does_not_show() {
     let torus = Window::unit_torus();
@@ -89,8 +91,8 @@ fn the_seam_of_a_torus_does_not_show() {
     }
 }
 
-/// The defaults that are listed are those that hold, and every value in the range of a parameter
-/// works.
+/// The listed defaults are the ones that the sampler uses, and both ends of a parameter's range
+/// give points or an error.
 #[test]
 fn parameters_at_their_defaults_change_nothing_and_at_their_limits_give_points_or_an_error() {
     let window = Window::rectangle(0., 0., 2., 1.).unwrap();
@@ -168,8 +170,8 @@ fn every_sampler_of_the_literature_is_there_under_its_name() {
     assert_eq!(names.len(), 17);
 }
 
-/// The distances are in hexagonal spacings of the number of points asked for, on the torus in every
-/// window.
+/// The distances are in hexagonal spacings of the number of points asked for. They are measured on
+/// the torus, whatever the window.
 #[test]
 fn no_two_points_are_nearer_than_a_sampler_promises() {
     let bounds = Rectangle::new(-2., 1., 4., 5.).unwrap();
@@ -221,8 +223,9 @@ fn any_number_of_threads_gives_the_same_points() {
     }
 }
 
-/// Cells of equal power: the areas of Voronoi cells, which have no weights to make them equal,
-/// still scatter little. Those of Lloyd's relaxation scatter less than those of its uniform start.
+/// BNOT equalises the areas of its power cells. The areas of the Voronoi cells, which lack the
+/// weights that make areas equal, must still scatter little. After Lloyd's relaxation, the areas
+/// must scatter less than those of the uniform points from which it starts.
 #[test]
 fn relaxed_points_have_cells_of_nearly_equal_area() {
     let window = Window::unit_torus();

@@ -1,4 +1,5 @@
-//! The scoring rule: numbers of an independent program, and properties of any pairing.
+//! The scoring rule, compared with an independent program, and properties that any pairing must
+//! have.
 
 use conemosaic::compare::{
     Assignment, MatchError, MatchOptions, Score, by_group, compare_scores, intervals, match_points,
@@ -12,8 +13,8 @@ use rand_chacha::ChaCha8Rng;
 use std::path::Path;
 use strum::VariantArray;
 
-/// A source of numbers in [0, 1), multiples of 2⁻²⁰, so that every program makes the same point
-/// sets.
+/// Generator of random numbers in [0, 1). The numbers are multiples of 2⁻²⁰, so that every program
+/// can make exactly the same point sets.
 struct Numbers(u64);
 
 impl Numbers {
@@ -28,8 +29,9 @@ impl Numbers {
 
 /// Returns rows of marks `step` apart.
 ///
-/// Every other row is moved by half a step, and each mark by up to `jitter` in x, then in y. With
-/// `integer` they are rounded to whole pixels, halves upwards.
+/// Every other row is moved by half a step. Each mark is moved at random by up to `jitter` along x
+/// and along y; the number for x is drawn first. With `integer`, coordinates are rounded to whole
+/// pixels, halves upwards.
 fn marks(seed: u64, w: f64, h: f64, step: f64, jitter: f64, integer: bool) -> Vec<Point> {
     let mut numbers = Numbers(seed);
     let mut points = Vec::new();
@@ -44,8 +46,8 @@ fn marks(seed: u64, w: f64, h: f64, step: f64, jitter: f64, integer: bool) -> Ve
     points
 }
 
-/// Returns each mark with probability `keep`, moved by up to `noise`, and then `extra` points
-/// anywhere.
+/// Returns detections: each mark with the probability `keep`, moved by up to `noise` along x and
+/// along y, and then `extra` points anywhere in the image of `w` × `h` px.
 ///
 /// Three numbers are drawn per mark: for `keep`, x and y.
 fn detections(seed: u64, marks: &[Point], w: f64, h: f64, keep: f64, noise: f64, extra: usize) -> Vec<Point> {
@@ -64,12 +66,15 @@ fn detections(seed: u64, marks: &[Point], w: f64, h: f64, keep: f64, noise: f64,
     points
 }
 
-/// Seed, width, height, step, jitter, integer, keep, noise, extra; then tp, fn and fp by `match` in
-/// `../shared/tools/score.py` for these points + 1, since that counts pixels from 1.
+/// Test case: seed, width, height, step, jitter, integer, keep, noise and extra of the functions
+/// above; then the numbers of hits, misses and false alarms by `match` in
+/// `../shared/tools/score.py`. The points were passed to `match` with 1 added to the coordinates,
+/// because it counts pixels from 1.
 ///
 /// To make the numbers again, write the two functions above in Python (the seed of detections is
 /// seed + 100) and call `match` and `summary`.
 type Case = (u64, usize, usize, f64, f64, bool, f64, f64, usize, [usize; 3]);
+/// Test cases with the numbers of the independent program.
 const TRUTH: [Case; 7] = [
     (1, 150, 150, 8., 2., false, 0.95, 1.5, 10, [267, 12, 8]),
     (2, 150, 120, 8., 2., true, 0.9, 3., 30, [198, 25, 26]),
@@ -79,6 +84,8 @@ const TRUTH: [Case; 7] = [
     (6, 100, 100, 10., 2., false, 0., 1., 0, [0, 76, 0]),
     (7, 40, 30, 3., 1., true, 1., 2., 300, [43, 2, 108]),
 ];
+/// Mean sensitivity, false discovery rate and Dice coefficient over the cases of [`TRUTH`], by
+/// `summary` in `../shared/tools/score.py`.
 const TRUTH_MEANS: [f64; 3] = [0.6700057410848241, 0.29426651275876525, 0.5885882882547954];
 
 fn case(case: &Case) -> (Vec<Point>, Vec<Point>, usize, usize) {
@@ -109,8 +116,8 @@ fn counts_and_means_equal_those_of_the_published_rule() {
     assert_eq!(summary.pooled.tp, TRUTH.iter().map(|t| t.9[0]).sum::<usize>());
 }
 
-/// Hand marks of real images are compared with themselves, every eleventh left out and the others
-/// moved by up to 2 px. The totals are those of `../shared/tools/score.py`.
+/// Hand marks of real images serve as detections too: every eleventh is left out and the others are
+/// moved by up to 2 px. The expected totals are those of `../shared/tools/score.py`.
 #[test]
 fn counts_on_real_marks_equal_those_of_the_published_rule() {
     for (folder, images, [tp, fn_, fp], [sensitivity, fdr, dice]) in [
@@ -162,8 +169,8 @@ fn perfect_detections_score_one() {
 
 #[test]
 fn a_second_detection_within_reach_is_used_by_optimal_assignment_only() {
-    // The detection between the first two marks is nearest to both; another one is within reach of
-    // the second mark.
+    // the detection between the first two marks is the nearest for both; a second detection is
+    // within the cut-off distance of the second mark
     let marks = [Point::new(20., 20.), Point::new(24., 20.), Point::new(40., 40.), Point::new(44., 40.)];
     let detections =
         [Point::new(21.9, 20.), Point::new(26.5, 20.), Point::new(40., 40.), Point::new(44., 40.)];
@@ -178,13 +185,14 @@ fn a_second_detection_within_reach_is_used_by_optimal_assignment_only() {
 
 #[test]
 fn seven_whole_pixels_at_each_edge_are_not_counted() {
-    // Pixels 0 to 6 and 93 to 99 of 100 are the border; there is one mark on the diagonal, and no
-    // detection.
+    // of 100 pixels, 0 to 6 and 93 to 99 are the border strip; there is one mark, on the diagonal,
+    // and no detection
     for (pixel, counted) in [(6., 0), (7., 1), (92., 1), (93., 0)] {
         let pair = [Point::new(pixel, pixel), Point::new(50., 50.)];
         let m = match_points(&pair, &[], 100, 100, &MatchOptions::default()).unwrap();
         assert_eq!(m.false_negatives(), 1 + counted, "pixel {pixel}");
-        // A pair with one member in the border is neither hit nor miss nor false alarm.
+        // a pair of which one point lies in the border strip is neither hit nor miss nor false
+        // alarm
         let found = [Point::new(pixel + 0.1, pixel), Point::new(50., 50.)];
         let m = match_points(&pair, &found, 100, 100, &MatchOptions::default()).unwrap();
         assert_eq!((m.true_positives(), m.false_negatives(), m.false_positives()), (1 + counted, 0, 0));
@@ -232,7 +240,7 @@ fn agreement_is_of_counts_and_of_densities_outside_the_border() {
     let summary = summarise(&scores).unwrap();
     let [low, high] = summary.count.unwrap().limits.unwrap();
     assert!((summary.count.unwrap().bias - (counts[0] + counts[1]) / 2.).abs() < 1e-12);
-    // The standard deviation of two values is their difference over √2.
+    // the standard deviation of two values is their difference divided by √2
     assert!((high - low - 2. * 1.96 * (counts[0] - counts[1]) / 2f64.sqrt()).abs() < 1e-9);
     let percent = |s: &Score| {
         let (d, m) = (s.detections_inside as f64, s.marks_inside as f64);
@@ -334,13 +342,13 @@ fn optimal_assignment_of_many_cones_is_quick() {
     let seconds = start.elapsed().as_secs_f64();
     println!("{} marks, {} detections, {} pairs: {seconds:.2} s", marks.len(), found.len(), m.pairs.len());
     assert!(m.pairs.len() > 90_000);
-    // A method of quadratic time needs minutes; this one stays below the limit even unoptimised on
-    // a busy machine.
+    // a method of quadratic time would need minutes; this one stays below the limit even in an
+    // unoptimised build on a busy machine
     assert!(seconds < 60., "{seconds} s");
 }
 
 fn places(n: usize) -> impl Strategy<Value = Vec<Point>> {
-    // Whole pixels make ties and coincident points.
+    // integer coordinates make equal distances and coincident points likely
     let coordinate = prop_oneof![(0..40i32).prop_map(f64::from), 0f64..40.];
     prop::collection::vec((coordinate.clone(), coordinate).prop_map(|(x, y)| Point::new(x, y)), 0..n)
 }

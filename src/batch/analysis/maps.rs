@@ -8,7 +8,7 @@ use crate::stats::{LocalWindow, MapOptions, Maps};
 use serde::Serialize;
 use std::path::Path;
 
-/// The square around each cone in which local values of a map are computed.
+/// Rule for the size of the square around each cone in which local values of a map are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MapWindow {
@@ -22,12 +22,12 @@ pub enum MapWindow {
 /// Options of maps, the same for every mosaic of a batch; see [`MapOptions`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MapRequest {
-    /// The square around each cone in which local values are computed.
+    /// Rule for the size of the square around each cone in which local values are computed.
     pub window: MapWindow,
     /// Density of the isodensity contour, as a fraction of the peak density, 0.01 to 0.99. The
     /// region inside the contour gives the isodensity area and the cone density centroid.
     pub isodensity: f64,
-    /// Distance between neighbouring rows of the profiles; `None`: two [hexagonal
+    /// Distance between neighbouring rows of the profiles. `None` for the default, two [hexagonal
     /// spacings](crate::mosaic::hexagonal_spacing).
     pub profile_step: Option<Length>,
 }
@@ -47,11 +47,11 @@ impl MapRequest {
     /// Checks that every field is in its range.
     ///
     /// # Errors
-    /// The error names the first field that is out of range, and the range.
+    /// Fails if a field is out of its range. The error names the first such field and its range.
     pub fn validate(&self) -> Result<(), BatchError> {
         let window = match self.window {
             MapWindow::Cells(n) => LocalWindow::Cells(n),
-            // a `Length` is always positive, so any valid side can stand in for it here
+            // a `Length` is always positive and so always valid: any positive side will do here
             MapWindow::Side(_) => LocalWindow::Side(1.),
         };
         Ok(MapOptions { window, isodensity: self.isodensity, profile_step: None }.validate()?)

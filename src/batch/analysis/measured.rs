@@ -5,13 +5,14 @@ use crate::geometry::Point;
 use crate::report::{MosaicRecord, SamplerDistance, counted};
 use crate::stats::Measures;
 
-/// Smallest number of cones for which statistics are given without a warning that they are
-/// uncertain: the regularity index of 30 points scatters by about 15 %.
+/// Number of cones below which a warning says that all statistics are uncertain. The regularity
+/// index of 30 points scatters by about 15 %.
 const FEW: usize = 30;
-/// Smallest number of points for which coordinates are reported as rounded if all are integers.
-/// Fewer points may have integer coordinates by chance, or in an example.
+/// Smallest number of points for which a warning says that coordinates are rounded, if all are
+/// integers. Fewer points may have integer coordinates by chance, or in an example.
 const ROUNDED: usize = 10;
-/// Smallest confidence in the modality or the spacing that is accepted without a warning.
+/// Confidence, between 0 and 1, below which a warning says that the modality or the spacing is
+/// uncertain.
 pub(in crate::batch) const CONFIDENT: f64 = 0.8;
 
 /// Returns the l-infinity distance between the mosaic and each reference curve; empty if the mosaic
@@ -32,9 +33,8 @@ pub(super) fn not_compared(curves: &SamplerCurves) -> impl Iterator<Item = Strin
     curves.missing.iter().map(NotCompared::to_string)
 }
 
-/// Returns whether all points lie at integer distances from the first point along both axes, as
-/// rounded coordinates do. Returns `false` for fewer than [`ROUNDED`] points, which may do so by
-/// chance.
+/// Returns whether coordinates look rounded: all points lie at integer distances from the first
+/// point along both axes. Returns `false` for fewer than [`ROUNDED`] points.
 fn whole_numbers(points: &[Point]) -> bool {
     let Some(first) = points.first() else { return false };
     let whole = |d: f64| (d - d.round()).abs() < 1e-9;
@@ -42,7 +42,8 @@ fn whole_numbers(points: &[Point]) -> bool {
 }
 
 /// Returns the warnings about the numbers of one mosaic: uncertain detection, rounded coordinates,
-/// few points, varying density, no pair correlation function.
+/// few points, varying density, no pair correlation function. `found` is `None` if this program did
+/// not detect the points.
 pub(super) fn warnings_of(
     found: Option<&Detections>,
     record: &MosaicRecord,

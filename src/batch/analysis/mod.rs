@@ -1,7 +1,7 @@
 //! Analysis of one mosaic, from an image or from a coordinate file.
 //!
-//! It comprises statistics, comparison with samplers, maps, regions, warnings, and the files that
-//! hold these results. The commands `run`, `measure` and `compare` only supply the mosaics.
+//! It comprises statistics, comparison with samplers, maps, regions, warnings, and the files with
+//! these results. The commands `run`, `measure` and `compare` only supply the mosaics.
 
 mod figure;
 mod maps;
@@ -38,7 +38,8 @@ pub(super) struct Specimen<'a> {
     pub input: &'a Input,
     /// The points inside the window, and the window.
     pub mosaic: Mosaic,
-    /// Number of points of the file that lie outside the window.
+    /// Number of points in the file of coordinates or cones that lie outside the window; 0 if this
+    /// program detected the points.
     pub outside: usize,
     /// The image; `None` for points from a coordinate file.
     pub image: Option<&'a Plane>,
@@ -68,7 +69,7 @@ pub(super) struct Analysis {
     pub landmarks: Option<LandmarkRecord>,
     /// Rows of `rois.csv` that belong to the mosaic; empty if the plan asks for no regions.
     pub regions: Vec<RoiRow>,
-    /// Cone spacing estimated from the spectrum of the image; `None` if it is not wanted or there
+    /// Cone spacing estimated from the spectrum of the image; `None` if no output needs it or there
     /// is no image.
     pub fourier: Option<FourierEstimate>,
     /// Wall-clock time in seconds: first of measuring, then of comparing with samplers.

@@ -16,18 +16,21 @@ pub struct Plan {
     /// Samplers with which the mosaics are compared; may be empty.
     pub samplers: Vec<&'static dyn Sampler>,
     /// Options of the test of every mosaic against each sampler, which simulates the sampler with
-    /// the mosaic's own number of points and window. `None`: no test, only l-infinity distances.
+    /// the mosaic's own number of points and window. `None` if no test is made, only l-infinity
+    /// distances are computed.
     pub verdict: Option<VerdictOptions>,
     /// Seed of all random numbers.
     pub seed: u64,
     /// Distances at which the functions G, F, J, K, L and g are written, together with a table of
-    /// the points. `None`: neither is written.
+    /// the points. `None` if neither is written.
     pub functions: Option<FunctionOptions>,
-    /// Options of power spectra, and the scale on which they are drawn; `None`: no spectra.
+    /// Options of power spectra, and the scale on which they are drawn. `None` if there are to be
+    /// no spectra.
     pub spectrum: Option<(SpectrumOptions, PowerScale)>,
-    /// Options of maps and of the landmarks read off them; `None`: no maps.
+    /// Options of maps and of the landmarks read off them. `None` if there are to be no maps.
     pub maps: Option<MapRequest>,
-    /// Regions of interest, each of which is measured as a mosaic of its own; `None`: no regions.
+    /// Regions of interest, each of which is measured as a mosaic of its own. `None` if there are
+    /// to be no regions.
     pub rois: Option<RoiRequest>,
     /// Source of the scales of the images or files.
     pub scales: ScaleSource,
@@ -73,7 +76,7 @@ impl Plan {
     /// Checks, before any work is done, that options are in their ranges and fit together.
     ///
     /// # Errors
-    /// The error names the first option that is not valid, and its range.
+    /// Fails if an option is not valid. The error names the first such option.
     pub fn validate(&self) -> Result<(), BatchError> {
         self.verdict.iter().try_for_each(VerdictOptions::validate)?;
         self.labels.validate()?;
@@ -91,8 +94,8 @@ impl Plan {
         self.maps.is_some() || self.metrics.has_any_of(MetricGroup::Fourier, SummaryKind::Images)
     }
 
-    /// Returns, as JSON, the part of the plan on which the results of an image depend. It serves to
-    /// tell plans apart.
+    /// Returns, as JSON, the part of the plan on which the results of an image depend. The hash of
+    /// an image's options covers it.
     ///
     /// The sources of scales and labels are left out, since only the scale and the labels of each
     /// image matter.

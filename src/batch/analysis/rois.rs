@@ -19,9 +19,9 @@ const FILE: &str = "rois.csv";
 pub struct RoiRequest {
     /// Source of the rectangles (boxes) in which the regions lie.
     pub source: RoiSource,
-    /// Number of bound cells (Voronoi cells strictly inside the box) that each box is to hold, 1 to
-    /// 100 000. A box with fewer grows about its centre until it holds that number. `None`: boxes
-    /// stay as they are.
+    /// Number of bound cells (Voronoi cells strictly inside the box) that each box is to contain, 1
+    /// to 100 000. A box with fewer bound cells grows about its centre until it contains that
+    /// number. `None` if boxes stay as they are.
     pub cells: Option<usize>,
 }
 
@@ -34,8 +34,8 @@ pub enum RoiSource {
     Sliding {
         /// Side of the squares.
         side: Length,
-        /// Distance from one square to the next; `None`: equal to `side`, so that the squares tile
-        /// the window.
+        /// Distance from one square to the next. `None` for a distance of `side`, so that the
+        /// squares tile the window.
         step: Option<Length>,
     },
 }
@@ -57,7 +57,7 @@ impl RoiRequest {
         }
     }
 
-    /// Refuses a table of regions that is the very file to which the regions would be written.
+    /// Fails if the table of regions is the very file to which the regions would be written.
     pub(in crate::batch) fn refuse_overlap(&self, out: &Path) -> Result<(), BatchError> {
         let RoiSource::Table(table) = &self.source else { return Ok(()) };
         let (read, written) = (Path::new(table.file()).canonicalize(), out.join(FILE).canonicalize());
@@ -78,8 +78,7 @@ impl RoiRequest {
         serde_json::json!({ "source": source, "cells": self.cells })
     }
 
-    /// Returns the names of the boxes of a mosaic, and the boxes in the unit of the mosaic's
-    /// coordinates.
+    /// Returns the boxes of a mosaic, each with its name, in the unit of the mosaic's coordinates.
     fn boxes(&self, input: &Input, mosaic: &Mosaic) -> Result<Vec<(String, Rectangle)>, BatchError> {
         let file = &input.path;
         match &self.source {
@@ -106,8 +105,9 @@ impl RoiRequest {
     }
 }
 
-/// Returns the factor that converts lengths from the unit of a table to the unit of a mosaic; 1 if
-/// either is in the unit square or the table has no unit.
+/// Returns the factor that converts lengths from the unit of a table to the unit of a mosaic's
+/// coordinates. The factor is 1 if the table has no unit, or if one of the two is in the unit
+/// square.
 fn factor(table: &RoiTable, mosaic: &Mosaic, file: &Path) -> Result<f64, BatchError> {
     let no_scale = || BatchError::NoScale {
         what: match mosaic.unit() {
@@ -124,10 +124,11 @@ fn factor(table: &RoiTable, mosaic: &Mosaic, file: &Path) -> Result<f64, BatchEr
 
 /// Measures each region of one mosaic as a mosaic of its own, and returns one row per region.
 ///
-/// A region is the part of the window inside its box, with the points in that part. The Voronoi
-/// cells are those of these points alone, and a cell counts as bound if it lies strictly inside the
-/// region. A region entirely outside the window has no values. The result is the same for any
-/// number of threads.
+/// A region is the part of the window inside its box, with the points in that part. Its Voronoi
+/// cells are computed from these points alone, and a cell counts as bound if it lies strictly
+/// inside the region. A region entirely outside the window has no values. `whole` is the record of
+/// the mosaic, from which regions take labels and location on the retina. The result is the same
+/// for any number of threads.
 ///
 /// # Errors
 /// Fails if a table has no boxes for the file, or a length is in µm and no scale is known.

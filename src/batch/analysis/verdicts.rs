@@ -7,14 +7,14 @@ use crate::report::{Curve, EnvelopePanel, FigureFormat, VerdictRecord, envelope_
 use crate::sample::Sampler;
 use crate::stats::Measures;
 
-/// Name of the table of curves and envelopes, less the name of the mosaic.
+/// Name of the table of curves and envelopes, without the name of the mosaic.
 const ENVELOPE: &str = "envelope.csv";
 
 /// Tests a mosaic against each sampler. Returns the verdicts in the order of the samplers, and a
 /// warning for each sampler without one.
 ///
-/// Both lists are empty without `options`, and for a mosaic without a pair correlation function,
-/// about which there is another warning already.
+/// Both lists are empty if `options` is `None`, or if the mosaic has no pair correlation function,
+/// which causes a warning elsewhere.
 pub(super) fn verdicts_on(
     mosaic: &Mosaic,
     measures: &Measures,
@@ -49,8 +49,8 @@ pub(in crate::batch) fn write_table<'a>(
     out.write(VERDICTS.file, &VERDICTS.csv(rows)?)
 }
 
-/// Writes the envelopes and their figure, with `prefix` before the names of the files. Nothing is
-/// written if there are no verdicts.
+/// Writes the table of envelopes and the figure of the verdicts, with `prefix` before the names of
+/// the files. Writes nothing if there are no verdicts.
 pub(super) fn write(
     out: &OutputFolder,
     prefix: &str,

@@ -8,7 +8,7 @@ use crate::batch::BatchError;
 use crate::batch::output::{OutputFolder, write_figure};
 use crate::report::{spectrum_png, tables};
 
-// names of the files, without the name of the mosaic
+// names of the files, without the name of the mosaic and, for figures, without the extension
 const PCF: &str = "pcf.csv";
 const FIGURE: &str = "figure";
 const FUNCTIONS: [&str; 2] = ["functions.csv", "density_recovery.csv"];

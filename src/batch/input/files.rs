@@ -15,18 +15,19 @@ pub struct Input {
     pub name: String,
 }
 
-/// Extensions by which coordinate files in folders are recognised. A file that is given by its own
-/// path may have any extension.
+/// Extensions by which coordinate files in folders are recognised. A file whose own path the user
+/// names may have any extension.
 const COORDINATE_EXTENSIONS: [&str; 7] = ["csv", "tsv", "txt", "json", "tar", "roi", "zip"];
 
 /// Returns all images (PNG and TIFF files) among `paths` and in their subfolders.
 ///
-/// Paths keep the order given; the files of a folder are sorted by name. Hidden files, overlays
-/// drawn by this program and the content of `except` (the output folder) are left out. A file that
-/// is given by its own path is taken whatever its name. A file that is found twice is listed once.
+/// The result has the order of `paths`; the files of a folder are sorted by name. Hidden files,
+/// overlays drawn by this program and the content of the folder `except` (the output folder) are
+/// left out. If `paths` contains the path of a file, that file is taken whatever its name. A file
+/// that is found twice is listed once.
 ///
 /// # Errors
-/// Fails if a path does not exist or there is no image at all.
+/// Fails if a path does not exist, or if no image is found.
 pub fn image_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec<Input>, BatchError> {
     let files = walk(paths, except, |path| is_image_path(path) && !is_overlay(path))?;
     if files.is_empty() {
@@ -39,11 +40,11 @@ pub fn image_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec<Input
 /// Returns all coordinate files among `paths` and in their subfolders, in the order of
 /// [`image_files`].
 ///
-/// Tables and records that this program writes and that hold no coordinates are left out, unless
-/// they are given by their own path.
+/// Tables and records that this program writes and that contain no coordinates are left out, unless
+/// `paths` names them.
 ///
 /// # Errors
-/// Fails if a path does not exist or there is no coordinate file at all.
+/// Fails if a path does not exist, or if no coordinate file is found.
 pub fn coordinate_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec<Input>, BatchError> {
     let known = |path: &Path| COORDINATE_EXTENSIONS.contains(&extension(path).as_str()) && !is_table(path);
     let files = walk(paths, except, known)?;
@@ -54,7 +55,8 @@ pub fn coordinate_files(paths: &[PathBuf], except: Option<&Path>) -> Result<Vec<
     Ok(named(files))
 }
 
-/// Returns whether a file is an overlay that this program drew, and so not an image of a retina.
+/// Returns whether a file is an overlay that this program drew, and so not an image to be
+/// processed.
 ///
 /// An overlay is recognised by the file of coordinates, scores or metrics that lies beside it.
 fn is_overlay(path: &Path) -> bool {
@@ -67,8 +69,8 @@ fn is_overlay(path: &Path) -> bool {
     drawn.is_some_and(|name| beside(&format!("{name}.csv")) || beside("validation.csv"))
 }
 
-/// Returns whether a file is a table or record that this program writes and that holds no
-/// coordinates.
+/// Returns whether a file has the name of a table or record that this program writes and that
+/// contains no coordinates.
 fn is_table(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let known = [
@@ -115,8 +117,8 @@ fn listed(paths: &[PathBuf]) -> String {
     paths.iter().map(|p| p.display().to_string()).collect::<Vec<_>>().join(", ")
 }
 
-/// Returns the files among `paths`, and the `wanted` files in the folders among `paths`, except
-/// hidden ones.
+/// Returns the files among `paths`, and the files in the folders among `paths` for which `wanted`
+/// returns `true`. Hidden files and folders are left out.
 ///
 /// The folder `except` is not searched. A file that is found twice is listed once.
 fn walk(
@@ -149,7 +151,7 @@ fn walk(
             match entry {
                 Ok(entry) if entry.file_type().is_file() && wanted(entry.path()) => add(entry.into_path()),
                 Ok(_) => {}
-                // this is a link back to a folder above, which is being searched already
+                // a link back to a folder above, which is being searched already
                 Err(error) if error.loop_ancestor().is_some() => {}
                 // a file or folder that cannot be examined is listed all the same: it will fail by
                 // itself when it is read, and stop no other
@@ -174,9 +176,11 @@ fn walk(
 /// Gives every file the name of its results: the file name without its last extension, made unique.
 ///
 /// If files share a name, the names of their innermost folders are put before it, as many as are
-/// needed to tell them apart. If they differ only in their extensions, the extension is appended.
+/// needed to tell the files apart. If the files differ only in their extensions, the extension is
+/// appended.
 fn named(files: Vec<PathBuf>) -> Vec<Input> {
     let mut names: Vec<String> = files.iter().map(|f| stem(f)).collect();
+    // names that still clash with 15 folder names before them get a number below
     for folders in 1..16 {
         // a second or further folder name only helps to tell apart files in different folders
         let helps = |a: &Path, b: &Path| folders == 1 || a.parent() != b.parent();
@@ -240,8 +244,8 @@ fn extension(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 
-/// Returns the indices of files that share their name with another file, if `matters` returns
-/// `true` for the two paths.
+/// Returns the indices of files that share their name with another file, where `matters` returns
+/// `true` for the paths of the two. `names` has one name per file.
 fn clashes(files: &[PathBuf], names: &[String], matters: impl Fn(&Path, &Path) -> bool) -> Vec<usize> {
     let mut groups: HashMap<String, Vec<usize>> = HashMap::new();
     for (i, name) in names.iter().enumerate() {

@@ -12,10 +12,10 @@ use std::str::FromStr;
 /// groups.
 #[derive(Clone, Debug, Default)]
 pub struct Labels {
-    /// The manifest: a table with one row per image, such as its subject and its place on the
-    /// retina.
+    /// The manifest: a table with one row per image, which states for example the subject and the
+    /// location on the retina.
     pub manifest: Option<Manifest>,
-    /// The rule by which images form groups; `None`: no means over groups are wanted.
+    /// The rule by which images form groups. `None` if no means over groups are wanted.
     pub group_by: Option<GroupBy>,
 }
 
@@ -24,7 +24,7 @@ pub struct Labels {
 pub enum GroupBy {
     /// Images form a group if they have the same text in all of these columns of the manifest.
     Columns(Vec<String>),
-    /// Images form a group if this rule derives the same group from their names.
+    /// Images form a group if this rule derives the same group name from their names.
     Name(Grouping),
 }
 
@@ -45,8 +45,8 @@ impl FromStr for GroupBy {
 }
 
 impl GroupBy {
-    /// Reinterprets a regular expression as column names if it consists only of names of columns of
-    /// the manifest.
+    /// Turns a regular expression into names of columns if its text, split at commas, consists of
+    /// names of columns of the manifest.
     ///
     /// For example, someone who writes `diagnosis` and has a manifest with a column of that name
     /// means the column.
@@ -58,31 +58,32 @@ impl GroupBy {
     }
 }
 
-/// Limit of a likely density, as a ratio to the expected density: a density that is more than twice
-/// or less than half the expected one is reported as unlikely.
+/// Largest ratio, either way, between a likely density and the expected density: a density that is
+/// more than twice or less than half the expected one causes a warning.
 ///
 /// In the foveal centre, where eyes differ most, Curcio et al. (1990,
 /// <https://doi.org/10.1002/cne.902920402>) counted 100 000 to 324 000 cones per mm² in healthy
 /// eyes: 0.5 to 1.6 times their mean.
 const UNLIKELY: f64 = 2.;
 
-/// Names of columns of a manifest that hold the person, in lower case.
+/// Names, in lower case, of columns of a manifest that identify the person.
 const PERSON: [&str; 2] = ["subject", "subject_id"];
 
 /// Facts that a manifest states about one image.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::batch) struct Label {
-    /// Text of each column of the manifest, in its order; empty text if no row fits the image.
+    /// Text in each column of the manifest, in the order of the columns; all texts are empty if no
+    /// row fits the image.
     pub labels: Vec<String>,
-    /// Place on the retina; `None` if the manifest does not state it.
+    /// Location on the retina; `None` if the manifest does not state it.
     pub place: Option<RetinalPlace>,
     /// Warning that the manifest has no row for the image; `None` if it has one.
     pub warning: Option<String>,
 }
 
 impl Label {
-    /// Adds the facts to the record of an image, and adds warnings: that the image has no row, or
-    /// that its density is unlikely at its place on the retina.
+    /// Adds the facts to the record of an image. Also adds warnings if the image has no row, or if
+    /// its density is unlikely at its location on the retina.
     pub fn put_on(self, record: &mut MosaicRecord, warnings: &mut Vec<String>) {
         record.labels = self.labels;
         record.place = self.place;

@@ -8,7 +8,8 @@ pub(in crate::batch) fn image_name(coordinates: &Path) -> String {
     stem.strip_suffix("_coords").map_or(stem.clone(), str::to_owned)
 }
 
-/// Returns whether the name of a file ends in `_coords`, which marks it as a file of hand marks.
+/// Returns whether the name of a file ends in `_coords` before the extension, which means that it
+/// is a file of hand marks.
 pub(in crate::batch) fn says_coords(path: &Path) -> bool {
     path.file_stem().unwrap_or_default().to_string_lossy().ends_with("_coords")
 }
@@ -28,7 +29,8 @@ fn capitalised(word: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// Returns the image of the same name beside a coordinate file; `None` if there is none.
+/// Returns the image that lies beside a coordinate file and has its name (see [`image_name`]);
+/// `None` if there is no such image.
 pub(in crate::batch) fn image_beside(coordinates: &Path) -> Option<PathBuf> {
     let folder = coordinates.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     image_in(folder, &image_name(coordinates))

@@ -4,8 +4,8 @@ use crate::report::{ColumnNames, column_names};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// Columns whose numbers describe how an image was taken. They are not measurements, and so are not
-/// compared.
+/// Columns whose numbers describe how an image was taken. They are no measurements, so they are not
+/// compared unless the user names them.
 const NO_MEASURE: [&str; 6] =
     ["width_px", "height_px", "um_per_px", "um_per_unit", "um_per_degree", "eccentricity_mm"];
 
@@ -20,8 +20,8 @@ pub(in crate::batch) struct Readings {
     pub columns: Vec<String>,
     /// Unit of the coordinates; `None` unless the table states the same unit in every row.
     pub unit: Option<String>,
-    /// Values of all columns, in their order, with the name of the image as key; `None` for a cell
-    /// without a number.
+    /// Values of one row per image, in the order of `columns`, with the name of the image as key. A
+    /// value is `None` if its cell has no number.
     pub items: BTreeMap<String, Vec<Option<f64>>>,
 }
 
@@ -58,6 +58,7 @@ impl Readings {
         let mut units = BTreeSet::new();
         let mut items: BTreeMap<String, Vec<Option<f64>>> = BTreeMap::new();
         for (k, row) in reader.records().enumerate() {
+            // lines count from 1, and line 1 is the header
             let line = k + 2;
             let row = row.map_err(|e| fail(format!("line {line}: cannot be read ({e}): correct the row")))?;
             let name = row.get(key).unwrap_or_default().trim();
@@ -98,7 +99,8 @@ impl Readings {
 
     /// Returns the first of `names` under which this table has a column with numbers.
     ///
-    /// Names without a unit are tried only if the coordinates of the table are in px.
+    /// `names` are names of the same quantity. Those without a unit are tried only if the
+    /// coordinates of the table are in px.
     fn name_of(&self, names: &ColumnNames) -> Option<String> {
         let pixels = self.unit.as_deref() == Some("px");
         let plain = names.in_pixels.iter().copied().filter(|_| pixels);
@@ -124,12 +126,12 @@ pub(in crate::batch) struct Chosen {
     pub named: Vec<String>,
 }
 
-/// Returns the columns in `asked`; if `asked` is empty, all columns that hold numbers in every
+/// Returns the columns in `asked`; if `asked` is empty, all columns that have numbers in every
 /// table.
 ///
-/// A column may have a different name in each table. `density` is found as `density_per_px2`, or in
-/// any other unit that all tables have. A name that a column had in an earlier version of the
-/// program finds the column under its current name.
+/// A column may have a different name in each table. For `density`, for example, the column
+/// `density_per_px2` is found, or that in any other unit that all tables have. For a name that a
+/// column had in an earlier version of the program, the column is found under its current name.
 ///
 /// # Errors
 /// Fails if a column asked for is missing from a table, or if the tables have it in no common unit.
@@ -159,7 +161,7 @@ fn literal(readings: &[Readings], column: &str) -> Chosen {
     Chosen { name: column.to_owned(), named: vec![column.to_owned(); readings.len()] }
 }
 
-/// Finds the column `asked` in every table, in the same unit.
+/// Finds the column `asked` in every table, in the same unit in all of them.
 fn resolved(readings: &[Readings], asked: &str) -> Result<Chosen, BatchError> {
     let candidates = column_names(asked);
     let has = |r: &&Readings| r.columns.iter().any(|c| c == asked);

@@ -10,27 +10,27 @@ pub enum ScaleSource {
     Unknown,
     /// Every image has this scale.
     Given(Scale),
-    /// All images show a field of the same width. The scale of an image follows from its width in
-    /// px.
+    /// All images show a field of the same width in µm. The scale of an image follows from its
+    /// width in px.
     FieldWidth {
         /// Width of the field in µm.
         um: f64,
         /// Length on the retina per degree of visual angle, in µm.
         um_per_degree: f64,
     },
-    /// Scales are read from a table with one row per image, by the image's name.
+    /// Scales come from a table with one row per image, which is found by the name of the image.
     Table {
         /// The table of scales.
         table: ScaleTable,
         /// `true` to allow images without a row, which stay in pixels.
         optional: bool,
     },
-    /// Another source gives the scale of a slide, which is corrected for the shrinkage of the
-    /// tissue in preparation.
+    /// The tissue shrank while the slide was prepared. Another source gives the scale on the slide,
+    /// and the correction for the shrinkage turns it into the scale of the living tissue.
     Shrunk {
-        /// The source of the scale of the slide.
+        /// The source of the scale on the slide.
         slide: Box<Self>,
-        /// Fraction of the living length that was lost, 0 to 0.9.
+        /// Fraction by which lengths in the living tissue shrank, 0 to 0.9.
         shrinkage: f64,
     },
 }
@@ -72,7 +72,7 @@ impl ScaleSource {
     ///
     /// # Errors
     /// Fails if a table has several rows for the image, or no row although it must have one; if a
-    /// scale is out of range; or if a shrinkage is given without a scale.
+    /// scale is out of range; or if the tissue shrank but no scale is known.
     pub fn scale_of(&self, path: &Path, width: usize) -> Result<Option<Scale>, BatchError> {
         match self {
             Self::Unknown => Ok(None),

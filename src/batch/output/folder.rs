@@ -9,13 +9,14 @@ use std::sync::Arc;
 
 /// The result folder, or a folder inside it, into which results are written.
 ///
-/// A file or folder gets its final name only when it is complete, and every file is noted in the
+/// A file or folder gets its final name only when it is complete. Every file is listed in the
 /// ledger.
 pub(in crate::batch) struct OutputFolder {
     path: PathBuf,
     /// Path of this folder inside the result folder, ending in a slash; empty for the result folder
     /// itself.
     prefix: String,
+    /// The ledger of the result folder.
     ledger: Arc<Ledger>,
 }
 
@@ -33,8 +34,8 @@ impl OutputFolder {
     /// the folder of earlier results first.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), BatchError> {
         let listed = format!("{}{name}", self.prefix);
-        // files of a folder that is still being filled are the program's own: a person's file under
-        // the later name does not concern them
+        // a folder that is still being filled has a temporary path and contains only the program's
+        // own files; a person's files under the later path are saved by `replace_folder`
         let path = self.join(name);
         let in_place = path == self.ledger.root().join(&listed);
         if in_place && self.ledger.would_lose(&listed, bytes) {
@@ -48,7 +49,7 @@ impl OutputFolder {
             .map_err(|source| BatchError::Output { path, source })
     }
 
-    /// Writes a value as indented JSON, which people can read too.
+    /// Writes a value as indented JSON, so that people can read it too.
     pub fn write_json(&self, name: &str, value: &impl Serialize) -> Result<(), BatchError> {
         let mut json = serde_json::to_vec_pretty(value)?;
         json.push(b'\n');
@@ -64,12 +65,13 @@ impl OutputFolder {
 
     /// Fills a new subfolder under a temporary name, and renames it to `name` when it is complete.
     ///
-    /// Until then, an earlier folder called `name` stays in place, and also if `fill` fails. Files
-    /// in it that a person has changed are copied to the folder of earlier results.
+    /// Until then, and also if `fill` fails, an earlier folder called `name` stays where it is. Its
+    /// files that a person has changed are copied to the folder of earlier results before it is
+    /// replaced.
     ///
     /// # Errors
-    /// Fails if the earlier folder holds files that the program has not written, if `fill` fails,
-    /// or if the operating system refuses.
+    /// Fails if the earlier folder contains files that the program has not written, if `fill`
+    /// fails, or if the operating system refuses.
     pub fn replace_folder(
         &self,
         name: &str,
@@ -106,14 +108,14 @@ impl OutputFolder {
 
     /// Tidies up this folder after a run that was killed.
     ///
-    /// Unfinished files and folders are removed. If [`Self::replace_folder`] was cut off between
-    /// its two renames, the earlier folder gets its name back.
+    /// Unfinished files and folders are removed. If the run was killed between the two renames of
+    /// [`Self::replace_folder`], the earlier folder gets its name back.
     pub fn sweep(&self) {
         for name in names_in(&self.path) {
             let Some(hidden) = name.strip_prefix('.') else { continue };
             let path = self.join(&name);
-            // only folders of results that the ledger knows are touched: other folders may belong
-            // to a person
+            // only folders whose results are in the ledger are touched: others may belong to a
+            // person
             let ours = |result: &&str| self.ledger.knows_below(&format!("{}{result}/", self.prefix));
             // errors do no harm: a file or folder that cannot be removed is replaced later or is
             // ignored
@@ -143,8 +145,8 @@ impl OutputFolder {
         self.join(name).is_dir() && self.ledger.knows_below(&format!("{}{name}/", self.prefix))
     }
 
-    /// Returns the first file of a subfolder whose name the ledger does not know; `None` if it
-    /// knows all of them. Files that file managers create are ignored.
+    /// Returns the first file of a subfolder that is not in the ledger; `None` if all files are.
+    /// Files that file managers create are ignored.
     fn foreign_in(&self, name: &str) -> Option<String> {
         let known = |file: &str| self.ledger.knows(&format!("{}{name}/{file}", self.prefix));
         names_in(&self.join(name))
@@ -153,7 +155,8 @@ impl OutputFolder {
     }
 }
 
-/// Names of files that file managers create in every folder they show.
+/// Names of files that file managers create in folders that they show. They are nobody's work and
+/// may be lost.
 const OF_SYSTEMS: [&str; 3] = [".DS_Store", "Thumbs.db", "desktop.ini"];
 
 /// Returns the sorted names of the files and folders in a folder; empty if the folder cannot be
@@ -166,7 +169,8 @@ fn names_in(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Removes a folder, or a link that has its name. Succeeds if neither exists.
+/// Removes the folder `path` with its content; if `path` is a link, removes only the link. Succeeds
+/// if nothing exists there.
 fn remove_folder(path: &Path) -> io::Result<()> {
     let link = fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink());
     let removed = if link { fs::remove_file(path) } else { fs::remove_dir_all(path) };

@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Results of [`for_each`] for the files of a batch.
+/// Results of [`for_each()`] for the files of a batch.
 pub(in crate::batch) struct Worked<T> {
     /// Results of the files that succeeded, in the order of the inputs.
     pub done: Vec<T>,
@@ -17,7 +17,7 @@ pub(in crate::batch) struct Worked<T> {
 }
 
 /// Calls `work` for every input and reports each result to `progress`. Inputs are processed on all
-/// cores, in about the order given.
+/// cores, roughly in their order.
 ///
 /// An error or a panic in one file does not stop the others. Besides its result, `work` returns the
 /// line that is shown to the user about the file.
@@ -60,8 +60,8 @@ pub(in crate::batch) fn for_each<T: Send>(
     worked
 }
 
-/// Reports the failure of a file to `progress` and returns it. The reason is made one line that
-/// names the file.
+/// Reports the failure of a file to `progress` and returns it. Line breaks in `reason` become
+/// spaces, and the path of the file is put before it unless it names the file already.
 fn failed(input: &Input, reason: &str, progress: &dyn Progress) -> Failure {
     let file = input.path.display().to_string();
     let reason = reason.split_whitespace().collect::<Vec<_>>().join(" ");

@@ -7,8 +7,8 @@
 //! The list is `.conemosaic/files.sha256`, with one line per file, in the format of `sha256sum`.
 //! While a command works, it appends each line *before* the file gets its name, so that a killed
 //! run leaves no file that the ledger does not know. At the end the list is written again, sorted.
-//! `run.json` is not listed: it holds times, and the rest of the folder must have the same bytes
-//! for the same input.
+//! `run.json` is not listed. It contains times and differs in every run, while everything else in
+//! the folder, the list included, must have the same bytes for the same input.
 
 use crate::batch::BatchError;
 use crate::files::write_atomically;
@@ -27,13 +27,14 @@ pub(super) const OWN: &str = ".conemosaic";
 const LIST: &str = "files.sha256";
 /// Folder inside [`OWN`] for results of earlier runs that the current run has not written again.
 const EARLIER: &str = "earlier";
-/// File that exists while results are being written, or after a run that was cut off. The tables in
-/// the folder may then be of different runs.
+/// File that marks a result folder as incomplete. It exists while results are being written, and
+/// stays after a run that was stopped or killed. The tables in the folder may then come from
+/// different runs.
 const MARKER: &str = "INCOMPLETE.txt";
-/// File that differs in every run, since it holds times. It is not in the list.
+/// File that is not in the list, because it contains times and so differs in every run.
 const VOLATILE: &str = "run.json";
 
-/// Content of the file [`MARKER`], for a person who opens the folder too early.
+/// Content of the file [`MARKER`], addressed to a person who opens the folder too early.
 const MARKER_TEXT: &str = "\
 conemosaic is writing results into this folder, or was interrupted while it did so.
 As long as this file is here, some tables may belong to an earlier run.
@@ -43,8 +44,8 @@ To finish, run the same command again: results that are complete are kept.
 /// Files in a result folder that do not belong to the run that has just ended.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Leftovers {
-    /// Results of earlier runs that were moved to [`Self::place`], as paths inside the result
-    /// folder.
+    /// Results of earlier runs that were moved or copied to the folder [`Self::place`], as paths
+    /// inside the result folder.
     pub moved: Vec<String>,
     /// Folder to which results of earlier runs were moved.
     pub place: PathBuf,
@@ -60,24 +61,29 @@ pub(in crate::batch) enum Standing {
     Missing,
     /// The file is as the program wrote it.
     Own,
-    /// The file was changed after the program wrote it, or the program never wrote it.
+    /// The file was changed after the program wrote it, or the program never wrote a file of this
+    /// name.
     Changed,
 }
 
-/// Ledger of a result folder: the list of the files that the program wrote there. The head of this
-/// file describes it.
+/// Ledger of a result folder: the list of the files that the program wrote there, with their
+/// hashes. See the [module](self) for its purpose and format.
 pub(super) struct Ledger {
+    /// Path of the result folder.
     root: PathBuf,
-    /// SHA-256 of the files that earlier runs wrote, by path. A path has several hashes if a run
-    /// was cut off.
+    /// SHA-256 of the files that earlier runs wrote, by path. A path can have several hashes if an
+    /// earlier run was stopped or killed, so that the list was not written again.
     earlier: BTreeMap<String, BTreeSet<String>>,
+    /// State of the current run.
     now: Mutex<Now>,
 }
 
 /// State of the ledger in the current run.
 #[derive(Default)]
 struct Now {
+    /// The list of files, open for appending; `None` before the first file of the run is written.
     journal: Option<File>,
+    /// SHA-256 of the files that this run wrote, by path.
     written: BTreeMap<String, String>,
     /// Prefixes of paths: files of earlier runs whose path has one of these prefixes count as
     /// results of this run.
@@ -91,13 +97,14 @@ impl Ledger {
     pub fn open(root: &Path) -> Result<Self, BatchError> {
         let path = root.join(OWN).join(LIST);
         let text = match fs::read(&path) {
-            // damaged bytes name no file: a file that only they named then counts as a person's
+            // bytes that are no text name no file; a file that only they listed then counts as a
+            // person's
             Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
             Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
             Err(source) => return Err(BatchError::Output { path, source }),
         };
         let mut earlier: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-        // a line that was cut off by a loss of power names no file
+        // a line that a loss of power cut short lists no file
         for (hash, name) in text.split('\n').filter_map(parsed) {
             earlier.entry(name).or_default().insert(hash);
         }
@@ -109,8 +116,8 @@ impl Ledger {
         self.now.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Notes that `bytes` are about to be written to the file `name`. The first call of a run marks
-    /// the folder as incomplete.
+    /// Adds the file `name` to the ledger, before `bytes` are written to it. The first call of a
+    /// run marks the folder as incomplete.
     pub fn note(&self, name: &str, bytes: &[u8]) -> Result<(), BatchError> {
         let hash = hex(&Sha256::digest(bytes));
         let path = self.root.join(OWN).join(LIST);
@@ -131,16 +138,17 @@ impl Ledger {
         Ok(())
     }
 
-    /// Syncs the notes to the disk. Called before the files in question get their names.
+    /// Syncs to the disk what [`Self::note`] appended to the list. To be called before the files
+    /// get their names.
     ///
-    /// After a loss of power, the folder then contains no file that the ledger does not know.
+    /// After a loss of power, the folder then contains no result that is missing from the ledger.
     pub fn sync(&self) -> Result<(), BatchError> {
         let refused = |source| BatchError::Output { path: self.root.join(OWN).join(LIST), source };
         self.now().journal.as_ref().map_or(Ok(()), File::sync_data).map_err(refused)
     }
 
-    /// Removes the notes of this run on files whose paths begin with `prefix`, as these files were
-    /// not written after all.
+    /// Forgets that this run wrote files whose paths begin with `prefix`, because these files did
+    /// not get their names after all.
     pub fn forget(&self, prefix: &str) {
         self.now().written.retain(|name, _| !name.starts_with(prefix));
     }
@@ -194,9 +202,11 @@ impl Ledger {
             || self.now().written.range(from..).next().is_some_and(|(name, _)| name.starts_with(prefix))
     }
 
-    /// Returns whether every file that earlier runs have written below `prefix` is as it was
-    /// written. Files in `aside`, named relative to `prefix`, are not checked. Returns `false` if
-    /// earlier runs have written none.
+    /// Returns whether all files that earlier runs wrote into a folder are there and unchanged.
+    ///
+    /// `prefix` is the path of the folder inside the result folder, ending in a slash. `aside`
+    /// contains the names of files in the folder that are not checked. Returns `false` if earlier
+    /// runs wrote no file into the folder.
     pub fn is_whole(&self, prefix: &str, aside: &[&str]) -> bool {
         let below = self.earlier.range(prefix.to_owned()..).map(|(name, _)| name);
         let mut names = below.take_while(|name| name.starts_with(prefix)).peekable();
@@ -216,8 +226,8 @@ impl Ledger {
         let to = self.free_place(name)?;
         fs::rename(&from, &to).map_err(|source| BatchError::Output { path: to, source })?;
         self.now().moved.push(name.to_owned());
-        // the folder of the file is removed if it is empty now; `remove_dir` refuses any other
-        // folder
+        // the folder of the file is removed if it is empty now; `remove_dir` does not remove any
+        // other folder
         match from.parent() {
             Some(parent) if parent != self.root => fs::remove_dir(parent).or(Ok(())),
             _ => Ok(()),
@@ -257,14 +267,14 @@ impl Ledger {
             let now = self.now();
             (now.written.clone(), now.kept.clone())
         };
-        // no prefix in `kept` is the beginning of another one, so only the largest prefix up to
-        // `name` can be a prefix of `name`
+        // no path in `kept` is the beginning of another one, so only the last path that does not
+        // sort after `name` can be the beginning of `name`
         let below = |name: &str| kept.range::<str, _>((Bound::Unbounded, Bound::Included(name))).next_back();
         let holds = |name: &str| below(name).is_some_and(|prefix| name.starts_with(prefix.as_str()));
         let mut list = written.clone();
         for (name, hashes) in self.earlier.iter().filter(|(name, _)| !written.contains_key(*name)) {
-            // kept results were checked when they were kept; a name has several hashes only after a
-            // killed run
+            // kept results were compared with their hashes when they were kept, so a single hash is
+            // right; there are several only after a run that was stopped or killed
             let kept = holds(name);
             match hashes.first().filter(|_| kept && hashes.len() == 1) {
                 Some(hash) if self.root.join(name).exists() => {
@@ -276,8 +286,8 @@ impl Ledger {
                         let listed = if hashes.contains(&hash) { Some(&hash) } else { hashes.first() };
                         list.extend(listed.map(|hash| (name.clone(), hash.clone())));
                     }
-                    // all results are written by now, so a file that cannot be moved is only
-                    // reported
+                    // all results are written by now, so a file that cannot be moved is reported
+                    // instead of ending in an error
                     (Some(hash), false) if hashes.contains(&hash) && self.put_away(name).is_ok() => {}
                     (Some(_), false) => left.foreign.push(name.clone()),
                 },
@@ -305,8 +315,8 @@ impl Ledger {
 
 /// Returns the line of the list for a file.
 ///
-/// Line breaks and backslashes in the name are written as in `sha256sum`: as `\n`, `\r` and `\\`,
-/// with a backslash before the hash to announce this.
+/// Line breaks and backslashes in the name are written as `sha256sum` does: as `\n`, `\r` and `\\`.
+/// A backslash before the hash says that the name contains such replacements.
 fn line(hash: &str, name: &str) -> String {
     if !name.contains(['\n', '\r', '\\']) {
         return format!("{hash}  {name}");

@@ -17,8 +17,8 @@ pub trait Progress: Sync {
         false
     }
 
-    /// Returns the text of an error. A command line may override this to say which of its options
-    /// help.
+    /// Returns the text of an error. A command line may override this method to name those of its
+    /// options that help.
     fn words(&self, error: &BatchError) -> String {
         error.to_string()
     }

@@ -17,8 +17,11 @@ const LOCK: &str = "lock";
 ///
 /// The lock belongs to the operating system: it ends with the process, however the process ends.
 pub(in crate::batch) struct ResultFolder {
+    /// The result folder itself, as a folder to write into.
     folder: OutputFolder,
+    /// The ledger of the result folder.
     ledger: Arc<Ledger>,
+    /// The lock file. The lock ends when this file is closed.
     _lock: File,
 }
 
@@ -51,19 +54,22 @@ impl ResultFolder {
         Ok(Self { folder, ledger, _lock: lock })
     }
 
-    /// Returns whether the file `name` is missing, as the program wrote it, or changed.
+    /// Compares the file `name` with what the program wrote under that name, in this or an earlier
+    /// run: the file is missing, unchanged, or changed by a person.
     pub fn standing(&self, name: &str) -> Standing {
         self.ledger.standing(name)
     }
 
-    /// Returns whether the program has ever written a file called `name`.
+    /// Returns whether the program has written a file called `name`, in this or an earlier run.
     pub fn knows(&self, name: &str) -> bool {
         self.ledger.knows(name)
     }
 
-    /// Returns whether every file that earlier runs have written below `prefix` is as it was
-    /// written. Files in `aside`, named relative to `prefix`, are not checked. Returns `false` if
-    /// earlier runs have written none.
+    /// Returns whether all files that earlier runs wrote into a folder are there and unchanged.
+    ///
+    /// `prefix` is the path of the folder inside the result folder, ending in a slash. `aside`
+    /// contains the names of files in the folder that are not checked. Returns `false` if earlier
+    /// runs wrote no file into the folder.
     pub fn is_whole(&self, prefix: &str, aside: &[&str]) -> bool {
         self.ledger.is_whole(prefix, aside)
     }
@@ -84,9 +90,9 @@ impl ResultFolder {
 
     /// Ends a run and returns the files that are left over from earlier runs.
     ///
-    /// `left` is the number of files that were not begun because the run was stopped. If it is not
-    /// 0, every file stays where it is, and so does the marker of an incomplete folder. Otherwise
-    /// results of earlier runs that do not belong to this run are moved to the folder of earlier
+    /// `left` is the number of input files that were not begun because the run was stopped. If it
+    /// is not 0, every file stays where it is, and the folder stays marked as incomplete. If it is
+    /// 0, results of earlier runs that do not belong to this run are moved to the folder of earlier
     /// results.
     ///
     /// # Errors

@@ -29,10 +29,9 @@ pub enum ConeSource {
 pub(super) struct Cones {
     /// Centres of the cones within the window, in px.
     pub points: Vec<Point>,
-    /// Number of cones outside the window, if the cones were read from a file; 0 if they were
-    /// detected.
+    /// Number of cones in the file that lie outside the window; 0 if the cones were detected.
     pub outside: usize,
-    /// Number of cones in the entire image, inside and outside the window.
+    /// Number of cones in the entire image, whether inside or outside the window.
     pub all: usize,
     /// Detections inside the window; `None` if the cones were read from a file.
     pub found: Option<Detections>,
@@ -52,13 +51,13 @@ impl Cones {
     }
 }
 
-/// Origin of an image's cones, before the cones are read or detected.
+/// Origin of an image's cones, with everything that is needed to read or detect them.
 pub(super) enum Origin<'a> {
-    /// Options of the detector that is to find the cones.
+    /// The cones are to be detected with these options.
     Detector(&'a DetectOptions),
-    /// Content of the file of cones, and the path of the file.
+    /// The cones are to be read from this file: its content and its path.
     Given(Vec<u8>, &'a Path),
-    /// Content of `points.csv` as a person has corrected it.
+    /// The cones are those of this `points.csv`, which a person has corrected: its content.
     Corrected(Vec<u8>),
 }
 
@@ -85,15 +84,15 @@ impl Origin<'_> {
 }
 
 impl Job<'_> {
-    /// Decides whether the cones of an image are detected, read from a given file, or read from a
-    /// corrected `points.csv`.
+    /// Decides whether the cones of an image are detected, read from a file of the user's, or read
+    /// from a corrected `points.csv`.
     ///
-    /// A `points.csv` that a person has corrected takes the place of the detector, unless
-    /// corrections are to be replaced.
+    /// If a person has corrected the `points.csv` of an earlier run, its cones are used instead of
+    /// the detector, unless corrections are to be replaced.
     ///
     /// # Errors
-    /// Fails if a correction would be lost because the run starts anew or uses given cones, or if
-    /// given cones are missing or cannot be read.
+    /// Fails if a correction would be lost because the run starts anew or reads its cones from
+    /// files, or if the file of cones is missing or cannot be read.
     pub(super) fn origin(&self, input: &Input, image: &Plane) -> Result<Origin<'_>, BatchError> {
         let corrected = match self.options.replace_corrections {
             true => None,
@@ -116,8 +115,8 @@ impl Job<'_> {
         }
     }
 
-    /// Returns whether the `points.csv` of an image holds a person's corrections: it was changed
-    /// after the program wrote it, or an earlier run already took it as corrected.
+    /// Returns whether the `points.csv` of an image contains a person's corrections: it was changed
+    /// after the program wrote it, or an earlier run already treated it as corrected.
     pub(super) fn is_corrected(&self, input: &Input) -> bool {
         let listed = format!("{IMAGES}/{}/{POINTS}", input.name);
         let before = || earlier_cones(&self.images.join(&input.name)) == Some(ConesFrom::Corrected);
@@ -136,9 +135,9 @@ impl Job<'_> {
         }
         let path = self.images.join(&input.name).join(POINTS);
         let bytes = fs::read(&path).map_err(|source| BatchError::Unreadable { path, source })?;
-        // A file that was cut off while it was written ends within a row, and is the beginning of
-        // what the program would write. That is no correction. A file that ends with a complete row
-        // but without a line break was saved by an editor.
+        // A file that was cut off while the program wrote it ends within a row, and its bytes are
+        // the beginning of what the program would write: that is no correction. A file that ends
+        // with a complete row but without a line break was saved by an editor.
         if let (false, ConeSource::Detector(options)) = (bytes.ends_with(b"\n"), &self.options.cones) {
             let found = detect_in(input, image, options)?;
             let scale = self.options.plan.scales.scale_of(&input.path, image.ncols())?;
@@ -154,8 +153,8 @@ impl Job<'_> {
 /// Detects or reads the cones of an image.
 ///
 /// # Errors
-/// Fails if detection fails, if a file of cones cannot be read, or if it is in µm and no scale is
-/// known.
+/// Fails if detection fails, if a file of cones cannot be read, or if a file of cones is in µm and
+/// no scale is known.
 pub(super) fn cones_of(
     origin: &Origin,
     input: &Input,
@@ -193,8 +192,8 @@ pub(super) fn cones_of(
     }
 }
 
-/// Returns only the first two columns of a file of detections. A person who adds a row need not
-/// know its score or its position in µm. Any other file is returned unchanged.
+/// Returns only the first two columns of a file of detections, x and y in px. A person who adds a
+/// row need not fill in the score or the position in µm. Any other file is returned unchanged.
 fn without_scores(bytes: &[u8]) -> Vec<u8> {
     match std::str::from_utf8(bytes) {
         Ok(text) if text.starts_with("x_px,y_px,") => {
@@ -205,7 +204,7 @@ fn without_scores(bytes: &[u8]) -> Vec<u8> {
     }
 }
 
-/// Reads a file of cones and returns those inside the window, in px, and the number of those
+/// Reads a file of cones. Returns the cones inside the window, in px, and the number of cones
 /// outside.
 fn read_cones(
     (path, bytes): (&Path, &[u8]),
@@ -218,7 +217,7 @@ fn read_cones(
     let factor = match file.unit.unwrap_or(LengthUnit::Pixel) {
         unit @ LengthUnit::Unit => return Err(BatchError::NotPixels { file: path.to_owned(), unit }),
         unit @ LengthUnit::Pixel => unit.factor_to(unit, scale),
-        // the file holds µm on the slide, but the scale is in µm of living tissue
+        // the file is in µm on the slide, but the scale is in µm of living tissue
         unit @ LengthUnit::Micrometre => {
             let expansion = job.options.plan.scales.expansion();
             unit.factor_to(LengthUnit::Pixel, scale).map(|factor| factor * expansion)

@@ -1,4 +1,5 @@
-//! Results of an image: the names of the files in its folder, and the parts that stay in memory.
+//! Results of an image: names of the files in the image's folder, and the parts of the results that
+//! stay in memory.
 
 use crate::report::tables::RoiRow;
 use crate::report::{ConesFrom, ImageRecord, LandmarkRecord};

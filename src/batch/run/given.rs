@@ -18,13 +18,15 @@ pub struct GivenCones {
 }
 
 impl GivenCones {
-    /// Finds the files of cones at `place`, which is a folder or a single file.
+    /// Finds the files of cones. `place` is the folder to search, with its subfolders, or a single
+    /// file.
     ///
-    /// A file belongs to the image of the same name; the extension and `_coords` at the end do not
-    /// count. A file `NAME/points.csv`, as this program writes it, belongs to the image NAME.
+    /// A file belongs to the image of the same name; the extension and `_coords` at the end of the
+    /// name do not count. A file `NAME/points.csv`, as this program writes it, belongs to the image
+    /// NAME.
     ///
     /// # Errors
-    /// Fails if `place` does not exist or holds no coordinate file.
+    /// Fails if `place` does not exist or contains no coordinate file.
     pub fn find(place: &Path, read: ReadOptions) -> Result<Self, BatchError> {
         let mut files: BTreeMap<String, Vec<PathBuf>> = BTreeMap::new();
         for found in coordinate_files(&[place.to_owned()], None)? {
@@ -33,13 +35,13 @@ impl GivenCones {
         Ok(Self { read, place: place.to_owned(), files })
     }
 
-    /// Returns the file that holds the cones of an image.
+    /// Returns the path of the file of cones that belongs to an image.
     ///
     /// # Errors
     /// Fails if there is no such file, or more than one.
     pub(super) fn file_of(&self, input: &Input) -> Result<&Path, BatchError> {
         let stem = input.path.file_stem().unwrap_or_default().to_string_lossy();
-        // a file that was given instead of a folder is meant for the image, whatever its name
+        // a single file is meant for the image, whatever its name
         let only = self.place.is_file().then(|| self.files.values().next()).flatten();
         let found = only.or_else(|| self.files.get(&input.name)).or_else(|| self.files.get(&*stem));
         match found.map(Vec::as_slice) {

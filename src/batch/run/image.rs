@@ -16,9 +16,10 @@ use sha2::{Digest, Sha256};
 use std::time::Instant;
 
 /// Processes one image and writes its folder, or keeps the results of an earlier run if they are
-/// still valid. Also returns the line that is shown to the user.
+/// still valid. Returns the results that stay in memory, and the line that is shown to the user.
 pub(super) fn one_image(input: &Input, job: &Job) -> Result<(Done, String), BatchError> {
     let mut clock = Instant::now();
+    // returns the seconds since the last call, as each stage ends
     let mut lap = || std::mem::replace(&mut clock, Instant::now()).elapsed().as_secs_f64();
     let plan = &job.options.plan;
     let (bytes, image) = read_image(input)?;
@@ -68,7 +69,7 @@ impl Job<'_> {
     ///
     /// If an earlier run used a person's corrections and this run does not, the corrected
     /// `points.csv` is first copied to the folder of earlier results. The same is done if the
-    /// record does not tell where the earlier cones came from.
+    /// record of the earlier run does not state the origin of its cones.
     fn replace(
         &self,
         input: &Input,

@@ -1,5 +1,5 @@
-//! The main job: the cones of every image are detected or read, analysed, and reported into one
-//! folder.
+//! The main job: detects or reads the cones of every image, analyses them, and writes the results
+//! into one folder.
 
 mod cones;
 mod done;
@@ -25,10 +25,10 @@ use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
-/// Name of the folder, inside the result folder, that holds one folder per image.
+/// Name of the folder, inside the result folder, that contains one folder per image.
 const IMAGES: &str = "images";
-/// Name of the note that is put into the folder of an image whose results are of an earlier run,
-/// because the image failed in the latest run.
+/// Name of the note that is put into the folder of an image if the image failed in the latest run,
+/// so that the results there come from an earlier run.
 const FAILED: &str = "FAILED.txt";
 
 /// Options of the main job, [`run_files`].
@@ -40,10 +40,10 @@ pub struct RunOptions {
     pub cones: ConeSource,
     /// The window: the area of each image whose cones count.
     pub window: ImageWindow,
-    /// A rectangle to which the window of each image is cut; `None`: the entire window counts.
+    /// A rectangle to which the window of each image is cut. `None` if the entire window counts.
     pub crop: Option<Crop>,
-    /// `true` to compute everything anew; `false` to keep the results of an earlier run for every
-    /// image for which image, options and program have not changed.
+    /// `true` to compute everything anew. `false` to keep the results of an earlier run for every
+    /// image if neither the image nor the options nor the program have changed.
     pub fresh: bool,
     /// `true` to replace cones that a person has corrected; the corrected files are kept in the
     /// folder of earlier results.
@@ -53,8 +53,8 @@ pub struct RunOptions {
 }
 
 impl Default for RunOptions {
-    /// Returns options by which the default detector finds the cones in the imaged part of each
-    /// image, and results of an earlier run are kept.
+    /// Returns options with which the default detector finds the cones in the imaged part of each
+    /// image, and valid results of an earlier run are kept.
     fn default() -> Self {
         Self {
             plan: Plan::default(),
@@ -125,7 +125,7 @@ pub fn run_files(
     job.finish(inputs, worked)
 }
 
-/// Refuses input images that lie in the folder whose content results will replace.
+/// Fails if an input image lies in the folder `images`, whose content results will replace.
 fn refuse_overlap(inputs: &[Input], images: &Path) -> Result<(), BatchError> {
     let Ok(results) = images.canonicalize() else { return Ok(()) };
     let within = |input: &&Input| input.path.canonicalize().is_ok_and(|path| path.starts_with(&results));
@@ -136,8 +136,9 @@ fn refuse_overlap(inputs: &[Input], images: &Path) -> Result<(), BatchError> {
 }
 
 impl Job<'_> {
-    /// Keeps the earlier results of an image that fails now, and writes a note beside them that
-    /// says so. Returns the error to report.
+    /// Keeps the earlier results of an image that failed in this run with `error`, and writes a
+    /// note about the failure beside them. Always returns an error, which mentions the earlier
+    /// results if there are any.
     fn keep_earlier<T>(
         &self,
         input: &Input,

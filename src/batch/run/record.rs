@@ -11,7 +11,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 use std::time::Instant;
 
-/// Complete content of `metrics.json`.
+/// Complete content of the file `metrics.json`.
 #[derive(Serialize)]
 pub(super) struct Metrics<'a> {
     #[serde(flatten)]
@@ -25,14 +25,15 @@ pub(super) struct Metrics<'a> {
     regions: &'a [RoiRow],
 }
 
-/// Origin of the mean curve with which a sampler entered the comparison.
+/// Facts about the mean curve by which a sampler was compared with the mosaic; the fields are those
+/// of [`ReferenceCurve`](crate::compare::ReferenceCurve).
 #[derive(Serialize)]
 struct SamplerNote<'a> {
     sampler: &'a str,
     n: usize,
     realisations: usize,
     ri: Option<f64>,
-    /// `true` if the curve comes from the table that is part of the program.
+    /// `true` if the curve comes from the table that comes with the program.
     shipped: bool,
 }
 

@@ -1,7 +1,7 @@
 //! Check of whether the results of an earlier run are still valid for an image.
 //!
-//! The results are valid if image, options, cones and program are the same and every file is as the
-//! program wrote it.
+//! The results are valid if image, options, cones and program are the same and every file is
+//! unchanged.
 
 use super::cones::Origin;
 use super::done::{Done, METRICS, POINTS};
@@ -27,9 +27,9 @@ struct Kept {
     regions: Vec<RoiRow>,
 }
 
-/// Returns a hash of everything on which the results of an image depend, except the image itself:
-/// the program with all its weights, the plan, scale, window, labels, and the options or file from
-/// which the cones come.
+/// Returns a hash of everything on which the results of an image depend, except the image itself.
+/// It covers the program with all its weights, the plan, the scale, the window, the labels, and
+/// either the options of the detector or the file of cones.
 pub(super) fn fingerprint(
     plan: &Plan,
     scale: Option<Scale>,
@@ -56,8 +56,10 @@ pub(super) fn earlier(job: &Job, input: &Input, sha256: &str, options_sha256: &s
     if record.sha256 != sha256 || record.options_sha256 != options_sha256 {
         return None;
     }
-    // corrected cones differ from what the program wrote; they are already part of `options_sha256`
+    // corrected cones differ from what the program wrote, but they are already part of
+    // `options_sha256`
     let corrected = record.cones_from == ConesFrom::Corrected;
+    // files that need not be unchanged
     let aside: &[&str] = if corrected { &[FAILED, POINTS] } else { &[FAILED] };
     let whole = job.out.is_whole(&format!("{IMAGES}/{}/", input.name), aside);
     if !whole || record.fourier.is_none() && plan.wants_fourier() {
@@ -67,8 +69,8 @@ pub(super) fn earlier(job: &Job, input: &Input, sha256: &str, options_sha256: &s
     if landmarks.is_some() != plan.maps.is_some() {
         return None;
     }
-    // the image no longer fails, so the note about a failure goes; a note that cannot be removed
-    // does no harm
+    // the image no longer fails, so the note about a failure is removed; if it cannot be removed,
+    // it does no harm
     let _ = fs::remove_file(folder.join(FAILED));
     let file = input.path.display().to_string();
     let landmarks = landmarks.map(|l| LandmarkRecord { file: file.clone(), ..l });

@@ -32,7 +32,7 @@ pub struct Analysis {
     /// Mean number of false alarms per image: first the number expected from the scores, then the
     /// number observed. `None` unless all scores lie between 0 and 1.
     pub false_alarms: Option<(f64, f64)>,
-    /// The comparison with a second detector or grader, if one was given.
+    /// The comparison with a second detector or grader; `None` if there is no second one.
     pub comparison: Option<Comparison>,
     /// Remarks that are needed to understand the numbers, each a sentence.
     pub notes: Vec<String>,
@@ -59,9 +59,10 @@ pub struct Comparison {
     pub between_intervals: BTreeMap<&'static str, Interval>,
 }
 
-/// Numbers of the random streams of two computations of intervals. As each has a stream of its own,
-/// no interval depends on what else is computed.
+/// Random stream for the intervals against the marks. Every computation has a stream of its own, so
+/// that no interval depends on what else is computed.
 const AGAINST_MARKS: u64 = 1;
+/// Random stream for the comparison of two detectors or graders.
 const OF_TWO: u64 = 2;
 
 impl Analysis {
@@ -120,7 +121,7 @@ impl Analysis {
     /// Returns the remarks that are needed to understand the numbers, each a sentence.
     fn remarks(&self, rows: &[ValidationRow]) -> Vec<String> {
         let mut notes = Vec::new();
-        // Programs differ by half a pixel along both axes in where they put the origin.
+        // different programs put the origin half a pixel apart, by the same amount along both axes
         if let Some([x, y]) = self.summary.offset_px
             && x.abs().min(y.abs()) > 0.3
             && x * y > 0.
@@ -138,6 +139,7 @@ impl Analysis {
                     .into(),
             );
         }
+        // below 6 groups that differ, p is above .05 whatever the data: see `least_p`
         let least = self.comparison.iter().flat_map(|c| &c.differences).map(|d| d.least_p).reduce(f64::min);
         if let Some(least) = least.filter(|p| *p > 0.05 && *p < 1.) {
             let few = if self.groups.is_empty() { "images" } else { "groups" };

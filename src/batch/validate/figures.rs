@@ -5,16 +5,16 @@ use crate::compare::{Agreement, Froc, Interval, Score, Summary};
 use crate::report::{AgreementLine, AgreementPanel, FrocLine, agreement_figure, froc_figure};
 use std::collections::BTreeMap;
 
-/// Returns the score with the number of marks in place of the number of detections. In a comparison
-/// of detections with marks it stands for the marks.
+/// Returns a score whose number of detections is the number of marks of `score`. In a comparison of
+/// detections with marks, this score stands for the marks.
 pub(super) const fn marks_as_detections(score: &Score) -> Score {
     Score { detections_inside: score.marks_inside, ..*score }
 }
 
 /// Draws Bland–Altman plots of count and density.
 ///
-/// `pairs` holds, for each image, the scores of the first and the second side, whose difference is
-/// first − second. Their names come in the opposite order: second, then first.
+/// `pairs` contains two scores per image, the first and the second; differences are first − second.
+/// Their names in the labels come in the opposite order: second, then first.
 pub(super) fn agreement(
     title: &str,
     (second, first): (&str, &str),
@@ -24,7 +24,7 @@ pub(super) fn agreement(
 ) -> String {
     let scaled = pairs.iter().all(|(a, b)| a.um_per_px.is_some() && b.um_per_px.is_some());
     let count = |s: &Score| s.detections_inside as f64;
-    // Cones per px² would be tiny numbers, so without a scale the density is given per 1000 px².
+    // cones per px² would be tiny numbers, so without a scale the density is per 1000 px²
     let density =
         |s: &Score| count(s) / if scaled { s.area_mm2().unwrap_or(f64::NAN) } else { s.area_px / 1000. };
     let counts: Vec<(f64, f64)> =

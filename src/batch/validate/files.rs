@@ -86,8 +86,8 @@ pub(super) fn write(
     out.write("index.html", page.as_bytes())
 }
 
-/// Returns the content of `validation.json`. The means over images stand at the top level;
-/// everything else follows under names of its own.
+/// Returns the content of `validation.json`. The means over images are fields at the top level;
+/// everything else follows in fields of its own.
 fn record(analysis: &Analysis, options: &ValidationOptions) -> serde_json::Value {
     let best = |froc: &Froc| froc.points.get(froc.best).copied();
     let mut record = json!(analysis.summary);

@@ -5,8 +5,8 @@ use std::str::FromStr;
 /// The rule that derives the group of an image from its name.
 #[derive(Clone, Debug)]
 pub enum Grouping {
-    /// The group is the first parts of the name, which underscores separate; the value is the
-    /// number of parts. By `prefix:2`, the group of `AD_10253_790nm` is `AD_10253`.
+    /// The group consists of this number of parts at the beginning of the name; underscores
+    /// separate the parts. With 2 parts (`prefix:2`), the group of `AD_10253_790nm` is `AD_10253`.
     Prefix(usize),
     /// The group is the text that the first capture group of a regular expression matches; in an
     /// expression without capture groups, it is the entire match.
@@ -36,7 +36,8 @@ impl Grouping {
     /// Returns the group of the image `name`.
     ///
     /// # Errors
-    /// Fails if the name does not match or is not in the table. The error says what to do.
+    /// Fails if the name does not match the regular expression or is not in the table. The error
+    /// says what to do.
     pub fn group_of(&self, name: &str) -> Result<String, String> {
         match self {
             Self::Prefix(parts) => Ok(name.split('_').take(*parts).collect::<Vec<_>>().join("_")),

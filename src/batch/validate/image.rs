@@ -15,15 +15,18 @@ use crate::mosaic::{LengthUnit, hexagonal_spacing};
 use crate::report::{MarkKind, OverlayMark, encode_png, overlay_with_border};
 use std::path::Path;
 
-/// Radius of the ring drawn around each point, in spacings of the marks.
+/// Radius of the ring drawn around each point, in hexagonal spacings of the marks. It is less than
+/// half a spacing, so that the rings of neighbours stay apart.
 const RING: f64 = 0.3;
 
-/// Detected points. `scores` holds one score per point, if the file or the detector gives scores.
+/// Detected points, from a file or by the detector.
 struct Found {
+    /// Positions of the points, in px.
     points: Vec<Point>,
+    /// One score per point; `None` if the file has no scores.
     scores: Option<Vec<f64>>,
-    /// Candidates that the detector did not take for cones. They continue the FROC curve below the
-    /// detector's threshold.
+    /// Candidates that the detector rejected; empty for a file. They continue the FROC curve below
+    /// the detector's threshold.
     rejected: Vec<Detection>,
 }
 
@@ -82,8 +85,9 @@ struct Against<'a> {
 }
 
 impl Against<'_> {
-    /// Scores detections against marks, and pairs them. The last value holds the outcome of every
-    /// detection; `None` if the detections have no scores.
+    /// Pairs detections with marks. Returns the score, the pairs, and the outcomes of all
+    /// detections with rejected candidates; the outcomes are `None` if the detections have no
+    /// scores.
     fn marks(
         &self,
         marks: &[Point],
@@ -108,19 +112,20 @@ impl Against<'_> {
     }
 }
 
-/// Returns the number of false alarms that the scores predict: Σ (1 − score) over the detections
-/// that count as hits or false alarms. `None` if such a detection has no score, or one that is not
-/// between 0 and 1.
+/// Returns the number of false alarms that the scores predict: the sum of 1 − score over the
+/// detections that count as hits or false alarms. Returns `None` if the score of such a detection
+/// is missing or not between 0 and 1.
 fn expected(scores: &[f64], matching: &Matching) -> Option<f64> {
     let hits = matching.pairs.iter().filter(|p| p.counted).map(|p| p.detection);
     let mut counted: Vec<usize> = hits.chain(matching.false_alarms.iter().copied()).collect();
+    // a fixed order of summation gives the same last digits whatever the order of the pairs
     counted.sort_unstable();
     let lack = |d: usize| scores.get(d).filter(|s| (0. ..=1.).contains(*s)).map(|s| 1. - s);
     counted.into_iter().map(lack).sum()
 }
 
 /// Reads the image that belongs to a file of marks. `pixels_matter` is `false` if only the size of
-/// the image is needed, which changes the error message.
+/// the image is needed; it only affects the error message.
 fn picture(input: &Input, pairs: &Pairs, pixels_matter: bool) -> Result<Plane, BatchError> {
     let name = image_name(&input.path);
     let missing = || match (&pairs.options.images, pixels_matter) {
@@ -140,8 +145,9 @@ fn picture(input: &Input, pairs: &Pairs, pixels_matter: bool) -> Result<Plane, B
     Ok(read_image(&Input { path, name })?.1)
 }
 
-/// Returns the error text for files that were not found: `given` is the folder that was searched,
-/// or the only file given, which has another name.
+/// Returns the error text for files that were not found. `given` is the folder that was searched,
+/// or the file that the user named instead of a folder and that has another name. `sought`
+/// describes the files.
 fn nothing_in(given: &Path, sought: &str) -> String {
     let given_as = given.display();
     if given.is_file() {
@@ -180,8 +186,8 @@ fn find(
     }
 }
 
-/// Reads the points of a file in px. A file without points is treated as a file with scores, since
-/// no score is missing.
+/// Reads the points of a file in px. A file without points counts as a file with scores, since no
+/// score is missing.
 fn read(path: &Path, options: &ReadOptions) -> Result<Found, BatchError> {
     let file = read_coordinates(path, options)?;
     match file.unit {
@@ -200,7 +206,7 @@ fn spacing_of(score: &Score) -> f64 {
 }
 
 /// Returns the rings of an overlay: hits, misses, false alarms, and in grey the detections that do
-/// not count.
+/// not count, because they lie in the border strip or are paired with a mark there.
 fn drawn(marks: &[Point], found: &[Point], matching: &Matching, score: &Score) -> Vec<OverlayMark> {
     let radius = RING * spacing_of(score);
     let mark = |p: Point, kind: MarkKind| OverlayMark { x: p.x, y: p.y, radius, kind };

@@ -51,17 +51,17 @@ pub struct ValidationOptions {
     pub read: ReadOptions,
     /// Source of the detections.
     pub detected: Detected,
-    /// Second set of detections, or marks of another grader, to compare the detections with;
-    /// `None`: no comparison.
+    /// Second set of detections, or marks of another grader, to compare the detections with. `None`
+    /// if nothing is to be compared.
     pub versus: Option<Detected>,
-    /// Folder of the images NAME.png or NAME.tif, or the only image; `None`: each image lies beside
-    /// its marks.
+    /// Folder of the images NAME.png or NAME.tif, or path of the only image. `None` if each image
+    /// lies beside its marks.
     pub images: Option<PathBuf>,
-    /// Width and height of every image in px; `None`: read from the images.
+    /// Width and height of every image in px. `None` if they are to be read from the images.
     pub size: Option<(usize, usize)>,
     /// Options of pairing detections with marks.
     pub matching: MatchOptions,
-    /// Rule by which images form groups; `None`: every image counts as independent.
+    /// Rule by which images form groups. `None` if every image counts as independent.
     pub grouping: Option<Grouping>,
     /// Source of the scales of the images.
     pub scales: ScaleSource,

@@ -15,12 +15,12 @@ pub(super) struct Pairs<'a> {
 }
 
 impl Pairs<'_> {
-    /// Returns the files of marks, and the other coordinate files among them. There is one file of
-    /// marks per image, with the name of the image.
+    /// Finds the files of marks, and returns one per image, with the name of the image. Also
+    /// returns the other coordinate files that were found beside them.
     ///
-    /// A file counts as marks if its name ends in `_coords`, or if an image or detections of the
-    /// same name are found. If both `NAME_coords` and `NAME` exist in a folder, only the first is
-    /// returned.
+    /// A file counts as a file of marks if its name ends in `_coords`, or if an image or detections
+    /// of the same name are found. If a folder contains both `NAME_coords` and `NAME`, only
+    /// `NAME_coords` is returned.
     pub fn marks(&self, out: &Path) -> Result<(Vec<Input>, Vec<PathBuf>), BatchError> {
         let files = coordinate_files(&[self.reference.to_owned()], Some(out))?;
         let belongs = |input: &Input| {
@@ -77,7 +77,7 @@ impl Pairs<'_> {
     }
 
     /// Returns `given` if it is a file that belongs to `marks`. If `given` is a folder, returns the
-    /// file that `in_folder` finds in it or in its corresponding subfolder.
+    /// file that `in_folder` finds in one of its two [`places`](Self::places).
     fn sought(
         &self,
         given: &Path,
@@ -90,7 +90,8 @@ impl Pairs<'_> {
         self.places(marks, given).iter().find_map(|folder| in_folder(folder))
     }
 
-    /// Returns whether `file`, which was given instead of a folder, belongs to a file of marks.
+    /// Returns whether `file`, which the user named instead of a folder, belongs to a file of
+    /// marks.
     ///
     /// If there is only one file of marks, the two always belong together. Otherwise both must name
     /// the same image.
@@ -98,8 +99,9 @@ impl Pairs<'_> {
         self.reference.is_file() || image_name(file) == image_name(marks)
     }
 
-    /// Returns the two folders in which to search: first the subfolder of `folder` at the same
-    /// relative path as the marks have below the reference folder, then `folder` itself.
+    /// Returns the two folders in which to search. If the marks lie in a subfolder of the reference
+    /// folder, the first is the subfolder of `folder` with the same relative path. The second is
+    /// `folder` itself.
     fn places(&self, marks: &Path, folder: &Path) -> [PathBuf; 2] {
         let below = marks.parent().and_then(|p| p.strip_prefix(self.reference).ok()).unwrap_or(Path::new(""));
         [folder.join(below), folder.to_owned()]

@@ -5,19 +5,23 @@ use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
-/// The part of a window whose cones count: a rectangle that is centred in the window or given by
-/// its edges. Lengths are in px, in µm or in the unit of the coordinates.
+/// The rectangle to which a window is cut, so that only the cones inside it count. It is either
+/// centred in the window or has fixed edges. Lengths are in px, in µm or in the unit of the
+/// coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crop {
     shape: Shape,
-    /// The unit that was given with the crop. `None`: the unit of the coordinates, which for an
-    /// image is px.
+    /// The unit at the end of the crop's text. `None` if the text has no unit: lengths are then in
+    /// the unit of the coordinates, which for an image is px.
     unit: Option<LengthUnit>,
 }
 
+/// Size and position of a crop, in its own unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Shape {
+    /// A rectangle of this size in the centre of the window.
     Centred { width: f64, height: f64 },
+    /// A rectangle with these left, upper, right and lower edges.
     Edges([f64; 4]),
 }
 
@@ -62,7 +66,7 @@ impl fmt::Display for Crop {
 }
 
 impl Crop {
-    /// Returns whether the crop is given in µm, so that images need a scale.
+    /// Returns whether the crop is in µm, so that images need a scale.
     pub fn in_micrometres(&self) -> bool {
         self.unit == Some(LengthUnit::Micrometre)
     }
@@ -70,8 +74,8 @@ impl Crop {
     /// Returns the rectangle that the crop leaves of `bounds`, both in `unit`; `None` if nothing is
     /// left.
     ///
-    /// A crop given as a size is centred in `bounds`. `option` is the name that the error message
-    /// gives to the crop.
+    /// A crop without fixed edges is centred in `bounds`. `file` and `option` (the name of the
+    /// crop) are for the error message only.
     ///
     /// # Errors
     /// Fails if the crop is in another unit than `unit` and no scale is known to convert it.
@@ -102,7 +106,7 @@ impl Crop {
 
     /// Returns the window, in px, that the crop leaves of an image of `width` × `height` px.
     ///
-    /// `option` is the name that the error message gives to the crop.
+    /// `file` and `option` (the name of the crop) are for the error message only.
     ///
     /// # Errors
     /// Fails if the crop leaves nothing of the image, or is in µm and no scale is known.

@@ -9,7 +9,9 @@ use std::str::FromStr;
 /// in `um` or `µm`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Length {
+    /// The length, positive and finite.
     value: f64,
+    /// `true` if `value` is in µm, `false` if it is in the unit of the coordinates.
     micrometres: bool,
 }
 
@@ -46,7 +48,7 @@ impl Serialize for Length {
 impl Length {
     /// Returns the length in the unit of the coordinates of `mosaic`.
     ///
-    /// `option` is the name that the error message gives to the length.
+    /// `file` and `option` (the name of the length) are for the error message only.
     ///
     /// # Errors
     /// Fails if the length is in µm and the scale of the mosaic is not known.

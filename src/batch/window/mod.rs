@@ -1,4 +1,5 @@
-//! Windows: the area in which the cones of an image, or the points of a file, could have been seen.
+//! Windows: the areas in which the cones of an image, or the points of a file, could have been
+//! seen.
 
 mod crop;
 mod length;

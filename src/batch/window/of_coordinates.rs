@@ -16,8 +16,8 @@ pub enum Region {
     /// The window is the area of an image of width W and height H: `[−.5, W−.5] × [−.5, H−.5]` for
     /// coordinates in px, `[0, W] × [0, H]` in any other unit.
     Size(f64, f64),
-    /// The window is a rectangle, given by its left, upper, right and lower edge in the unit of the
-    /// coordinates.
+    /// The window is the rectangle with these left, upper, right and lower edges, in the unit of
+    /// the coordinates.
     Edges([f64; 4]),
     /// The window is the imaged part (without black margins) of the image that belongs to the
     /// coordinate file; see [`imaged_area`].
@@ -66,22 +66,23 @@ impl fmt::Display for Region {
     }
 }
 
-/// Source of the windows of all coordinate files of a batch. If the window is given as a file, that
-/// file is read only once.
+/// Source of the windows of all coordinate files of a batch. If the window comes from a file of
+/// corners, that file is read only once.
 pub(in crate::batch) struct Regions<'a> {
+    /// The window that the user asked for.
     asked: &'a Region,
-    /// The folder of the images, or the only image; `None`: each image lies beside its coordinate
+    /// The folder of the images, or the only image. `None` if each image lies beside its coordinate
     /// file.
     images: Option<&'a Path>,
+    /// The content of the file of corners; `None` if the window comes from elsewhere.
     outline: Option<OutlineFile>,
 }
 
 impl<'a> Regions<'a> {
-    /// Prepares the windows that `options` ask for, and reads the file of the window if there is
-    /// one.
+    /// Prepares the windows that `options` ask for, and reads the file of corners if there is one.
     ///
     /// # Errors
-    /// Fails if the window is given as a file and that file cannot be read.
+    /// Fails if the window comes from a file of corners that cannot be read.
     pub(in crate::batch) fn new(options: &'a CoordinatesOptions) -> Result<Self, BatchError> {
         let outline = match &options.region {
             Region::File(path) => Some(read_outline(path, &options.read)?),
@@ -99,8 +100,8 @@ impl<'a> Regions<'a> {
         }
     }
 
-    /// Returns the window of a coordinate file, in `unit`, and the scale of the pixels; the scale
-    /// is `None` if it is not known.
+    /// Returns the window of a coordinate file and the scale of its image. The window is in `unit`,
+    /// the unit of the coordinates. The scale is `None` if it is not known.
     ///
     /// # Errors
     /// Fails if the window is to be taken from an image and none is found, or if the window is in
@@ -111,8 +112,8 @@ impl<'a> Regions<'a> {
         unit: LengthUnit,
         scales: &ScaleSource,
     ) -> Result<(Window, Option<Scale>), BatchError> {
-        // the window, its unit, and the width of the image, from which the scale may be computed
-        // (in px if the window is taken from an image, else in `unit`)
+        // the window, its unit, and its width, from which the scale may be computed (the width of
+        // the image in px if the window is taken from an image)
         let (window, given, width) = match (self.asked, &self.outline) {
             (Region::Auto | Region::Image, _) => {
                 let beside =
@@ -152,7 +153,7 @@ impl<'a> Regions<'a> {
             file: file.to_owned(),
         };
         let window = match (given, unit) {
-            // the tissue shrank: `load` expands the coordinates by the same factor
+            // the tissue shrank: `load` in measure.rs expands the coordinates by the same factor
             (LengthUnit::Micrometre, LengthUnit::Micrometre) if scales.expansion() != 1. => {
                 window.scaled(scales.expansion())?
             }

@@ -11,12 +11,13 @@ use std::str::FromStr;
 /// The area of an image whose cones count.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum ImageWindow {
-    /// Only cones in the imaged part count: everything but black margins. See [`imaged_area`].
+    /// Only cones in the imaged part count, which is the image without black margins. See
+    /// [`imaged_area`].
     #[default]
     Auto,
     /// All cones in the image count, also in black margins.
     Image,
-    /// Only cones in a rectangle count, which is centred in the image or given by its edges.
+    /// Only cones in a rectangle count. The rectangle is centred in the image or has fixed edges.
     Rectangle(Crop),
     /// Only cones in the polygons in this file count; see [`read_outline`].
     File(PathBuf),
@@ -52,20 +53,23 @@ impl fmt::Display for ImageWindow {
     }
 }
 
-/// Source of the windows of all images of a run. If the window is given as a file, that file is
-/// read only once.
+/// Source of the windows of all images of a run. If the window comes from a file of corners, that
+/// file is read only once.
 pub(in crate::batch) struct ImageWindows<'a> {
+    /// The window that the user asked for.
     asked: &'a ImageWindow,
+    /// The rectangle to which every window is cut; `None` if windows are not cut.
     crop: Option<&'a Crop>,
+    /// The content of the file of corners; `None` if the window comes from elsewhere.
     outline: Option<OutlineFile>,
 }
 
 impl<'a> ImageWindows<'a> {
-    /// Prepares the windows that `asked` and `crop` describe, and reads the file of the window if
+    /// Prepares the windows that `asked` and `crop` describe, and reads the file of corners if
     /// there is one.
     ///
     /// # Errors
-    /// Fails if the window is given as a file and that file cannot be read.
+    /// Fails if the window comes from a file of corners that cannot be read.
     pub(in crate::batch) fn new(asked: &'a ImageWindow, crop: Option<&'a Crop>) -> Result<Self, BatchError> {
         let outline = match asked {
             ImageWindow::File(path) => Some(read_outline(path, &ReadOptions::default())?),
@@ -74,7 +78,7 @@ impl<'a> ImageWindows<'a> {
         Ok(Self { asked, crop, outline })
     }
 
-    /// Returns the window of an image, in px: the area asked for, as far as it lies in the image
+    /// Returns the window of an image, in px: the part of the area asked for that lies in the image
     /// and in the crop.
     ///
     /// # Errors
@@ -107,7 +111,7 @@ impl<'a> ImageWindows<'a> {
     }
 }
 
-/// Converts the window that was read from a file to px.
+/// Converts the window that was read from a file of corners to px.
 fn pixels_of(outline: &OutlineFile, file: &Path, scale: Option<Scale>) -> Result<Window, BatchError> {
     let missing = || BatchError::NoScale { what: "the file of the window", file: file.to_owned() };
     match outline.unit {
@@ -139,7 +143,8 @@ mod tests {
             Window::rectangle(29.5, 19.5, 69.5, 39.5).unwrap()
         );
         let imaged = window("auto", None, &image).unwrap();
-        // 1 px of margin along the two black edges
+        // 41 × 31 px are left out, not 40 × 30: the pixels along the two black edges are left out
+        // too
         assert_eq!(imaged.area(), 6000. - 41. * 31.);
         let cropped = window("auto", Some("-0.5,-0.5,60.5,59.5"), &image).unwrap();
         assert_eq!(cropped.area(), 61. * 60. - 41. * 31.);

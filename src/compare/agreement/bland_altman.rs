@@ -26,7 +26,8 @@ pub struct Agreement {
     pub n: usize,
     /// Mean of the differences first − second.
     pub bias: f64,
-    /// Standard deviation (n − 1) of the differences; `None` for a single difference.
+    /// Standard deviation of the differences, with the divisor n − 1; `None` for a single
+    /// difference.
     pub sd: Option<f64>,
     /// Limits of agreement, bias ± 1.96 standard deviations: 95 % of normally distributed
     /// differences lie between these limits. `None` for a single difference.
@@ -74,11 +75,14 @@ impl Agreement {
     pub fn limit_intervals(&self) -> Option<[Interval; 2]> {
         let [low, high] = self.limits?;
         let n = self.n as f64;
+        // the formula above with 1/n taken out of the root: √(1/n + 1.96²/(2(n − 1))) = √(factor/n)
         let factor = 1. + Z * Z * n / (2. * (n - 1.));
         Some([self.interval(low, factor)?, self.interval(high, factor)?])
     }
 
-    /// Returns the interval `centre` ± t(n − 1) s √(`factor`/n).
+    /// Returns the interval `centre` ± t(n − 1) s √(`factor`/n), where s is the standard deviation
+    /// of the n differences and t(n − 1) the 97.5 % quantile of Student's t distribution with n − 1
+    /// degrees of freedom. Returns `None` for a single difference.
     fn interval(&self, centre: f64, factor: f64) -> Option<Interval> {
         let freedom = self.n.checked_sub(1).filter(|f| *f > 0)? as f64;
         let t = StudentsT::new(0., 1., freedom).ok()?.inverse_cdf(0.975);
@@ -95,8 +99,8 @@ mod tests {
         assert!((a - b).abs() < tolerance, "{a} instead of {b}");
     }
 
-    /// Peak expiratory flow of 17 subjects by two meters, first measurements (Bland & Altman 1986,
-    /// table 1), in l/min.
+    /// Peak expiratory flow of 17 subjects by the first of two meters, in l/min: first measurements
+    /// of table 1 of Bland & Altman (1986). [`SECOND`] has those by the second meter.
     ///
     /// The paper prints a mean difference of −2.1, a standard deviation of 38.8, limits of −79.7
     /// and 75.5, and 95 % intervals of −22.0 to 17.8 for the bias and of −114.3 to −45.1 for the
@@ -104,6 +108,7 @@ mod tests {
     const FIRST: [f64; 17] = [
         494., 395., 516., 434., 476., 557., 413., 442., 650., 433., 417., 656., 267., 478., 178., 423., 427.,
     ];
+    /// Peak expiratory flow of the same 17 subjects by the second meter, in l/min.
     const SECOND: [f64; 17] = [
         512., 430., 520., 428., 500., 600., 364., 380., 658., 445., 432., 626., 260., 477., 259., 350., 451.,
     ];

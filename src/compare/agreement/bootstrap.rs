@@ -1,8 +1,7 @@
 //! Bootstrap intervals of statistics of clustered values: entire clusters are drawn at random, and
 //! the spread of the statistic over the resamples gives its interval.
 //!
-//! 1. Draw clusters with replacement, as many as the data hold, and compute every statistic;
-//!    repeat.
+//! 1. Draw as many clusters as there are, with replacement, and compute every statistic; repeat.
 //! 2. Leave each cluster out in turn (jackknife), which shows how skewed a statistic is.
 //! 3. Read off the quantiles of the resamples at levels corrected for bias and skewness (BCa; Efron
 //!    1987, Journal of the American Statistical Association 82:171,
@@ -17,19 +16,21 @@ use statrs::distribution::{ContinuousCDF, Normal};
 /// Interval as an array of its lower and its upper end.
 pub type Interval = [f64; 2];
 
-/// Default number of resamples for [`bootstrap()`].
+/// Default number of resamples for [`bootstrap()`]. With 5000, 125 resamples lie in each tail of a
+/// 95 % interval.
 pub const RESAMPLES: usize = 5000;
 
-/// Fraction of the resamples in each tail of a 95 % interval.
+/// Fraction of the resamples that lie below a 95 % interval, and fraction that lie above it.
 const TAIL: f64 = 0.025;
 
 /// Returns the 95 % bootstrap intervals of several statistics at once, bias-corrected and
 /// accelerated (BCa; Efron 1987, <https://doi.org/10.1080/01621459.1987.10478410>).
 ///
-/// `clusters` holds the indices of the values that belong together, such as the images of one
-/// subject. Each resample draws entire clusters with replacement, as many as the data hold.
-/// `statistics` is given the indices drawn and returns every statistic, or `None` for a statistic
-/// that is undefined; an undefined value is left out of the interval of that statistic.
+/// Each entry of `clusters` holds the indices of values that belong together, such as the images of
+/// one subject. A resample consists of `clusters.len()` entire clusters, drawn with replacement.
+/// `statistics` takes the indices in a resample and returns every statistic, or `None` for a
+/// statistic that is undefined there. Resamples in which a statistic is undefined do not enter its
+/// interval.
 ///
 /// The interval of a statistic is `None` if there are fewer than two clusters, or if the statistic
 /// of all values together is undefined.
@@ -84,13 +85,14 @@ fn bca(estimate: f64, drawn: &mut [f64], left_out: &[f64], normal: &Normal) -> O
     let middle = mean(left_out).unwrap_or(estimate);
     let sum = |power: i32| left_out.iter().map(|v| (middle - v).powi(power)).sum::<f64>();
     let spread = sum(2);
+    // Efron's acceleration, a sixth of the skewness of the jackknife values
     let acceleration = if spread > 0. { sum(3) / (6. * spread.powf(1.5)) } else { 0. };
     let bias = normal.inverse_cdf(share);
     let tail = |tail: f64| {
         let z = bias + normal.inverse_cdf(tail);
         let corrected = normal.cdf(bias + z / (1. - acceleration * z));
-        // If all resamples lie on one side of the estimate, the correction is undefined and the
-        // plain percentile is used.
+        // If all resamples lie on one side of the estimate, the bias is infinite and the correction
+        // is undefined: the plain quantile of the resamples is used instead.
         if bias.is_finite() && corrected.is_finite() { corrected } else { tail }
     };
     Some([linear_quantile(drawn, tail(TAIL))?, linear_quantile(drawn, tail(1. - TAIL))?])

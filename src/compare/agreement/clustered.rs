@@ -23,11 +23,11 @@ const Z: f64 = 1.96;
 pub struct ClusteredAgreement {
     /// Number of clusters with at least one difference.
     pub clusters: usize,
-    /// Bias (mean of all differences) and limits of agreement. The standard deviation in the field
-    /// `sd` is the square root of the sum of both variance components, between and within clusters.
+    /// Bias (mean of all differences) and limits of agreement. Its field `sd` is the square root of
+    /// the sum of the variance between clusters and the variance within clusters.
     pub agreement: Agreement,
-    /// Standard deviation of the biases of the clusters, by the component of variance between
-    /// clusters; `None` for fewer than two clusters.
+    /// Standard deviation of the biases of the clusters: the square root of the variance component
+    /// between clusters. `None` for fewer than two clusters.
     pub between_sd: Option<f64>,
     /// Standard deviation of the differences within a cluster; `None` if every cluster has a single
     /// difference, or for fewer than two clusters.
@@ -100,13 +100,14 @@ struct Components {
     between: f64,
     /// Variance of the differences within a cluster (component within clusters).
     within: f64,
-    /// Variance (n − 1) of the clusters' mean differences.
+    /// Variance of the clusters' mean differences, with the divisor `clusters` − 1.
     of_means: f64,
 }
 
 impl Components {
-    /// Estimates the components; `None` for a single cluster. At least one cluster must have more
-    /// than one difference.
+    /// Estimates the variance components from the differences in each cluster (`groups`) and the
+    /// mean of all differences (`bias`). Returns `None` for a single cluster. At least one cluster
+    /// must have more than one difference.
     fn of(groups: &[Vec<f64>], bias: f64) -> Option<Self> {
         let clusters = groups.len() as f64;
         if groups.len() < 2 {
@@ -120,8 +121,9 @@ impl Components {
         let within_squares: f64 =
             groups.iter().zip(&means).flat_map(|(g, mean)| g.iter().map(move |v| square(v - mean))).sum();
         let within = within_squares / (n - clusters);
-        // effective cluster size, for clusters of different sizes
+        // effective size of a cluster; it equals the common size if all clusters are equally large
         let size = (n * n - squared_sizes) / ((clusters - 1.) * n);
+        // an estimate below 0, which chance can give, counts as no variance between clusters
         let between = ((between_squares / (clusters - 1.) - within) / size).max(0.);
         let middle = means.iter().sum::<f64>() / clusters;
         let of_means = means.iter().map(|m| square(m - middle)).sum::<f64>() / (clusters - 1.);
@@ -129,6 +131,7 @@ impl Components {
         Some(Self { clusters, n, squared_sizes, harmonic_size, between, within, of_means })
     }
 
+    /// Returns the sum of both components: the variance of a single difference.
     const fn total(&self) -> f64 {
         self.between + self.within
     }
@@ -138,13 +141,15 @@ impl Components {
         (self.between * self.squared_sizes / self.n + self.within) / self.n
     }
 
+    /// Returns the 95 % interval of the bias.
     fn bias_interval(&self, bias: f64) -> Option<Interval> {
         let t = StudentsT::new(0., 1., self.clusters - 1.).ok()?.inverse_cdf(0.975);
         let reach = t * self.of_bias().sqrt();
         Some([bias - reach, bias + reach])
     }
 
-    /// Returns the 95 % intervals of both limits by the closed form of Zou (2013), equations 4–6.
+    /// Returns the 95 % intervals of the lower and the upper limit of agreement by the closed form
+    /// of Zou (2013), equations 4–6.
     fn limit_intervals(&self, bias: f64) -> Option<[Interval; 2]> {
         // distances from a variance component to the lower and the upper end of its own interval
         let reach = |part: f64, freedom: f64| -> Option<[f64; 2]> {
@@ -175,11 +180,12 @@ mod tests {
         assert!((a - b).abs() < 1e-9, "{a} instead of {b}");
     }
 
-    /// Three clusters with means 1, 4 and 7 (mean 4, variance 9) that each hold their mean and −1,
-    /// 0, 1.
+    /// The three clusters have the means 1, 4 and 7 (mean 4, variance 9). Each contains its mean −
+    /// 1, its mean, and its mean + 1.
     ///
-    /// Sums of squares: 54 between clusters (two degrees of freedom, mean square 27), 6 within
-    /// (six, mean square 1). The component between clusters is (27 − 1)/3 = 26/3.
+    /// The sum of squares between clusters is 54, with two degrees of freedom: the mean square is
+    /// 27. The sum within clusters is 6, with six degrees of freedom: the mean square is 1. The
+    /// variance component between clusters is (27 − 1)/3 = 26/3.
     #[test]
     fn components_are_those_counted_by_hand() {
         let differences = [0., 1., 2., 3., 4., 5., 6., 7., 8.];
@@ -190,8 +196,8 @@ mod tests {
         near(found.between_sd.unwrap().powi(2), 26. / 3.);
         near(found.agreement.sd.unwrap().powi(2), 29. / 3.);
         near(found.agreement.limits.unwrap()[1], 4. + 1.96 * (29f64 / 3.).sqrt());
-        // clusters of one size: the interval is that of the three means; t of two degrees of
-        // freedom is 4.302653
+        // the clusters have equal sizes, so the interval is that of the three means; t with two
+        // degrees of freedom is 4.302653
         near((found.bias_interval.unwrap()[1] - 4.) / 3f64.sqrt(), 4.302_652_729_696_142);
     }
 
@@ -240,7 +246,7 @@ mod tests {
             of_bias += holds(found.bias_interval.unwrap(), bias);
             of_limit += holds(found.limit_intervals.unwrap()[1], truth);
         }
-        // three standard errors are 2 %
+        // 950 of 1000 are expected; three standard errors are about 20
         for held in [of_bias, of_limit] {
             assert!((920..=980).contains(&held), "{of_bias} and {of_limit} of {trials}");
         }

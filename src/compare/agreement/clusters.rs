@@ -1,7 +1,8 @@
-/// Groups images by name and returns the indices of the images of every group.
+/// Groups images by name, such as that of their subject, and returns the indices of the images of
+/// every group.
 ///
-/// Groups are sorted by name, images within a group by index. Each image without a name forms a
-/// group of its own; these groups come first.
+/// `names` has one entry per image. Groups are sorted by name, images within a group by index. Each
+/// image without a name forms a group of its own, and these groups come first.
 pub fn clusters(names: &[Option<&str>]) -> Vec<Vec<usize>> {
     let mut clusters: Vec<(Option<&str>, Vec<usize>)> = Vec::new();
     let mut order: Vec<usize> = (0..names.len()).collect();

@@ -1,7 +1,7 @@
 //! Intraclass correlations and repeatability from a two-way analysis of variance of a complete
 //! table of items × raters.
 //!
-//! 1. Split the sum of squares into items, raters and a rest.
+//! 1. Split the sum of squares into parts between items, between raters, and a rest (the error).
 //! 2. Form ICC(2,1), absolute agreement, and ICC(3,1), consistency, from the mean squares (Shrout &
 //!    Fleiss 1979, <https://doi.org/10.1037/0033-2909.86.2.420>).
 //! 3. Compute the intervals of both from quantiles of the F distribution (McGraw & Wong 1996,
@@ -11,8 +11,8 @@ use super::Interval;
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
-/// Reliability of measurements that several raters, sessions or programs made of the same items.
-/// Every rater measures every item once.
+/// Reliability of measurements of the same items by several raters, sessions or programs. Every
+/// rater measures every item once.
 ///
 /// Computed by analysis of variance: Shrout & Fleiss (1979),
 /// <https://doi.org/10.1037/0033-2909.86.2.420>; McGraw & Wong (1996),
@@ -24,7 +24,8 @@ pub struct Intraclass {
     /// Number of raters, sessions or programs.
     pub raters: usize,
     /// Absolute agreement, ICC(2,1): reliability of a single measurement by a rater drawn at
-    /// random. It is lower if the raters' means differ. `None` if all measurements are equal.
+    /// random. Differences between the raters' means lower it. `None` if all measurements are
+    /// equal.
     pub agreement: Option<f64>,
     /// 95 % confidence interval of `agreement` (McGraw & Wong 1996, case 2A); `None` if it is
     /// undefined.
@@ -68,8 +69,11 @@ pub fn intraclass(rows: &[Vec<f64>]) -> Option<Intraclass> {
     let between_raters = n * squares(&mut (0..raters).map(rater));
     // rounding may leave a sum of squares slightly below 0
     let rest = (total - between_items - between_raters).max(0.);
+    // mean squares, named as by McGraw & Wong: of rows (items), of columns (raters) and of the
+    // error
     let (msr, msc, mse) = (between_items / (n - 1.), between_raters / (k - 1.), rest / ((n - 1.) * (k - 1.)));
     let within_sd = ((between_raters + rest) / (n * (k - 1.))).sqrt();
+    // a sum of squares this small is rounding error: all measurements are equal
     let varies = total > 1e-24 * mean * mean * n * k;
     let agreement = (msr - mse) / (msr + (k - 1.) * mse + k * (msc - mse) / n);
     let consistency = (msr - mse) / (msr + (k - 1.) * mse);
@@ -133,7 +137,7 @@ mod tests {
         let near = |a: f64, b: f64| assert!((a - b).abs() < 0.005, "{a} instead of {b}");
         near(found.agreement.unwrap(), 0.29);
         near(found.consistency.unwrap(), 0.71);
-        // the paper prints mean squares too: 6.26 within items
+        // the paper also prints the mean square within items, 6.26
         near(found.within_sd.powi(2), 6.26);
         let [[a, b], [c, d]] = [found.agreement_interval.unwrap(), found.consistency_interval.unwrap()];
         assert!(a < 0.29 && 0.29 < b && b < 1. && c < 0.71 && 0.71 < d && d < 1.);
@@ -157,7 +161,8 @@ mod tests {
         let mut normal = || (0..12).map(|_| rng.random::<f64>()).sum::<f64>() - 6.;
         let (mut agree, mut consistent) = (0, 0);
         for _ in 0..400 {
-            // variances: 4 of items, 1 of raters, 1 of the rest
+            // variances: 4 of items, 1 of raters, 1 of errors; so the true agreement is 4/6 and the
+            // true consistency 4/5
             let raters: Vec<f64> = (0..4).map(|_| normal()).collect();
             let rows: Vec<Vec<f64>> = (0..15)
                 .map(|_| {
@@ -171,7 +176,7 @@ mod tests {
             consistent += usize::from(covers(found.consistency_interval, 4. / 5.));
         }
         println!("{agree} and {consistent} of 400");
-        // 380 expected, with a standard deviation of 4.4
+        // 380 are expected, with a standard deviation of 4.4; the ranges are ± 4 and ± 3.4 of these
         assert!((362..=398).contains(&agree) && (365..=395).contains(&consistent), "{agree} {consistent}");
     }
 

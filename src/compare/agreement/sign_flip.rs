@@ -2,38 +2,46 @@
 //! as well have had the other sign.
 //!
 //! 1. Sum the differences of each cluster, whose signs flip together.
-//! 2. Try all choices of signs, or a random sample of them if there are more than 16 clusters.
-//! 3. Count the choices of signs whose sum lies at least as far from zero as the observed sum
-//!    (Fisher 1935, The Design of Experiments, section 21).
+//! 2. Try all choices of signs if there are at most 16 clusters, otherwise a random sample of them.
+//! 3. Count the choices of signs whose sum lies at least as far from zero as the observed sum.
+//!
+//! Source: Fisher (1935), The Design of Experiments, section 21.
 
 use crate::numeric::mean;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-/// Largest number of clusters for which every choice of signs is tried (2¹⁶ = 65,536 choices).
+/// Largest number of clusters for which every choice of signs is tried: 2¹⁶ = 65,536 choices, about
+/// as many as are drawn at random for more clusters ([`DRAWN`]).
 const MOST_EXACT: usize = 16;
-/// Number of choices of signs drawn at random if there are more than [`MOST_EXACT`] clusters.
+/// Number of choices of signs that are drawn at random if there are more than [`MOST_EXACT`]
+/// clusters. The observed signs are counted as one more choice, so p is a multiple of 1/50,000.
 const DRAWN: usize = 49_999;
 
-/// Returns the two-sided p-value of a paired sign-flip permutation test that the mean difference is
-/// zero (Fisher 1935, The Design of Experiments, section 21).
+/// Tests whether the mean of paired differences is zero, by flipping their signs, and returns the
+/// two-sided p-value.
 ///
 /// The p-value is the fraction of choices of signs for which the mean difference lies at least as
-/// far from zero as the observed one. All differences of one cluster (such as the images of one
-/// subject) change sign together.
+/// far from zero as the observed one (Fisher 1935, The Design of Experiments, section 21). Each
+/// entry of `clusters` holds indices into `differences`. The differences of one cluster, such as
+/// those of the images of one subject, change sign together.
 ///
 /// For n ≤ 16 clusters, all choices are tried and p is exact; the smallest p-value possible is 2 /
 /// 2ⁿ: .06 for 5 clusters, .008 for 8. For more clusters, 49,999 choices are drawn and p is (1 +
-/// the number of drawn choices at least as far from zero) / 50,000. Clusters whose differences sum
-/// to 0 are not counted. Returns `None` without differences.
+/// the number of drawn choices at least as far from zero) / 50,000.
+///
+/// A cluster whose differences sum to 0 does not count as one of the n clusters, as its sign
+/// changes nothing. If all clusters sum to 0, p is 1. Indices beyond the end of `differences` are
+/// ignored. Returns `None` if there are no differences.
 pub fn sign_flip_test(differences: &[f64], clusters: &[Vec<usize>], rng: &mut ChaCha8Rng) -> Option<f64> {
     mean(differences)?;
     let sums: Vec<f64> = clusters
         .iter()
+        // `get` instead of `[i]`: the library must not panic, whatever its caller passes
         .map(|c| c.iter().filter_map(|&i| differences.get(i)).sum())
         .filter(|sum: &f64| *sum != 0.)
         .collect();
-    // Sums that differ only by rounding count as equally far from zero.
+    // sums that differ only by rounding count as equally far from zero
     let rounding = 1e-12 * sums.iter().map(|s| s.abs()).sum::<f64>();
     let observed = sums.iter().sum::<f64>().abs() - rounding;
     let is_as_far = |flipped: f64| flipped.abs() >= observed;
@@ -51,12 +59,12 @@ pub fn sign_flip_test(differences: &[f64], clusters: &[Vec<usize>], rng: &mut Ch
     Some((1 + far) as f64 / (1 + DRAWN) as f64)
 }
 
-/// Returns the smallest p-value that [`sign_flip_test`] can give for `clusters` clusters, if no
-/// cluster has differences that sum to zero.
+/// Returns the smallest p-value that [`sign_flip_test`] can give for `clusters` clusters, none of
+/// which has differences that sum to zero; 1 for no clusters.
 ///
-/// Two of the 2ⁿ choices of signs are always as far from zero as the observed one: the observed
-/// signs and their opposites. Below 6 clusters, the smallest p-value is above .05, whatever the
-/// data.
+/// For n ≤ 16 clusters it is 2 / 2ⁿ. Two of the 2ⁿ choices of signs always lie as far from zero as
+/// the observed sum: the observed signs and their opposites. With fewer than 6 clusters, p is thus
+/// above .05, whatever the data. For more than 16 clusters it is 1 / 50,000.
 pub fn least_p(clusters: usize) -> f64 {
     match i32::try_from(clusters) {
         Ok(0) => 1.,
@@ -90,18 +98,21 @@ mod tests {
 
     #[test]
     fn small_samples_have_the_p_values_counted_by_hand() {
-        // ±1 ±2 ±3 ±4: 1 + 2 + 3 − 4 is 2; all sums but the two that are 0 lie that far from 0
+        // the observed sum is 1 + 2 + 3 − 4 = 2; of the 16 sums ±1 ±2 ±3 ±4, all but the two that
+        // are 0 lie at least that far from 0
         assert_eq!(p(&[1., 2., 3., -4.], &singles(4)), 14. / 16.);
-        // sums of ±1 ±2 ±4 are the odd numbers −7…7, each once: 5 and 7 are as far as 4 + 2 − 1 = 5
+        // the observed sum is 4 + 2 − 1 = 5; the 8 sums ±1 ±2 ±4 are the odd numbers from −7 to 7,
+        // and −7, −5, 5 and 7 lie at least that far from 0
         assert_eq!(p(&[-1., 2., 4.], &singles(3)), 4. / 8.);
         assert_eq!(p(&[1., -1.], &singles(2)), 1.);
         assert_eq!(p(&[0., 0., 0.], &singles(3)), 1.);
     }
 
-    /// Darwin's pairs of crossed and self-fertilised maize, in eighths of an inch.
+    /// The data are Darwin's: differences in height of 15 pairs of crossed and self-fertilised
+    /// maize plants, in eighths of an inch.
     ///
-    /// Fisher counts 863 of 32,768 choices of signs with a sum of 314 or more, and as many with
-    /// −314 or less.
+    /// Their sum is 314. Fisher counts 863 of 32,768 choices of signs with a sum of 314 or more,
+    /// and as many with −314 or less.
     #[test]
     fn darwins_maize_has_fishers_p_value() {
         let maize = [49., -67., 8., 16., 6., 23., 28., 41., 14., 29., 56., 24., 75., 60., -48.];

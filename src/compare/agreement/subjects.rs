@@ -3,20 +3,21 @@ use super::{Interval, agreement, clusters};
 /// Mean of a quantity over subjects, some of whom have several images.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SubjectMean {
-    /// Number of subjects; `None` if no value came with a name, so that every image counted as a
-    /// subject of its own.
+    /// Number of subjects; `None` if no value has the name of a subject, so that every value counts
+    /// as a subject of its own.
     pub subjects: Option<usize>,
-    /// Mean over the subjects of each subject's mean; `None` without values.
+    /// Mean of the subjects' means; `None` without values.
     pub mean: Option<f64>,
-    /// Standard error of `mean`: the standard deviation (n − 1) of the subjects' means divided by
-    /// √n, for n subjects. `None` for fewer than two subjects.
+    /// Standard error of `mean`, for n subjects: the standard deviation of their means (divisor n −
+    /// 1) divided by √n. `None` for fewer than two subjects.
     pub standard_error: Option<f64>,
     /// 95 % confidence interval of `mean`: mean ± t(n − 1) × standard error, for n subjects. `None`
     /// for fewer than two subjects.
     pub interval: Option<Interval>,
 }
 
-/// Averages finite values over subjects; each value comes with the name of its subject.
+/// Averages values over subjects. Each value comes with the name of its subject, and must be
+/// finite.
 ///
 /// Values of one subject are not independent, so every subject counts once, with the mean of its
 /// values. A value without a name counts as a subject of its own.
@@ -46,7 +47,7 @@ mod tests {
     fn images_of_one_subject_count_as_one() {
         let named = [(Some("a"), 1.), (Some("a"), 3.), (Some("b"), 6.), (Some("c"), 10.)];
         let found = mean_over_subjects(&named);
-        // means 2, 6, 10: SD 4, t(2) = 4.3027
+        // the subjects' means are 2, 6 and 10, with a standard deviation of 4; t(2) = 4.3027
         assert_eq!((found.subjects, found.mean), (Some(3), Some(6.)));
         let error = found.standard_error.unwrap();
         assert!((error - 4. / 3f64.sqrt()).abs() < 1e-12, "{error}");

@@ -1,13 +1,14 @@
 //! Optimal one-to-one assignment on a sparse bipartite graph.
 //!
-//! 1. The graph is split into its connected components, which are many and small; each is solved
-//!    alone.
+//! 1. The graph is split into its connected components, each of which is solved alone. For marks
+//!    and detections these are many and small.
 //! 2. Within a component, rows are added one at a time by successive shortest augmenting paths with
 //!    potentials (Jonker & Volgenant 1987, <https://doi.org/10.1007/BF02278710>, on sparse graphs):
 //!    Dijkstra's search over reduced costs finds the cheapest way to place the new row, moving
 //!    others if needed.
-//! 3. Every row also has a private column that stands for “unassigned”. It costs more than any
-//!    rearrangement of the component can save, so a row stays unassigned only if it must.
+//! 3. Every row also has a private column, which no other row can take and which stands for
+//!    “unassigned”. The private column costs more than any rearrangement of the component can save,
+//!    so a row stays unassigned only if it must.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -15,21 +16,26 @@ use std::collections::BinaryHeap;
 /// Computes the one-to-one assignment with the most pairs along candidate edges; among several such
 /// assignments, one of least total cost.
 ///
-/// `candidates[row]` holds the columns that `row` may take, each with its cost between 0 and
-/// `limit`. Returns the column and cost of every row, or `None` for a row that gets no column.
+/// `candidates[row]` contains the columns that `row` may take, each with its cost, between 0 and
+/// `limit`. `columns` is the number of columns. Returns the column and cost of every row, or `None`
+/// for a row that gets no column.
 pub(super) fn assign(
     candidates: &[Vec<(usize, f64)>],
     columns: usize,
     limit: f64,
 ) -> Vec<Option<(usize, f64)>> {
     let mut result = vec![None; candidates.len()];
+    // index of each column within its component; a column belongs to one component only, so the
+    // list serves all components
     let mut local = vec![usize::MAX; columns];
     for rows in components(candidates, columns) {
+        // without a competitor, a row gets its cheapest column
         if let [row] = rows.as_slice() {
             let cheapest = candidates[*row].iter().min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
             result[*row] = cheapest.copied();
             continue;
         }
+        // columns of the component, in the order of their indices within it
         let mut names = Vec::new();
         for &(column, _) in rows.iter().flat_map(|&row| &candidates[row]) {
             if local[column] == usize::MAX {
@@ -50,8 +56,8 @@ pub(super) fn assign(
     result
 }
 
-/// Groups the rows that have candidates into connected components: two rows belong together if they
-/// share a candidate column, directly or through other rows.
+/// Groups the rows that have candidates into connected components, and returns the rows of each.
+/// Two rows belong together if they share a candidate column, directly or through other rows.
 fn components(candidates: &[Vec<(usize, f64)>], columns: usize) -> Vec<Vec<usize>> {
     let mut rows_of = vec![Vec::new(); columns];
     for (row, edges) in candidates.iter().enumerate() {
@@ -71,6 +77,7 @@ fn components(candidates: &[Vec<(usize, f64)>], columns: usize) -> Vec<Vec<usize
         while let Some(&row) = rows.get(next) {
             next += 1;
             for &(column, _) in &candidates[row] {
+                // a column is visited once: its list of rows is empty afterwards
                 for other in std::mem::take(&mut rows_of[column]) {
                     if !std::mem::replace(&mut seen[other], true) {
                         rows.push(other);
@@ -84,11 +91,12 @@ fn components(candidates: &[Vec<(usize, f64)>], columns: usize) -> Vec<Vec<usize
     components
 }
 
-/// Connected component of the graph. Column `real + row` is the private column of `row`.
+/// Connected component of the graph. Its columns 0 to `real` − 1 are columns of the graph; column
+/// `real + row` is the private column of `row`.
 struct Component<'a> {
     /// Candidates of each row: column and cost.
     edges: &'a [Vec<(usize, f64)>],
-    /// Number of real columns, those that are not private to a row.
+    /// Number of columns that are not private to a row.
     real: usize,
     /// Cost of a private column, and thus of leaving a row unassigned.
     unassigned: f64,
@@ -96,19 +104,22 @@ struct Component<'a> {
     row_potential: Vec<f64>,
     /// Dual variable of each column.
     column_potential: Vec<f64>,
-    /// Column assigned to each row.
+    /// Column assigned to each row; `usize::MAX` before the row is placed.
     column_of: Vec<usize>,
     /// Row to which each column is assigned.
     row_of: Vec<Option<usize>>,
 }
 
 impl<'a> Component<'a> {
+    /// Prepares a component. `edges` contains the candidates of each row, numbered within the
+    /// component; `limit` is the largest cost of a candidate.
     fn new(edges: &'a [Vec<(usize, f64)>], real: usize, limit: f64) -> Self {
         let rows = edges.len();
         Self {
             edges,
             real,
-            // Placing one more row can raise the cost of each other row by `limit` at most.
+            // Placing one more row can raise the cost of each other row by at most `limit`. The
+            // smallest positive number keeps the cost above 0 if `limit` is 0.
             unassigned: (limit + f64::MIN_POSITIVE) * (rows + 1) as f64,
             row_potential: vec![0.; rows],
             column_potential: vec![0.; real + rows],
@@ -117,8 +128,8 @@ impl<'a> Component<'a> {
         }
     }
 
-    /// Returns the column of every row; an index of `real` or more is a private column, so that the
-    /// row is unassigned.
+    /// Returns the column of every row. A column of `real` or more is private and means that the
+    /// row stays unassigned.
     fn solve(mut self) -> Vec<usize> {
         let columns = self.real + self.edges.len();
         let mut search = Search {
@@ -137,17 +148,19 @@ impl<'a> Component<'a> {
 
     /// Adds the row `start` by the cheapest augmenting path and updates the potentials.
     fn place(&mut self, start: usize, search: &mut Search) {
+        // one step of Dijkstra's search per pass: offer the columns of `row`, then settle the
+        // nearest column; `reached` is the distance to the last column settled
         let mut row = start;
         let mut reached = 0.;
         let mut settled = Vec::new();
         let sink = loop {
             let private = (self.real + row, self.unassigned);
             for &(column, cost) in self.edges[row].iter().chain(std::iter::once(&private)) {
-                // Rounding may turn a reduced cost of 0 into a tiny negative one.
+                // rounding may turn a reduced cost of 0 into a tiny negative one
                 let reduced = (cost - self.row_potential[row] - self.column_potential[column]).max(0.);
                 search.offer(column, reached + reduced, row);
             }
-            // The private column of `start` is free, so there is always a next column.
+            // the private column of `start` is free, so there is always a next column
             let Some(column) = search.next() else { return };
             reached = search.distance[column];
             settled.push(column);
@@ -164,6 +177,8 @@ impl<'a> Component<'a> {
             }
             self.column_potential[column] -= slack;
         }
+        // walks back along the path: every row on it takes the column by which it was reached, and
+        // its old column passes to the row before
         let mut column = sink;
         loop {
             let row = search.via[column];
@@ -178,15 +193,16 @@ impl<'a> Component<'a> {
 
 /// State of Dijkstra's search over columns. One instance serves all searches, to save allocations.
 struct Search {
-    /// Smallest cost found so far for a path to each column, in reduced costs; infinite if there is
-    /// no path yet.
+    /// Smallest sum of reduced costs found so far along a path to each column; infinite if no path
+    /// is known yet.
     distance: Vec<f64>,
-    /// Last row on the cheapest path to each column.
+    /// Last row on the cheapest path known to each column.
     via: Vec<usize>,
     /// Flag per column: `true` once its distance is final.
     done: Vec<bool>,
     /// Columns whose state must be reset before the next search.
     touched: Vec<usize>,
+    /// Queue of the columns to settle. A column may be in the queue more than once.
     heap: BinaryHeap<Waiting>,
 }
 
@@ -222,8 +238,9 @@ impl Search {
     }
 }
 
-/// Column in the queue. The nearest column compares as the largest, as `BinaryHeap` takes the
-/// largest first; ties go to the lower index.
+/// Column in the queue, with its distance. The nearest column compares as the largest, because
+/// `BinaryHeap` takes out the largest item first; among equally near columns, the lowest index
+/// comes first.
 struct Waiting {
     distance: f64,
     column: usize,
@@ -254,8 +271,9 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Returns the number of rows assigned and the total cost of the best assignment, found by
-    /// trying all assignments.
+    /// Returns the number of rows assigned and the total cost of the best assignment of the rows
+    /// from `row` on, found by trying all assignments. Bit c of `taken` is set if column c is taken
+    /// already.
     fn best(candidates: &[Vec<(usize, f64)>], row: usize, taken: u32) -> (usize, f64) {
         let Some(edges) = candidates.get(row) else { return (0, 0.) };
         let mut best_so_far = best(candidates, row + 1, taken);

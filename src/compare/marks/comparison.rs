@@ -28,8 +28,8 @@ pub struct Difference {
     pub interval: Option<Interval>,
     /// p-value of the paired sign-flip permutation test that the mean difference is zero.
     pub p: Option<f64>,
-    /// Smallest p-value that the sign-flip test could give with these groups, whatever the size of
-    /// the differences. Only groups in which the two detectors differ count; an image without a
+    /// Smallest p-value that the sign-flip test can give for this number of groups, however large
+    /// the differences are. Only groups in which the two detectors differ count; an image without a
     /// group is a group of its own.
     pub least_p: f64,
 }
@@ -37,16 +37,16 @@ pub struct Difference {
 /// Name of a measure and its value for one image.
 type Measure = (&'static str, fn(&Score) -> Option<f64>);
 
-/// Measures that do not depend on the scale.
+/// Measures that are always compared, as they do not depend on the scale.
 const RATES: [Measure; 4] = [
     ("dice", |s| Some(s.rates.dice)),
     ("sensitivity", |s| Some(s.rates.sensitivity)),
     ("fdr", |s| Some(s.rates.fdr)),
     ("count", |s| Some(s.detections_inside as f64)),
 ];
-/// Measure used if the scale of every image is known: density in cones per mm².
+/// Measure that is added if the scale of every image is known: density in cones per mm².
 const PER_MM2: Measure = ("density_per_mm2", |s| density(s, s.area_mm2()));
-/// Measure used if the scale of some image is unknown: density in cones per px².
+/// Measure that is added instead if the scale of an image is unknown: density in cones per px².
 const PER_PX2: Measure = ("density_per_px2", |s| density(s, Some(s.area_px)));
 
 /// Returns the number of detections outside the border strip per unit of `area`; `None` if the area
@@ -61,7 +61,7 @@ fn density(score: &Score, area: Option<f64>) -> Option<f64> {
 /// The measures are Dice coefficient, sensitivity, false discovery rate, count and density (per mm²
 /// if the scale of every image is known, else per px²). Each entry of `clusters` holds the indices
 /// of images that belong together, such as those of one subject. Every measure starts from a copy
-/// of the same `rng`, so all measures see the same resamples.
+/// of the same `rng`, so all measures use the same resamples.
 pub fn compare_scores(
     first: &[Score],
     second: &[Score],
@@ -95,6 +95,8 @@ fn difference(
     };
     let all: Vec<usize> = (0..pairs.len()).collect();
     let by_difference = |indexes: &[usize]| vec![of(indexes, |(a, b)| a - b)];
+    // an image without both values gets the difference 0, which changes no sum and keeps the
+    // indices in `clusters` valid
     let differences: Vec<f64> = pairs.iter().map(|pair| pair.map_or(0., |(a, b)| a - b)).collect();
     let differ = |c: &&Vec<usize>| c.iter().any(|&i| differences.get(i).is_some_and(|d| *d != 0.));
     let differing = clusters.iter().filter(differ).count();

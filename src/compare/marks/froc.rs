@@ -50,15 +50,17 @@ pub struct JudgedImage {
 /// Decides for each detection of one image of `width` × `height` px whether it is a hit or a false
 /// alarm.
 ///
-/// Detections are processed from the highest score to the lowest, equal scores in the order given.
-/// Each takes the nearest free mark within the cut-off distance (as in Everingham et al. 2010,
-/// International Journal of Computer Vision 88:303, section 4.2,
-/// <https://doi.org/10.1007/s11263-009-0275-4>). The outcome of a detection thus depends only on
-/// detections with higher scores, so one run holds for every threshold.
+/// Detections are processed from the highest score to the lowest, equal scores in the order of
+/// `detections`. Each detection takes the nearest mark within the cut-off distance that no earlier
+/// detection has taken (as in Everingham et al. 2010, International Journal of Computer Vision
+/// 88:303, section 4.2, <https://doi.org/10.1007/s11263-009-0275-4>). The outcome of a detection
+/// thus depends only on detections before it, so a single pass gives the outcomes for every
+/// threshold of the score.
 ///
-/// Cut-off distance and border are those of [`match_points`](crate::compare::match_points), but
-/// there the marks choose the detections. The two functions give different pairs where several
-/// marks and detections are near each other.
+/// `scores` has one entry per detection. Cut-off distance and border strip are those of
+/// [`match_points`](crate::compare::match_points), but in that function the marks choose the
+/// detections. The two functions give different pairs where several marks and detections are near
+/// each other.
 ///
 /// # Errors
 /// Fails under the same conditions as [`match_points`](crate::compare::match_points).
@@ -97,8 +99,7 @@ pub fn judge(
     Ok(JudgedImage { judged, marks, area_mm2: None })
 }
 
-/// Accuracy of the detections with a score of at least `threshold`, and so one point of a FROC
-/// curve.
+/// Point of a FROC curve: the accuracy of the detections with a score of at least `threshold`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FrocPoint {
     /// Lowest score of a detection that counts at this point.
@@ -124,11 +125,11 @@ pub struct FrocPoint {
 /// alarms at every threshold of the score.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Froc {
-    /// One point per score that occurs, the highest score first. Sensitivity and false alarms never
-    /// fall along the list.
+    /// One point per score that occurs, the highest score first. Sensitivity and number of false
+    /// alarms never fall along the list.
     pub points: Vec<FrocPoint>,
-    /// Index in `points` of the point with the highest mean Dice coefficient; if several are equal,
-    /// of the one with the highest threshold.
+    /// Index in `points` of the point with the highest mean Dice coefficient. Among equal points it
+    /// is the one with the highest threshold.
     pub best: usize,
 }
 
@@ -141,6 +142,7 @@ pub fn froc(images: &[JudgedImage]) -> Option<Froc> {
     let marks: usize = images.iter().map(|image| image.marks).sum();
     let area = images.iter().map(|image| image.area_mm2).sum::<Option<f64>>().filter(|a| *a > 0.);
 
+    // all images together, and each image alone; before the first detection every mark is a miss
     let mut all = Counts { misses: marks, ..Counts::default() };
     let mut single: Vec<Counts> =
         images.iter().map(|image| Counts { misses: image.marks, ..Counts::default() }).collect();
@@ -153,6 +155,7 @@ pub fn froc(images: &[JudgedImage]) -> Option<Froc> {
         sum_of_dice -= counts.rates().dice;
         counts.add(judged.verdict);
         sum_of_dice += counts.rates().dice;
+        // detections of equal score share one threshold, so the point comes after the last of them
         if events.get(k + 1).is_some_and(|next| next.0.score == judged.score) {
             continue;
         }
@@ -183,6 +186,8 @@ struct Counts {
 }
 
 impl Counts {
+    /// Counts one more detection. The mark of a hit or of an excused detection is no miss any
+    /// longer.
     const fn add(&mut self, verdict: Verdict) {
         match verdict {
             Verdict::Hit => self.hits += 1,
@@ -200,8 +205,8 @@ impl Counts {
 }
 
 impl Froc {
-    /// Returns evenly spaced points of the curve, at most about `count`. The first, last and best
-    /// points are always kept.
+    /// Returns at most `count` points of the curve, evenly spaced along the list and including the
+    /// first, and in addition the last and the best point.
     pub fn thinned(&self, count: usize) -> Vec<FrocPoint> {
         let step = self.points.len().div_ceil(count.max(1));
         let last = self.points.len().saturating_sub(1);

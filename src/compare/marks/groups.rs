@@ -12,12 +12,12 @@ pub struct GroupSummary {
     /// Means over the group's images, and pooled rates.
     #[serde(flatten)]
     pub summary: Summary,
-    /// Standard deviation (n − 1) of the Dice coefficients of the group's images; `None` for a
-    /// single image.
+    /// Standard deviation of the Dice coefficients of the group's n images, with the divisor n − 1;
+    /// `None` for a single image.
     pub dice_sd: Option<f64>,
 }
 
-/// Means over groups of images. Every group has the same weight, however many images it holds.
+/// Means over groups of images. Every group has the same weight, however many images it contains.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MeanOverGroups {
     /// Number of groups averaged.
@@ -30,14 +30,15 @@ pub struct MeanOverGroups {
     pub precision: f64,
     /// Mean of the groups' mean Dice coefficients.
     pub dice: f64,
-    /// Standard deviation (n − 1) of the groups' mean Dice coefficients; `None` for a single group.
+    /// Standard deviation of the mean Dice coefficients of the n groups, with the divisor n − 1;
+    /// `None` for a single group.
     pub dice_sd: Option<f64>,
 }
 
 /// Returns one summary per group, sorted by name of the group.
 ///
-/// `names` (of the groups) and `scores` have one entry per image. Images without a name are left
-/// out.
+/// `names` contains the name of each image's group, and `scores` the score of each image. Images
+/// without a group are left out.
 pub fn by_group(names: &[Option<&str>], scores: &[Score]) -> Vec<GroupSummary> {
     let summary_of = |members: Vec<usize>| {
         let group = names[*members.first()?]?.to_owned();

@@ -4,7 +4,7 @@
 //! 1. The cut-off distance of a pair is a fraction of the median nearest-neighbour distance of the
 //!    marks.
 //! 2. Marks are paired with detections within the cut-off distance ([`Assignment`]).
-//! 3. Pairs and unpaired points are counted, except in a border along the edges of the image.
+//! 3. Pairs and unpaired points are counted, except in a border strip along the edges of the image.
 
 use super::assignment::assign;
 use crate::choice::UnknownChoice;
@@ -81,7 +81,7 @@ impl MatchOptions {
     /// Checks that every option is in its range.
     ///
     /// # Errors
-    /// Returns the error for the first option that is out of its range.
+    /// Fails if an option is out of its range. The error names the first such option.
     pub fn validate(&self) -> Result<(), MatchError> {
         if !(self.border.is_finite() && self.border >= 0.) {
             return Err(MatchError::Border(self.border));
@@ -93,11 +93,11 @@ impl MatchOptions {
     }
 }
 
-/// Largest absolute coordinate that is accepted, in px. Up to this value, distances are exact
-/// enough to compare.
+/// Largest absolute coordinate that is accepted, in px. At this value, an `f64` is still exact to
+/// about 10⁻⁷ px, so that distances can be compared.
 const LARGEST: f64 = 1e9;
 
-/// Options, marks or detections that cannot be paired.
+/// Reason why marks and detections cannot be paired.
 #[derive(Debug, Error, PartialEq)]
 pub enum MatchError {
     /// Border width that is negative or not finite.
@@ -120,7 +120,7 @@ pub enum MatchError {
         /// Vertical coordinate in px.
         y: f64,
     },
-    /// More points than the spatial index can number.
+    /// Number of points that is too large for the spatial index.
     #[error("{0} points are too many: expected fewer than 4,294,967,295")]
     TooMany(usize),
 }
@@ -183,18 +183,19 @@ impl Matching {
 /// Pairs hand marks with detections in an image of `width` × `height` px (Cunefare et al. 2017,
 /// Scientific Reports 7:6620, <https://doi.org/10.1038/s41598-017-07103-0>).
 ///
-/// Mark and detection of a pair are at most `fraction` × the median nearest-neighbour distance of
-/// the marks apart. With fewer than two marks, the nearest-neighbour distance of the detections is
-/// used instead; with fewer than two detections as well, the limit is `border` px.
+/// The distance between mark and detection in a pair is at most `fraction` × the median
+/// nearest-neighbour distance of the marks. With fewer than two marks, the median nearest-neighbour
+/// distance of the detections is used instead; with fewer than two detections as well, the limit is
+/// `border` px.
 ///
-/// A pair of which mark or detection lies in the border strip is neither a hit nor an error, and an
-/// unpaired point in the border strip is no error. A point is in the border strip if it is at most
-/// `border` − ½ px from the centre of an outermost row or column, so the border is `border` pixels
-/// wide.
+/// A pair is neither a hit nor an error if its mark or its detection lies in the border strip, and
+/// an unpaired point in the border strip is no error. A point is in the border strip if it is at
+/// most `border` − ½ px from the centre of an outermost row or column of pixels, so the strip is
+/// `border` px wide.
 ///
 /// # Errors
 /// Fails if an option is out of its range, a coordinate is not finite or beyond ±10⁹ px, or there
-/// are too many points for the spatial index.
+/// are 4,294,967,295 points or more.
 pub fn match_points(
     marks: &[Point],
     detections: &[Point],
@@ -241,8 +242,9 @@ pub fn match_points(
 
 /// Returns the largest distance allowed in a pair, in px.
 ///
-/// `fraction` × the median nearest-neighbour distance of the marks; with fewer than two marks, of
-/// the detections; with fewer than two detections as well, the width of the border.
+/// It is `fraction` × the median nearest-neighbour distance of the marks. With fewer than two marks
+/// it is `fraction` × that of the detections, and with fewer than two detections as well, the width
+/// of the border strip.
 pub(super) fn reach(
     marks: &[Point],
     detections: &[Point],
@@ -255,7 +257,7 @@ pub(super) fn reach(
     })
 }
 
-/// Size of an image and the width of its border, in which points do not count; all in px.
+/// Size of an image and width of the border strip in which points do not count, all in px.
 #[derive(Clone, Copy)]
 pub(super) struct Field {
     width: f64,
@@ -281,7 +283,8 @@ impl Field {
     }
 }
 
-/// Checks that the coordinates of all points are finite and within ±[`LARGEST`].
+/// Checks that the coordinates of all points are finite and within ±[`LARGEST`]. `what` is the name
+/// of the points in the error message.
 pub(super) fn check(what: &'static str, points: &[Point]) -> Result<(), MatchError> {
     let is_place = |v: f64| v.abs() <= LARGEST;
     match points.iter().enumerate().find(|(_, p)| !(is_place(p.x) && is_place(p.y))) {
@@ -293,6 +296,8 @@ pub(super) fn check(what: &'static str, points: &[Point]) -> Result<(), MatchErr
 /// Pairs marks with detections by [`Assignment::Nearest`]: returns, for every mark, the index and
 /// distance of its detection, or `None` if the mark gets no detection.
 fn nearest(marks: &[Point], detections: &Index, limit: f64) -> Vec<Option<(usize, f64)>> {
+    // each mark claims its nearest detection; the closest of the marks that claim a detection gets
+    // it, the first of them if several are equally close
     let mut claims: Vec<Option<(usize, f64)>> =
         marks.iter().map(|&m| detections.nearest(m, 2).first().copied().filter(|c| c.1 <= limit)).collect();
     let mut granted: Vec<Option<(usize, f64)>> = vec![None; detections.points.len()];
@@ -315,8 +320,9 @@ pub(super) struct Index<'a> {
     tree: NeighbourTree,
 }
 
-/// Largest number of nearest candidates per point that the pairing considers. If more lie within
-/// the cut-off distance, the detections are no cones.
+/// Largest number of candidates per point that the pairing considers, the nearest ones. The default
+/// cut-off distance is shorter than the distance between neighbouring cones, so 64 points within it
+/// cannot all be cones.
 pub(super) const MOST_CANDIDATES: usize = 64;
 
 impl<'a> Index<'a> {
@@ -339,8 +345,8 @@ impl<'a> Index<'a> {
     /// `limit` away, the nearest first, ties by index.
     pub(super) fn within(&self, p: Point, limit: f64, count: usize) -> Vec<(usize, f64)> {
         let count = NonZero::new(count).unwrap_or(NonZero::<usize>::MIN);
-        // Search slightly farther, so that rounding of the squares does not cut off points at the
-        // limit.
+        // the tree takes a squared distance; it is searched slightly farther, so that rounding of
+        // the squares does not cut off points at the limit
         let radius = limit * limit * (1. + 1e-9) + f64::MIN_POSITIVE;
         let mut found = self.sorted(p, self.tree.nearest_within(p, count, radius));
         found.retain(|(_, distance)| *distance <= limit);
@@ -359,8 +365,7 @@ impl<'a> Index<'a> {
     /// two points.
     fn median_neighbour_distance(&self) -> f64 {
         let nearest_other = |(i, &p): (usize, &Point)| {
-            // Where several points coincide, the point itself need not be among the first two
-            // found.
+            // where several points coincide, the point itself need not be among the first two found
             self.nearest(p, 2).into_iter().find(|(other, _)| *other != i).map_or(0., |(_, d)| d)
         };
         let mut distances: Vec<f64> = self.points.iter().enumerate().map(nearest_other).collect();
@@ -368,8 +373,9 @@ impl<'a> Index<'a> {
     }
 }
 
-/// Returns the distance between two points, computed in the same order of operations as in SciPy. A
-/// point exactly at the limit thus falls on the same side of it as in programs that use SciPy.
+/// Returns the distance between two points, with the same order of operations as in SciPy. A
+/// distance that equals the limit up to rounding thus falls on the same side of the limit as in
+/// programs that use SciPy.
 fn distance(a: Point, b: Point) -> f64 {
     let (dx, dy) = (a.x - b.x, a.y - b.y);
     (dx * dx + dy * dy).sqrt()

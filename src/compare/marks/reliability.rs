@@ -37,7 +37,7 @@ pub struct ReliabilityBin {
 pub struct Reliability {
     /// Number of detections judged.
     pub n: usize,
-    /// Ten bins of equal width, the lowest scores first.
+    /// Ten bins of equal width that divide the scores from 0 to 1, the lowest scores first.
     pub bins: Vec<ReliabilityBin>,
     /// Expected calibration error: mean over the bins of |fraction of hits − mean score|, weighted
     /// by the number of detections in the bin (Guo et al. 2017, eq. 3,
@@ -87,7 +87,7 @@ fn bin(k: usize, members: &[(f64, bool)]) -> ReliabilityBin {
     }
 }
 
-/// Returns the 95 % Wilson score interval of a fraction `p` of `n` trials.
+/// Returns the 95 % Wilson score interval of a fraction `p` observed in `n` trials.
 fn wilson(p: f64, n: f64) -> Interval {
     let squared = Z * Z / n;
     let centre = (p + squared / 2.) / (1. + squared);
@@ -104,7 +104,8 @@ mod tests {
         let found = reliability(&[(0.95, true), (0.91, false), (0.2, false), (1., true)]).unwrap();
         let brier = (0.05f64.powi(2) + 0.91f64.powi(2) + 0.2f64.powi(2)) / 4.;
         assert!((found.brier - brier).abs() < 1e-15);
-        // the last bin: 2 of 3 hit, mean score 2.86 / 3; the third: none of 1, 0.2
+        // in the last bin 2 of 3 detections are hits, with a mean score of 2.86/3; in the third bin
+        // the only detection, with a score of 0.2, is no hit
         let ece = ((2. - 2.86f64).abs() + 0.2) / 4.;
         assert!((found.expected_calibration_error - ece).abs() < 1e-15);
         assert_eq!(found.bins.iter().map(|b| b.n).collect::<Vec<_>>(), [0, 0, 1, 0, 0, 0, 0, 0, 0, 3]);

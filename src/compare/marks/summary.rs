@@ -33,13 +33,15 @@ pub struct Summary {
     /// Mean of the images' mean displacements from mark to detection, in px to the right and down,
     /// over images with at least one hit; `None` if there are no such images.
     pub offset_px: Option<[f64; 2]>,
-    /// Rates computed from the hits, misses and false alarms of all images added up.
+    /// Rates of all images taken together: hits, misses and false alarms are added up over the
+    /// images first.
     pub pooled: Rates,
-    /// Bias and limits of agreement of the counts, in cones per image: detections − marks, both
-    /// outside the border strip of the image.
+    /// Bias and limits of agreement of the counts in cones per image. The difference of an image is
+    /// its number of detections minus its number of marks, both outside the border strip.
     pub count: Option<Agreement>,
-    /// Bias and limits of agreement of the densities. The difference of an image is given in per
-    /// cent of the mean of both densities: 100 (detections − marks) / ½ (detections + marks).
+    /// Bias and limits of agreement of the densities. The difference of an image is a percentage of
+    /// the mean of both densities, 100 (detections − marks) / (½ (detections + marks)), with the
+    /// numbers of points outside the border strip.
     pub density_percent: Option<Agreement>,
 }
 
@@ -101,10 +103,10 @@ const VALUES: &[(&str, Value)] = &[
 /// Returns the 95 % confidence intervals of the values of a [`Summary`], by their names in
 /// `validation.json`.
 ///
-/// `clusters` holds the indices of the images that belong together, such as those of one subject.
-/// The intervals come from [`bootstrap()`] over the clusters. If every cluster is a single image,
-/// the intervals of bias and limits of agreement follow from Student's t instead (see
-/// [`Agreement`]). A value whose interval cannot be computed is missing from the map.
+/// Each entry of `clusters` holds the indices of images that belong together, such as those of one
+/// subject. The intervals come from [`bootstrap()`] over the clusters. If every cluster is a single
+/// image, the intervals of bias and limits of agreement follow from Student's t distribution
+/// instead (see [`Agreement`]). A value whose interval cannot be computed is missing from the map.
 pub fn intervals(
     scores: &[Score],
     clusters: &[Vec<usize>],

@@ -3,8 +3,8 @@ use crate::geometry::Point;
 use crate::mosaic::hexagonal_spacing;
 use serde::Serialize;
 
-/// Numbers of hits and errors in one image or several, and the rates computed from them. Ratios of
-/// 0 / 0 are set to 0, as in the published evaluations.
+/// Numbers of hits, misses and false alarms in one image or several, and the rates computed from
+/// these numbers. Ratios of 0 / 0 are set to 0, as in the published evaluations.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Rates {
     /// Number of hits: pairs of a mark and a detection, both outside the border strip of the image.
@@ -65,7 +65,7 @@ pub struct Score {
     /// Number of detections divided by number of marks, both outside the border strip of the image:
     /// 1 means equal density. `None` if no mark lies outside the border strip.
     pub density_ratio: Option<f64>,
-    /// Area of the image without its border, in px².
+    /// Area of the image without its border strip, in px².
     pub area_px: f64,
     /// Scale in µm on the retina per pixel; `None` if unknown. [`validate`] leaves the field
     /// `None`; the caller may set it.
@@ -86,7 +86,7 @@ impl Score {
         self.localisation_px.zip(self.um_per_px).map(|(px, um)| px * um)
     }
 
-    /// Returns the area of the image without its border, in mm²; `None` without scale.
+    /// Returns the area of the image without its border strip, in mm²; `None` without scale.
     pub fn area_mm2(&self) -> Option<f64> {
         self.um_per_px.map(|um| self.area_px * um * um * 1e-6)
     }

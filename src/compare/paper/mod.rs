@@ -1,5 +1,5 @@
-//! Tables of Lanaro et al. (2020), <https://doi.org/10.1088/2399-6528/ab8064>: the values as
-//! printed, and the rows about samplers computed again with the samplers of this library.
+//! Tables of Lanaro et al. (2020), <https://doi.org/10.1088/2399-6528/ab8064>: the printed values,
+//! and the values about samplers computed again with the samplers of this library.
 //!
 //! # Examples
 //! ```
@@ -22,8 +22,8 @@ pub use remake::{
 };
 pub use triangle::{PAIRS, Tightest, allowed, tightest};
 
-/// Rows of Table 1 that describe samplers: name in the printed table, name of the sampler in this
-/// library, and number of points to draw.
+/// Rows of Table 1 that describe samplers. Each entry has the name in the printed table, the name
+/// of the sampler in this library, and the number of points.
 pub const TABLE_1_SAMPLERS: [(&str, &str, usize); 7] = [
     ("GN_512", "green", 512),
     ("GN_1024", "green", 1024),
@@ -34,7 +34,7 @@ pub const TABLE_1_SAMPLERS: [(&str, &str, usize); 7] = [
     ("BNOT_4050", "bnot", 4050),
 ];
 
-/// Samplers of the columns of Table 2, from left to right; the printed patterns have 1024 points
+/// Samplers of the three columns of Table 2, from left to right. Their patterns have 1024 points
 /// each.
 pub const TABLE_2_SAMPLERS: [&str; 3] = ["bnot", "dart-throwing", "jittered"];
 

@@ -1,28 +1,30 @@
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
-/// Table 1 of the paper as text.
+/// Table 1 of the paper as CSV.
 const TABLE_1: &str = include_str!("../../../fixtures/paper/table1.csv");
-/// Table 2 of the paper as text.
+/// Table 2 of the paper as CSV.
 const TABLE_2: &str = include_str!("../../../fixtures/paper/table2.csv");
 
-/// Row of Table 1 of Lanaro et al.: nearest-neighbour distances of a mosaic (in µm) or of a
+/// Row of Table 1 of Lanaro et al. (2020): nearest-neighbour distances of a mosaic, in µm, or of a
 /// sampler's points in the unit square.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct PrintedRegularity {
     /// Name of the mosaic or of the sampler's point set, as printed.
     #[serde(rename = "mosaic")]
     pub name: String,
-    /// Mean of the nearest-neighbour distances, in µm for a mosaic.
+    /// Mean of the nearest-neighbour distances: in µm for a mosaic, in sides of the unit square for
+    /// a sampler.
     pub mean: f64,
-    /// Population standard deviation of the nearest-neighbour distances, in µm for a mosaic.
+    /// Population standard deviation (divisor n) of the nearest-neighbour distances, in the unit of
+    /// `mean`.
     pub sd: f64,
     /// Regularity index: `mean` divided by `sd`, as printed.
     pub ri: f64,
 }
 
-/// Row of Table 2 of Lanaro et al.: l-infinity distance between the pair correlation function of a
-/// mosaic and those of three samplers with 1024 points each.
+/// Row of Table 2 of Lanaro et al. (2020): l-infinity distances between the pair correlation
+/// function of a mosaic and those of three samplers. The samplers' patterns have 1024 points each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrintedDistances {
     /// Name of the mosaic.
@@ -43,7 +45,7 @@ pub fn printed_distances() -> Vec<PrintedDistances> {
 }
 
 /// Parses the rows of a table that is compiled into the program. Rows that cannot be parsed are
-/// dropped; a test checks that all rows are there.
+/// dropped; a test checks that no row is.
 fn rows<T: DeserializeOwned>(text: &str) -> Vec<T> {
     csv::Reader::from_reader(text.as_bytes()).deserialize().flatten().collect()
 }
@@ -61,7 +63,7 @@ mod tests {
         let regularity = printed_regularity();
         assert_eq!((regularity.len(), printed_distances().len()), (26, 20));
         for row in &regularity {
-            // as exact as the printed digits of the deviation
+            // the printed deviation has few digits, so the quotient is only this exact
             assert!((row.mean / row.sd / row.ri - 1.).abs() < 1e-4, "{row:?}");
         }
         for (name, ..) in TABLE_1_SAMPLERS {
@@ -69,7 +71,8 @@ mod tests {
         }
     }
 
-    /// Checks the paper's main finding on its own numbers.
+    /// The paper's main finding holds in its own printed tables: the more regular a mosaic is, the
+    /// nearer it is to BNOT and the farther from dart throwing.
     #[test]
     fn the_more_regular_printed_mosaics_are_nearer_to_bnot_and_farther_from_dart_throwing() {
         let regularity = printed_regularity();

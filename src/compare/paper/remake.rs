@@ -3,8 +3,8 @@
 //!
 //! 1. Draw patterns of a sampler in the unit square and measure each pattern as the paper does
 //!    ([`pattern`]).
-//! 2. Average the regularity of the patterns, and test whether a single pattern could have the
-//!    printed value ([`made_row`]).
+//! 2. Average the regularity indices of the patterns, and test whether a single pattern could have
+//!    the printed index ([`made_row`]).
 //! 3. Average the pair correlation functions, and compute the l-infinity distance between two
 //!    samplers with its standard error ([`distance_between`]).
 
@@ -24,16 +24,17 @@ use sha2::{Digest, Sha256};
 pub struct Pattern {
     /// Points of the pattern.
     pub points: Vec<Point>,
-    /// Mean and standard deviation of the nearest-neighbour distances of all points: plain
-    /// distances without edge correction, population standard deviation.
+    /// Mean and standard deviation of the nearest-neighbour distances of all points. Distances have
+    /// no edge correction, and the standard deviation is that of the population (divisor n), as in
+    /// the paper.
     pub nearest: Moments,
     /// Pair correlation function, estimated with default options.
     pub pcf: Pcf,
 }
 
-/// Computes the pair correlation function of a pattern with another bandwidth, in hexagonal
-/// spacings. The curve begins at a distance of 1.5 bandwidths or at the default, whichever is
-/// larger.
+/// Computes the pair correlation function of a pattern with another `bandwidth` than the default,
+/// in hexagonal spacings. The curve begins at the default distance or at 1.5 bandwidths, the least
+/// that [`PcfOptions`] allow, whichever is larger.
 ///
 /// # Errors
 /// Fails if the bandwidth is out of range.
@@ -87,8 +88,9 @@ pub struct MadeRow {
     pub ri: Moments,
 }
 
-/// Largest distance between a printed value and the mean of the computed values, in standard
-/// deviations of the computed values, at which the two are said to agree.
+/// Largest distance at which a printed value and the mean of the computed values are said to agree,
+/// in standard deviations of the computed values. About 95 % of normally distributed values lie
+/// this near to their mean.
 const USUAL: f64 = 2.;
 
 impl MadeRow {
@@ -100,20 +102,21 @@ impl MadeRow {
         Some((self.printed.ri - mean) / sd)
     }
 
-    /// Returns whether a single pattern could have the printed regularity index: it lies within two
-    /// standard deviations of the mean over the patterns.
+    /// Returns whether a single pattern could have the printed regularity index: the index lies
+    /// within two standard deviations of the mean over the patterns.
     pub fn agrees(&self) -> bool {
         self.deviations().is_some_and(|z| z.abs() <= USUAL)
     }
 
-    /// Returns the number of points for which patterns would have the printed mean
-    /// nearest-neighbour distance, and the standard deviation of that number for single patterns.
+    /// Estimates how many points the printed pattern had, from its mean nearest-neighbour distance.
+    /// Returns the number of points and its standard deviation for a single pattern.
     ///
-    /// The number follows from the computed patterns, as the mean distance is proportional to 1/√n.
-    /// Returns `None` for fewer than two patterns.
+    /// The number follows from the computed patterns, since the mean distance is proportional to
+    /// 1/√n for n points. Returns `None` for fewer than two patterns.
     pub fn points_by_mean_distance(&self) -> Option<(f64, f64)> {
         let (mean, sd) = self.mean.mean.zip(self.mean.sd)?;
         let points = self.n as f64 * (mean / self.printed.mean).powi(2);
+        // the relative deviation of the square is twice that of the mean distance
         Some((points, 2. * points * sd / mean))
     }
 
@@ -155,7 +158,8 @@ pub fn peak(curve: &Pcf) -> Option<(f64, f64)> {
 pub struct DistanceBetween {
     /// Distance between the mean curves ḡ₁ and ḡ₂: max |ḡ₁ − ḡ₂|.
     pub l_infinity: f64,
-    /// Standard error of `l_infinity`, by jackknife over the patterns of each sampler.
+    /// Standard error of `l_infinity`, by jackknife: each pattern of either sampler is left out in
+    /// turn.
     pub error: f64,
 }
 
@@ -173,6 +177,7 @@ pub fn distance_between(a: &[&Pcf], b: &[&Pcf]) -> Result<DistanceBetween, Compa
     let without = |list: &[&Pcf], i: usize| -> Vec<Pcf> {
         list.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, c)| (*c).clone()).collect()
     };
+    // jackknife variance of a statistic, from its values with one pattern left out
     let variance = |values: &[f64]| {
         let m = values.len() as f64;
         let mean = values.iter().sum::<f64>() / m;

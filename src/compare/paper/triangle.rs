@@ -1,4 +1,4 @@
-//! Check of Table 2 by the triangle inequality.
+//! Check of Table 2 of the paper by the triangle inequality.
 //!
 //! l-infinity is a metric. The printed distances d₁ and d₂ from one mosaic to two samplers
 //! therefore limit the distance D between the two samplers: |d₁ − d₂| ≤ D ≤ d₁ + d₂.
@@ -13,15 +13,15 @@ pub struct Tightest {
     pub mosaic: String,
     /// Pair of samplers, as indices of columns of Table 2.
     pub between: [usize; 2],
-    /// Distance that is left before the triangle inequality is violated; negative if it is
-    /// violated.
+    /// Amount by which the distance between the two samplers may still change before the triangle
+    /// inequality is violated; negative if it is violated.
     pub room: f64,
 }
 
 /// Returns the pair of samplers whose distance is closest to violating the triangle inequality of
 /// `row`, or violates it most.
 ///
-/// `between` holds the measured distances between the samplers, in the order of [`PAIRS`].
+/// `between` contains the measured distances between the samplers, in the order of [`PAIRS`].
 pub fn tightest(row: &PrintedDistances, between: &[f64; 3]) -> Tightest {
     let rooms = PAIRS.into_iter().zip(between).map(|([a, b], &distance)| {
         let [low, high] = limits(row, [a, b]);
@@ -31,21 +31,21 @@ pub fn tightest(row: &PrintedDistances, between: &[f64; 3]) -> Tightest {
     rooms.fold(none, |least, next| if next.room < least.room { next } else { least })
 }
 
-/// Returns the range of distances between two samplers that the triangle inequalities of all rows
-/// allow: lower and upper end. The lower end exceeds the upper one if the rows contradict each
-/// other.
+/// Returns the range of distances between the samplers of a `pair` of columns that the triangle
+/// inequalities of all rows allow: lower and upper end. The lower end exceeds the upper one if the
+/// rows contradict each other.
 pub fn allowed(rows: &[PrintedDistances], pair: [usize; 2]) -> [f64; 2] {
     rows.iter()
         .map(|row| limits(row, pair))
         .fold([0., f64::INFINITY], |[low, high], next| [low.max(next[0]), high.min(next[1])])
 }
 
-/// Pairs of columns of Table 2, in the order in which this module lists the distances between the
-/// samplers.
+/// Pairs of columns of Table 2 whose samplers are compared. Lists of three distances between
+/// samplers have this order.
 pub const PAIRS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 
-/// Returns the range of distances between two samplers that the triangle inequality of one row
-/// allows: lower and upper end.
+/// Returns the range of distances between the samplers of columns `a` and `b` that the triangle
+/// inequality of one row allows: lower and upper end.
 fn limits(row: &PrintedDistances, [a, b]: [usize; 2]) -> [f64; 2] {
     let (a, b) = (row.l_infinity[a], row.l_infinity[b]);
     [(a - b).abs(), a + b]

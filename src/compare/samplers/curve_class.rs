@@ -11,28 +11,33 @@ use crate::geometry::{Polygon, Rectangle, Window};
 /// The mean curves for 250, 275, 300 and 330 points differ by .002–.011 (seven samplers), which is
 /// no more than the noise of a mean over 58 patterns (.006–.02).
 const RATIO: f64 = 1.2;
-/// Total number of points of all patterns that are drawn for one curve.
+/// Number of points of all patterns of one curve together: a curve of n points is the mean of 16
+/// 000/n patterns, within the limits of [`REALISATIONS`]. Patterns of few points scatter more, so
+/// more of them are averaged.
 const POINTS_PER_CURVE: f64 = 16_000.;
-/// Smallest and largest number of patterns per curve, for classes below [`LARGE`] points.
+/// Smallest and largest number of patterns per curve, for fewer than [`LARGE`] points.
 const REALISATIONS: (usize, usize) = (4, 60);
-/// Smallest number of points for which a curve is the mean of only 2 patterns; from five times as
-/// many points on, it is a single pattern. Large patterns vary little and take long.
+/// Number of points from which on a curve is the mean of only 2 patterns; from five times as many
+/// points on, it is the curve of a single pattern. Large patterns vary little and take long.
 const LARGE: usize = 20_000;
 
-/// Class of mosaics that share a reference curve. Numbers are stored as exponents of 1.2.
+/// Class of mosaics that share a reference curve: number of points and shape of the window, both
+/// rounded.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Class {
-    /// Number of points, as an exponent of 1.2.
+    /// Number of points, rounded to a power of 1.2 and stored as the exponent.
     pub(super) n: i32,
     /// Shape of the window.
     pub(super) shape: Shape,
 }
 
-/// Shape of a window. Rectangles are classed by their aspect ratio (width over height), as an
-/// exponent of 1.2; every polygon is a class of its own.
+/// Shape of a window. Every polygon is a class of its own.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Shape {
+    /// Rectangle with this aspect ratio (width / height), rounded to a power of 1.2 and stored as
+    /// the exponent. `torus` is `true` if its opposite edges are joined.
     Rectangle { aspect: i32, torus: bool },
+    /// Polygon with exactly these corners.
     Polygon(Polygon),
 }
 
@@ -48,17 +53,18 @@ impl Class {
         Self { n: nearest(n as f64), shape }
     }
 
-    /// Returns the class whose curve is used for this class with samplers that do not place points
-    /// in rows along the sides of the window.
+    /// Returns the class whose curve stands for the curve of this class, for samplers that do not
+    /// place points in rows along the sides of the window.
     ///
     /// For a polygon without holes that is at most as elongated as a 2.16 : 1 rectangle, this is
     /// the class of the rectangle with the same perimeter² / area. Every other class is returned
     /// unchanged.
     ///
     /// Measured on seven polygons (squares turned by 3 and 30°, a turned 2 : 1 rectangle, a slanted
-    /// side, a parallelogram, a cut corner, a circle) at 60, 300 and 1500 points. The table gives
-    /// the mean l-infinity distance between a polygon's own curve and the curve of its rectangle,
-    /// and for comparison the distance between two curves that differ only in the seed.
+    /// side, a parallelogram, a cut corner, a circle) at 60, 300 and 1500 points. Each cell of the
+    /// table has three numbers, for 60, 300 and 1500 points. They are mean l-infinity distances: in
+    /// the second column between a polygon's own curve and the curve of its rectangle, in the third
+    /// between two curves that differ only in the seed.
     ///
     /// | sampler | polygon to rectangle | seed to seed |
     /// |---|---|---|
@@ -68,9 +74,9 @@ impl Class {
     /// | dart throwing | .035, .014, .012 | .036, .014, .011 |
     /// | BNOT | .046, .014, .015 | .038, .014, .012 |
     ///
-    /// For lattices, the curves of polygon and rectangle differ clearly: by .29, .15 and .05,
-    /// against less than .006 between seeds. In more elongated shapes BNOT of few points differs
-    /// too: by .2 in a triangle and by .09 in an L, at 60 points.
+    /// For lattices, the curves of polygon and rectangle differ clearly, by .29, .15 and .05,
+    /// whereas two seeds differ by less than .006. In more elongated shapes, the curves of BNOT
+    /// differ too if there are few points: by .2 in a triangle and by .09 in an L, at 60 points.
     pub(super) fn stand_in(&self) -> Self {
         let shape = match &self.shape {
             Shape::Polygon(polygon) => Shape::like(polygon).unwrap_or_else(|| self.shape.clone()),
@@ -79,7 +85,8 @@ impl Class {
         Self { n: self.n, shape }
     }
 
-    /// Returns the number of points to draw for the class: the middle of its range, at least 2.
+    /// Returns the number of points to draw for the class: its power of 1.2 as an integer, and at
+    /// least 2.
     pub(super) fn points(&self) -> usize {
         (RATIO.powi(self.n).round() as usize).max(2)
     }
@@ -120,8 +127,9 @@ impl Class {
     }
 }
 
-/// Largest ratio of squared perimeter to area at which a polygon uses the curve of a rectangle:
-/// that of a 2.16 : 1 rectangle.
+/// Largest ratio of squared perimeter to area for which a polygon uses the curve of a rectangle. It
+/// is the ratio of a 2.16 : 1 rectangle. In more elongated polygons the curves of some samplers
+/// differ (see [`Class::stand_in`]).
 const LONGEST: f64 = 18.5;
 
 impl Shape {
@@ -133,7 +141,8 @@ impl Shape {
         let [_] = polygon.rings() else { return None };
         let perimeter = Window::Polygon(polygon.clone()).perimeter();
         let roundness = perimeter * perimeter / polygon.area();
-        // a ratio below 16 is rounder than a square, the roundest rectangle
+        // a ratio below 16, that of a square, is rounder than any rectangle: the square stands for
+        // it
         let half = (roundness / 8. - 1.).max(1.);
         let aspect = half + (half * half - 1.).sqrt();
         let bounds = polygon.bounds();

@@ -4,7 +4,7 @@ use crate::sample::Sampler;
 use crate::stats::{Pcf, PcfOptions, StatsError, pcf_on_one_thread};
 use rand::Rng;
 
-/// Draws about `n` points of a sampler in `window`. The error names the sampler.
+/// Draws about `n` points of a sampler in `window`. An error is given the name of the sampler.
 pub(crate) fn draw(
     sampler: &dyn Sampler,
     n: usize,
@@ -15,8 +15,8 @@ pub(crate) fn draw(
     sampler.sample(n, window, rng).map_err(named)
 }
 
-/// Computes the pair correlation function of a sampler's points on the calling thread only. The
-/// error names the sampler.
+/// Computes the pair correlation function of a sampler's points on the calling thread only. An
+/// error is given the name of the sampler.
 pub(crate) fn curve(
     sampler: &dyn Sampler,
     points: &[Point],
@@ -31,7 +31,7 @@ pub(crate) fn of_sampler(name: &str) -> impl Fn(StatsError) -> CompareError {
     move |source| CompareError::Stats { sampler: name.to_owned(), source }
 }
 
-/// Averages curves that are given at the same distances; `None` without curves.
+/// Averages curves that have the same distances, bin by bin. The result is `None` without curves.
 pub fn mean_curve(curves: &[&Pcf]) -> Option<Pcf> {
     let first = *curves.first()?;
     let mean = |bin: usize| curves.iter().filter_map(|c| c.g.get(bin)).sum::<f64>() / curves.len() as f64;

@@ -17,7 +17,7 @@ pub enum CompareError {
         /// Value of the property in the second curve.
         second: String,
     },
-    /// Too few points to compare.
+    /// Mosaic with too few points to compare.
     #[error("a comparison needs at least 2 points, found {found}: use a larger window")]
     TooFewPoints {
         /// Number of points found.
@@ -40,7 +40,8 @@ pub enum CompareError {
         /// Reason of the failure.
         source: StatsError,
     },
-    /// Sampler that made fewer than 2 points in every pattern, as the window is too narrow for it.
+    /// Sampler that made fewer than 2 points in every pattern, because the window is too narrow for
+    /// it.
     #[error("sampler {sampler} placed fewer than 2 of {n} points: the window is too narrow for it")]
     NoPattern {
         /// Name of the sampler.
@@ -48,7 +49,7 @@ pub enum CompareError {
         /// Number of points asked for.
         n: usize,
     },
-    /// Too few or too many simulations, or a level out of its range.
+    /// Number of simulations or significance level that is out of its range.
     #[error(
         "the number of simulations of a verdict is {found}: expected 39 to 9999 (and a level between 0 and \
          0.5)"
@@ -65,8 +66,8 @@ pub enum CompareError {
     },
 }
 
-/// Computes the l-infinity distance of two pair correlation functions: max |g₁ − g₂| over the bins
-/// (Öztireli & Gross 2012, <https://doi.org/10.1145/2366145.2366189>).
+/// Computes the l-infinity distance of two pair correlation functions: the maximum over the bins of
+/// |g₁ − g₂| (Öztireli & Gross 2012, <https://doi.org/10.1145/2366145.2366189>).
 ///
 /// Distances r are in hexagonal spacings, so patterns of different densities and units can be
 /// compared. Set covariance, translation, isotropic and torus corrections estimate the same

@@ -10,7 +10,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use sha2::{Digest, Sha256};
 
-/// Curve and regularity index of one pattern of a sampler.
+/// Pair correlation function and regularity index of one pattern of a sampler.
 pub(super) struct Realisation {
     /// Pair correlation function; `None` for fewer than two points.
     pcf: Option<Pcf>,
@@ -36,6 +36,7 @@ pub(super) fn realise(
     let window = class.window().ok_or_else(too_thin)?;
     let mut hash = Sha256::new();
     hash.update(seed.to_le_bytes());
+    // the length keeps the end of the name from being taken for the start of the next part
     hash.update((sampler.name().len() as u64).to_le_bytes());
     hash.update(sampler.name());
     hash.update(class.n.to_le_bytes());
@@ -52,8 +53,11 @@ pub(super) fn realise(
 }
 
 /// Averages the patterns of a sampler into its reference curve. In `patterns`, `None` stands for a
-/// pattern whose computation panicked. A single panic or error makes the entire curve fail;
-/// patterns of fewer than two points are left out.
+/// pattern whose computation panicked. Patterns of fewer than two points are left out.
+///
+/// # Errors
+/// Fails if the computation of any pattern failed or panicked, or if every pattern has fewer than
+/// two points.
 pub(super) fn average(
     sampler: &dyn Sampler,
     class: &Class,

@@ -25,8 +25,8 @@ pub struct ReferenceCurve {
     /// Mean pair correlation function. The field `spacing` of [`Pcf`] is the hexagonal spacing of
     /// `n` points in a window of area 1.
     pub pcf: Pcf,
-    /// Number of points asked of the sampler. It is the middle of the mosaic's class, so it may
-    /// differ from the mosaic's own number by about 10 %.
+    /// Number of points asked of the sampler: the mosaic's own number rounded to a power of 1.2, so
+    /// the two may differ by about 10 %.
     pub n: usize,
     /// Number of simulated patterns over which the curve is averaged.
     pub realisations: usize,
@@ -77,13 +77,14 @@ pub struct SamplerCurves {
 /// Curves depend on the mosaic only through its class: the number of points and the aspect ratio of
 /// the window, both rounded to steps of 20 %, and whether the window is a torus. Scale does not
 /// matter, as distances are in hexagonal spacings. For a polygon without holes, the curve of the
-/// rectangle with the same perimeter² / area is used. Elongated polygons, and any polygon with a
-/// sampler that makes lattices, have curves of their own.
+/// rectangle with the same perimeter² / area is used. Elongated polygons have curves of their own,
+/// and samplers that make lattices have a curve of their own for every polygon.
 ///
-/// A curve is the mean of 16 000/n patterns, but at least 4 and at most 60 (2 from 20 000 points
-/// on, 1 from 100 000). The noise that remains in a mean curve was measured as the l-infinity
-/// distance, for 100, 300, 1024 and 4096 points: uniform .02–.03, jittered .01–.03, Poisson disks
-/// .01–.017; lattices below .001.
+/// A curve of n points is the mean of 16 000/n patterns, but at least 4 and at most 60; from 20 000
+/// points on it is the mean of 2 patterns, from 100 000 on a single one. The noise that remains in
+/// a mean curve was measured as an l-infinity distance, for 100, 300, 1024 and 4096 points: .02–.03
+/// for uniform points, .01–.03 for jittered points, .01–.017 for Poisson disks, and below .001 for
+/// lattices.
 ///
 /// Every pattern has its own random generator, seeded by a hash of the seed, the sampler's name,
 /// the class and the pattern's index, so results do not depend on order or threads. Curves of the
@@ -91,8 +92,8 @@ pub struct SamplerCurves {
 /// images.
 pub struct References {
     setup: Arc<Setup>,
-    /// Curves made so far. The key is a class and a flag: `true` for the samplers that place points
-    /// in rows along the sides of the window, `false` for the others.
+    /// Curves made so far. The key is a class and a flag that selects samplers: `true` for those
+    /// that place points in rows along the sides of the window, `false` for all others.
     made: Once<(Class, bool), Arc<Vec<Made>>>,
     workers: Workers,
 }
@@ -100,7 +101,7 @@ pub struct References {
 /// Index of a sampler in the list of samplers, with its curve or the reason why it has none.
 type Made = (usize, Result<ReferenceCurve, CompareError>);
 
-/// Settings that are the same for all classes: samplers, options and seed.
+/// Settings that are the same for all classes: samplers, options of the curves, and seed.
 struct Setup {
     samplers: Vec<&'static dyn Sampler>,
     options: PcfOptions,
@@ -120,6 +121,7 @@ impl References {
     /// For fewer than two points there are no curves, and every sampler is listed as missing.
     pub fn curves(&self, n: usize, window: &Window) -> SamplerCurves {
         let class = Class::of(n, window);
+        // only samplers that do not place points in rows may use the curve of the stand-in class
         let groups = [(class.clone(), true), (class.stand_in(), false)].map(|group| {
             let made = || Arc::new(self.curves_of(n, &group.0, group.1));
             self.made.get(group.clone(), made)
@@ -160,7 +162,7 @@ impl References {
     }
 
     /// Computes the curve of each sampler, or gives the reason why there is none. The patterns of
-    /// all samplers form one list of tasks, so that all cores have work.
+    /// all samplers form one list of tasks, so that all cores are busy until the end.
     pub(super) fn make(
         &self,
         samplers: Vec<&'static dyn Sampler>,
@@ -267,7 +269,8 @@ mod tests {
         {
             let of = |seed| references(&[name], seed).curves(300, &window).curves[0].pcf.clone();
             let distance = l_infinity(&of(1), &of(2)).unwrap();
-            // both curves are noisy (√2), and the bound is 1.5 times as wide to allow for chance
+            // the difference of two noisy curves scatters √2 times as much as one; the factor 1.5
+            // allows for chance
             assert!(distance < 1.5 * 2f64.sqrt() * noise, "{name}: {distance}");
         }
     }

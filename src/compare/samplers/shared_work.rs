@@ -10,6 +10,8 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError, mpsc};
 /// Values by key, each computed when first asked for and then kept. If another thread is already
 /// computing a value, the caller waits for it.
 pub(super) struct Once<K, V> {
+    /// One cell per key, which is empty until its value is computed. The lock protects the map
+    /// only, so values of different keys are computed at the same time.
     cells: Mutex<HashMap<K, Arc<OnceLock<V>>>>,
 }
 
@@ -20,7 +22,7 @@ impl<K: Eq + Hash, V: Clone> Once<K, V> {
 
     /// Returns the value of `key`. The first call for a key computes the value with `make`.
     pub(super) fn get(&self, key: K, make: impl FnOnce() -> V) -> V {
-        // A panic elsewhere cannot leave the map half changed, as every change is a single step.
+        // a panic elsewhere cannot leave the map half changed, as every change is a single step
         let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
         let cell = Arc::clone(cells.entry(key).or_default());
         drop(cells);
@@ -28,15 +30,18 @@ impl<K: Eq + Hash, V: Clone> Once<K, V> {
     }
 }
 
-/// Separate thread pool that works while its callers sleep. The threads start with the first work.
+/// Separate thread pool that works while its callers sleep. Its threads are started by the first
+/// call of [`Self::all`].
 ///
-/// The caller's own pool cannot be used, for two reasons. First, its threads take up other tasks
-/// while they wait. Such a task could need the very curve that is being computed further down on
-/// the same stack: a deadlock. Second, a sleeping thread of the caller's pool cannot help with work
-/// that a sampler distributes over threads: BNOT, whose cells are computed in parallel, ran on one
-/// of two cores.
+/// The caller's own pool cannot be used, for two reasons. First, a thread of that pool takes up
+/// another task while it waits. That task could need the very curve that the thread is already
+/// computing further down on its stack: a deadlock. Second, a sleeping thread of the caller's pool
+/// cannot help with work that a sampler distributes over threads. BNOT, which computes its cells in
+/// parallel, then ran on only one of two cores.
 pub(super) struct Workers {
+    /// Number of threads of the pool.
     threads: usize,
+    /// Pool, built on first use; `None` inside if the operating system grants no more threads.
     pool: OnceLock<Option<ThreadPool>>,
 }
 
@@ -64,7 +69,7 @@ impl Workers {
         let (answer, answered) = mpsc::sync_channel(1);
         pool.spawn(move || {
             let done: Vec<Option<T>> = (0..count).into_par_iter().with_max_len(1).map(guarded).collect();
-            // fails only if the caller no longer waits
+            // sending fails only if the caller no longer waits
             let _ = answer.send(done);
         });
         answered.recv().unwrap_or_else(|_| (0..count).map(|_| None).collect())

@@ -14,14 +14,15 @@ use std::collections::HashMap;
 use std::ops::RangeInclusive;
 use std::sync::LazyLock;
 
-/// Seed with which the shipped curves were made, which is also the default seed of the program.
+/// Seed with which the shipped curves were made. It is also the default seed of the program.
 const SEED: u64 = 1;
-/// Classes of the number of points that the table covers, as exponents of 1.2: 18 to 22 645 points.
+/// Numbers of points that the table covers, as exponents of 1.2: from 18 to 22 645 points.
 const SIZES: RangeInclusive<i8> = 16..=55;
-/// Classes of the aspect ratio (width over height) that the table covers, as exponents of 1.2: 1 :
-/// 2.07 to 2.07 : 1.
+/// Aspect ratios (width / height) that the table covers, as exponents of 1.2: from 1 : 2.07 to 2.07
+/// : 1.
 const ASPECTS: RangeInclusive<i8> = -4..=4;
 
+/// Content of the file `curves.bin`, compiled into the program.
 static BYTES: &[u8] = include_bytes!("curves.bin");
 
 /// Table of shipped curves. It is empty if the file was made with other samplers, options or
@@ -56,8 +57,8 @@ pub(super) fn find(
     })
 }
 
-/// Returns whether a sampler has the same parameters as the sampler of that name in this library,
-/// and not only the name.
+/// Returns whether a sampler is the sampler of that name in this library and has the same
+/// parameters. A sampler of the user's own may have the same name.
 fn is_usual(of: &dyn Sampler) -> bool {
     sampler(of.name()).is_ok_and(|usual| format!("{:?}", as_reference(usual)) == format!("{of:?}"))
 }

@@ -1,11 +1,12 @@
-//! File format of `curves.bin`: [`MAGIC`], a hash of the settings with which the curves were made,
-//! and one entry after another, compressed by zlib.
+//! File format of `curves.bin`: first [`MAGIC`], then a hash of the settings with which the curves
+//! were made (the fingerprint), then one entry per curve, all entries compressed together by zlib.
 //!
 //! 1. An entry begins with the three fields of its [`Key`] and the number of patterns averaged, one
 //!    byte each.
 //! 2. The regularity index follows as an `f64`, which is NaN if the index is undefined.
-//! 3. The values of g follow, in units of [`STEP`] and as second differences. Each difference is
-//!    zigzag-coded and split into groups of seven bits, the lowest first.
+//! 3. The values of g follow as second differences, in units of [`STEP`]. Each difference is
+//!    zigzag-coded (0, −1, 1, −2, … become 0, 1, 2, 3, …) and split into groups of seven bits, the
+//!    lowest first. The top bit of a byte is set if another byte follows.
 //!
 //! A smooth curve thus takes about one byte per value of g.
 
@@ -13,7 +14,8 @@ use flate2::{Compression, read::ZlibDecoder, write::ZlibEncoder};
 use std::collections::HashMap;
 use std::io::{Read, Write};
 
-/// Rounding step of g: 1/100 of the noise of the best curves.
+/// Rounding step of g, a hundredth of the noise that remains in the mean curves of Poisson disks
+/// (see [`References`](super::References)).
 pub(super) const STEP: f64 = 1e-4;
 /// First bytes of the file: name and version of the format.
 const MAGIC: &[u8] = b"curves 1";
@@ -29,11 +31,14 @@ pub(super) struct Key {
     pub(super) sampler: u8,
 }
 
-/// Shipped curve: values of g, number of patterns averaged, and regularity index.
+/// Curve in the table of shipped curves.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry {
+    /// Number of patterns averaged.
     pub(super) realisations: u8,
+    /// Mean regularity index of the patterns; `None` if it is undefined.
     pub(super) ri: Option<f64>,
+    /// Values of g at the default distances.
     pub(super) g: Vec<f64>,
 }
 
@@ -58,7 +63,7 @@ pub(super) fn write(entries: &[(Key, Entry)], fingerprint: &[u8; 32]) -> Vec<u8>
 }
 
 /// Reads a table in which every curve has `bins` values. Returns `None` if the bytes are damaged or
-/// carry another fingerprint.
+/// contain another fingerprint.
 pub(super) fn read(bytes: &[u8], fingerprint: &[u8; 32], bins: usize) -> Option<HashMap<Key, Entry>> {
     let packed = bytes.strip_prefix(MAGIC)?.strip_prefix(fingerprint)?;
     let mut body = Vec::new();
@@ -88,7 +93,8 @@ fn take<const N: usize>(rest: &mut &[u8]) -> Option<[u8; N]> {
     Some(*first)
 }
 
-/// Appends a number in zigzag coding, in which numbers from −64 to 63 take one byte.
+/// Appends a number in zigzag coding and groups of seven bits. Numbers from −64 to 63 take one
+/// byte.
 fn put(body: &mut Vec<u8>, number: i64) {
     let mut zigzag = ((number << 1) ^ (number >> 63)) as u64;
     while zigzag >= 0x80 {
@@ -98,7 +104,8 @@ fn put(body: &mut Vec<u8>, number: i64) {
     body.push(zigzag as u8);
 }
 
-/// Takes a number in zigzag coding off `rest`; `None` if the number is cut short or too long.
+/// Takes a number that [`put`] wrote off `rest`. Returns `None` if the number is cut short or has
+/// more than ten bytes.
 fn number(rest: &mut &[u8]) -> Option<i64> {
     let mut zigzag = 0u64;
     for shift in (0..64).step_by(7) {

@@ -9,7 +9,8 @@ use crate::stats::{PcfOptions, StatsError, pcf};
 pub struct TargetFit {
     /// Distances at which the two functions are compared, in hexagonal spacings.
     pub r: Vec<f64>,
-    /// Target function at the distances `r`, interpolated linearly between its rows.
+    /// Values of the target function at the distances `r`, interpolated linearly between the rows
+    /// of the target.
     pub wanted: Vec<f64>,
     /// Pair correlation function of the points at the distances `r`, estimated in their window with
     /// default options.
@@ -21,37 +22,40 @@ pub struct TargetFit {
 }
 
 impl TargetFit {
-    /// Returns whether the largest difference lies within 0.4 hexagonal spacings of the last
-    /// distance compared, and this last distance is below 5.6.
+    /// Returns whether the largest difference lies in the last 0.4 hexagonal spacings of the
+    /// distances compared, provided that these end below 5.6 spacings.
     ///
-    /// Such a difference says little about the fit: pairs farther apart than the end of the target
-    /// are left to chance, and disturb the last distances before it.
+    /// Such a difference says little about the fit. Pairs of points that are farther apart than the
+    /// end of the target are left to chance, and they disturb the pair correlation function shortly
+    /// before the end.
     pub fn at_the_end(&self) -> bool {
         self.r.last().is_some_and(|last| *last < MOST - END && self.worst_r > last - END)
     }
 }
 
-/// Part of the target, measured back from its end in hexagonal spacings, in which a difference is
-/// put down to pairs beyond the end.
+/// Length of the last part of the target, in hexagonal spacings, in which a difference is put down
+/// to pairs beyond its end. The difference measured for a target that ends early lay 0.27 spacings
+/// before the end (see [`target_fit`]).
 const END: f64 = 0.4;
 
-/// Limit of a good fit: a larger l-infinity distance is reported as poor. Lanaro et al. (2020),
-/// <https://doi.org/10.1088/2399-6528/ab8064>, take two distributions with a smaller distance for
-/// the same.
+/// Largest l-infinity distance of a good fit; a larger distance is reported as poor. Lanaro et al.
+/// (2020), <https://doi.org/10.1088/2399-6528/ab8064>, take two distributions with a smaller
+/// distance for the same.
 pub const POOR_FIT: f64 = 0.1;
 
-/// Compares the pair correlation function of `points` with the target function `rows`.
+/// Compares the pair correlation function of `points` with the target function for which they were
+/// made.
 ///
-/// `rows` holds r (in hexagonal spacings, rising) and g of the target. The functions are compared
-/// at the distances that both have, up to 6 spacings and up to half the shorter side of the window;
-/// beyond these limits, [`crate::sample::Shaped`] does not control the pattern. If the target ends
-/// before .15 spacings, where estimates begin, the functions are compared at that single distance.
-/// Without rows the differences are NaN.
+/// Each of `rows` contains a distance r in hexagonal spacings and the target's g(r); r must rise.
+/// The functions are compared at the distances that both have, up to 6 spacings and up to half the
+/// shorter side of the window. Beyond these limits, [`crate::sample::Shaped`] does not control the
+/// pattern. If the target ends before .15 spacings, where estimates of g begin, the functions are
+/// compared only at .15 spacings. Without rows the differences are NaN.
 ///
-/// Measured with the mean g of 20 patterns of dart throwing as target. Given up to 6 spacings,
-/// patterns of 300 to 3000 points miss it by .065–.073, at the edge of the hard core. Given only up
-/// to 2.49 spacings, they miss it by about .1, at 2.22: the last quarter of a spacing is not
-/// controlled ([`TargetFit::at_the_end`]).
+/// Differences that were measured with the mean g of 20 patterns of dart throwing as target: if the
+/// target reaches 6 spacings, patterns of 300 to 3000 points miss it by .065–.073, at the edge of
+/// the hard core. If the target ends at 2.49 spacings, they miss it by about .1, at 2.22 spacings,
+/// because the last quarter of a spacing is not controlled ([`TargetFit::at_the_end`]).
 ///
 /// # Errors
 /// Fails if the pair correlation function of the points cannot be estimated, as for fewer than two
@@ -64,7 +68,8 @@ pub fn target_fit(points: &[Point], window: &Window, rows: &[[f64; 2]]) -> Resul
     let farthest = 0.5 * bounds.width().min(bounds.height()) / spacing;
     let step = (usual.r_max - usual.r_min) / usual.bins as f64;
     let r_min = ends[0].max(usual.r_min);
-    // `r` holds the left edges of the bins, so one more bin is needed to include the last row
+    // distances are the left edges of bins, so one more bin is needed to include the last row; 1e-6
+    // makes up for rounding
     let bins = ((ends[1].min(MOST).min(farthest) - r_min) / step + 1e-6).floor() + 1.;
     let bins = bins.max(1.);
     let options = PcfOptions { r_min, r_max: r_min + bins * step, bins: bins as usize, ..usual };
@@ -76,12 +81,12 @@ pub fn target_fit(points: &[Point], window: &Window, rows: &[[f64; 2]]) -> Resul
     Ok(TargetFit { r: reached.r, wanted, reached: reached.g, l_infinity, worst_r })
 }
 
-/// Largest distance up to which targets are compared, in hexagonal spacings: beyond it,
-/// [`crate::sample::Shaped`] does not control pairs of points.
+/// Largest distance at which functions are compared, in hexagonal spacings.
+/// [`crate::sample::Shaped`] does not control pairs of points that are farther apart.
 const MOST: f64 = 6.;
 
-/// Interpolates `rows` linearly at `r`. Beyond the first and last row the value is constant;
-/// without rows it is NaN.
+/// Interpolates `rows` (distance and g) linearly at the distance `r`. Before the first row and
+/// after the last row, the value is constant; without rows it is NaN.
 fn at(rows: &[[f64; 2]], r: f64) -> f64 {
     let after = rows.partition_point(|row| row[0] <= r);
     match (after.checked_sub(1).and_then(|i| rows.get(i)), rows.get(after)) {

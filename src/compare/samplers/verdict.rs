@@ -21,7 +21,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-/// Resolution of g in the envelope test: g is rounded to multiples of this step first.
+/// Step to whose multiples g is rounded before the envelope test.
 ///
 /// Where a sampler makes no pairs, all simulated curves are exactly equal. Without rounding, a
 /// negligible difference there would count as extreme.
@@ -31,7 +31,7 @@ const RESOLUTION: f64 = 1e-3;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VerdictOptions {
     /// Number of simulations per sampler: 39 to 9999, default 199. The smallest p-value possible is
-    /// 1 / (`simulations` + 1).
+    /// 1 / (`simulations` + 1), so .025 for 39 simulations and .005 for 199.
     pub simulations: usize,
     /// Significance level of the test and of the envelope: a mosaic differs from a sampler if its
     /// p-value is at most `level`. Greater than 0 and less than .5, default .05.
@@ -59,9 +59,10 @@ impl VerdictOptions {
 
 /// Result of comparing a mosaic's pair correlation function with those of simulations of a sampler.
 ///
-/// Two patterns of the same sampler differ too, and more so the fewer points they have: at 300
-/// points by .08–.09 in l-infinity. So no fixed distance means “the same”. The simulations, with
-/// the mosaic's own number of points and window, show which distance is usual.
+/// Two patterns of the same sampler differ too, and the more so the fewer points they have: at 300
+/// points their l-infinity distance is .08–.09. So there is no fixed distance below which two
+/// patterns are the same. The simulations have the mosaic's own number of points and window, and
+/// thus show which distance is usual.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SamplerVerdict {
     /// Name of the sampler.
@@ -82,8 +83,9 @@ pub struct SamplerVerdict {
     /// p-value by l-infinity: fraction of all curves, the mosaic's included, that lie at least as
     /// far from the mean of the other curves as the mosaic's curve does.
     pub p_l_infinity: f64,
-    /// p-value of the global envelope test (extreme rank length). It judges each distance r by the
-    /// scatter of the simulations at r; g is rounded to three decimals first.
+    /// p-value of the global envelope test by extreme rank length. The test judges g at each
+    /// distance r by the scatter of the simulations at that r. Before the test, g is rounded to
+    /// three decimals.
     pub p_envelope: f64,
     /// Significance level of the test and of the envelope, copied from [`VerdictOptions`].
     pub level: f64,
@@ -93,7 +95,8 @@ pub struct SamplerVerdict {
     /// Mean and standard deviation of the regularity indices of the simulations (all points, sample
     /// standard deviation).
     pub ri: Moments,
-    /// Band within which the simulated curves stay.
+    /// Band that contains the simulated curves but for the most extreme ones, whose fraction is at
+    /// most `level`.
     pub envelope: Envelope,
 }
 
@@ -112,14 +115,14 @@ pub struct Envelope {
 }
 
 impl SamplerVerdict {
-    /// Returns whether the mosaic could be a realisation of the sampler, judged by the envelope
-    /// test of g(r).
+    /// Returns whether the mosaic could be a realisation of the sampler: the p-value of the
+    /// envelope test is above the significance level.
     pub fn alike(&self) -> bool {
         self.p_envelope > self.level
     }
 }
 
-/// Curve, number of points and regularity of one simulation.
+/// Pair correlation function, number of points and regularity index of one simulation.
 struct Simulation {
     pcf: Pcf,
     n: usize,
@@ -163,6 +166,8 @@ pub fn verdict(
         .collect::<Result<Vec<_>, _>>()?;
 
     let curves: Vec<&[f64]> = simulations.iter().map(|s| s.pcf.g.as_slice()).collect();
+    // sums over all curves, the mosaic's included; without one curve they give the mean of the
+    // others
     let sums: Vec<f64> = (0..mosaic.g.len())
         .map(|bin| curves.iter().filter_map(|g| g.get(bin)).sum::<f64>() + mosaic.g[bin])
         .collect();
@@ -253,7 +258,7 @@ mod tests {
         };
         let found: Vec<SamplerVerdict> =
             (0..60).map(|seed| judge(&curve("bridson", seed).unwrap(), "bridson", 39)).collect();
-        // 3 expected of 60; 9 or more happen once in 300
+        // 3 of 60 are expected; 9 or more have a probability of 1/300
         assert!(rejected(|v| v.p_envelope)(&found) < 9);
         assert!(rejected(|v| v.p_l_infinity)(&found) < 9);
     }
@@ -263,7 +268,7 @@ mod tests {
         let found = judge(&curve("jittered", 1).unwrap(), "dart-throwing", 99);
         assert_eq!((found.p_envelope, found.p_l_infinity), (0.01, 0.01));
         assert!(!found.alike());
-        // below its radius dart throwing has no pairs, a jittered grid has
+        // dart throwing has no pairs closer than its radius, a jittered grid has such pairs
         let (from, to) = found.outside[0];
         assert!(from < 0.3 && to > 0.4, "{:?}", found.outside);
         assert!((found.ri.mean.unwrap() - 12.).abs() < 2., "{:?}", found.ri);

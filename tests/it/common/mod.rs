@@ -66,14 +66,15 @@ impl Place {
         }
     }
 
-    /// Runs the program and insists on success.
+    /// Runs the program and checks that it succeeds.
     pub fn ok(&self, arguments: &[&str]) -> Outcome {
         let outcome = self.run(arguments);
         assert_eq!(outcome.code, 0, "{arguments:?}\n{}{}", outcome.stdout, outcome.stderr);
         outcome
     }
 
-    /// Runs the program, insists on exit code 1 and one line of complaint, and returns that line.
+    /// Runs the program, checks that it exits with code 1 and one line on standard error, and
+    /// returns that line.
     pub fn refused(&self, arguments: &[&str]) -> String {
         let outcome = self.run(arguments);
         assert_eq!(outcome.code, 1, "{arguments:?}\n{}{}", outcome.stdout, outcome.stderr);
@@ -88,7 +89,7 @@ impl Place {
         self.image_of(name, 64, 56, seed);
     }
 
-    /// Renders an image of a given size in px.
+    /// Renders an image of this size in px.
     pub fn image_of(&self, name: &str, width: u32, height: u32, seed: u32) {
         fs::create_dir_all(self.path(name).parent().unwrap()).unwrap();
         let (path, seed) = (self.path(name), seed.to_string());
@@ -96,14 +97,16 @@ impl Place {
         self.ok(&["render", "--width", &width, "--height", &height, "--seed", &seed, "--out", path, "-q"]);
     }
 
-    /// Returns the content of every file below a folder by its path in it, without the ledger.
+    /// Returns the content of every file below a folder, by its path inside the folder. The ledger
+    /// is left out.
     pub fn files(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
         let mut found = BTreeMap::new();
         collect(&self.path(folder), &self.path(folder), &mut found);
         found
     }
 
-    /// Returns the results of a run: all files but the record of the run itself, which holds times.
+    /// Returns the results of a run: all files but the record of the run itself, which contains
+    /// times.
     pub fn results(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
         let mut files = self.files(folder);
         files.remove("run.json");
@@ -153,8 +156,8 @@ fn collect(root: &Path, folder: &Path, found: &mut BTreeMap<String, Vec<u8>>) {
     }
 }
 
-/// Patterns of too few points for most statistics, and of collinear, coincident and border points,
-/// as rows x,y in a window of 10 × 10.
+/// Patterns that are hard for statistics: of too few points, or of collinear, coincident or border
+/// points. Each is a list of rows x,y in a window of 10 × 10.
 pub const FEW_POINTS: [&str; 7] = [
     "",
     "5,5\n",
@@ -165,7 +168,8 @@ pub const FEW_POINTS: [&str; 7] = [
     "0,0\n10,0\n0,10\n",
 ];
 
-/// Returns a folder of the shared data; without it, prints that the test is skipped.
+/// Returns the path of a folder of the shared data. If the folder is missing, prints that the test
+/// is skipped and returns `None`.
 pub fn shared(folder: &str, what: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared").join(folder);
     if path.is_dir() {
@@ -175,8 +179,8 @@ pub fn shared(folder: &str, what: &str) -> Option<PathBuf> {
     None
 }
 
-/// Returns the Python with OpenCV that runs scripts. One that CONEMOSAIC_PYTHON names must be
-/// there.
+/// Returns the path of a Python with OpenCV, which runs scripts; `None` if there is none. The
+/// Python that the environment variable CONEMOSAIC_PYTHON names must exist.
 pub fn python() -> Option<PathBuf> {
     if let Some(python) = std::env::var_os("CONEMOSAIC_PYTHON").filter(|p| !p.is_empty()) {
         return Some(python.into());
@@ -205,7 +209,8 @@ pub fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
     row[column].parse().unwrap_or_else(|_| panic!("{column}: {:?}", row.get(column)))
 }
 
-/// Returns a simulated image of a preset after `change`, and the spacing of all its cones in px.
+/// Returns a simulated image of a preset whose options `change` has altered, and the hexagonal
+/// spacing of all its cones in px.
 pub fn of_preset(preset: &str, seed: u64, change: impl FnOnce(&mut RenderOptions)) -> (Plane, f64) {
     let (mosaic, mut options) = PRESETS.iter().find(|p| p.name == preset).unwrap().options();
     change(&mut options);
@@ -214,8 +219,8 @@ pub fn of_preset(preset: &str, seed: u64, change: impl FnOnce(&mut RenderOptions
     (simulated.image, true_spacing)
 }
 
-/// Returns the image with the parts `black` and `white` of its pixels, the darkest and the
-/// brightest, made black and white.
+/// Returns the image badly exposed: the darkest pixels (the fraction `black` of all) are made
+/// black, and the brightest (the fraction `white`) are made white.
 pub fn exposed(image: &Plane, black: f64, white: f64) -> Plane {
     let mut values: Vec<f32> = image.iter().copied().collect();
     values.sort_by(f32::total_cmp);
