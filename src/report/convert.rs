@@ -76,7 +76,7 @@ impl FromStr for FigureFormat {
 /// in the fonts of the machine.
 ///
 /// # Errors
-/// Returns [`ReportError::Convert`] if `svg` is not valid SVG, or has no size that the format can
+/// Fails if `svg` is not valid SVG, or has no size that the format can
 /// hold.
 pub fn convert(svg: &str, format: FigureFormat) -> Result<Vec<u8>, ReportError> {
     match format {

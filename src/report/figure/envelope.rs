@@ -47,7 +47,7 @@ pub struct EnvelopePanel<'a> {
 /// self-contained SVG, 180 mm wide.
 ///
 /// # Errors
-/// Returns [`ReportError::Curve`] if curves differ in length.
+/// Fails if curves differ in length.
 pub fn envelope_figure(title: &str, mosaic: Curve, panels: &[EnvelopePanel]) -> Result<String, ReportError> {
     let bins = mosaic.r.len();
     for (name, curve) in [("the mosaic", mosaic.g)]

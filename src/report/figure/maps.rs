@@ -116,7 +116,7 @@ impl Layout {
 /// beyond that of the mosaic are pale. Equal input makes equal bytes.
 ///
 /// # Errors
-/// Returns [`ReportError::Png`] if a picture cannot be encoded.
+/// Fails if a picture cannot be encoded.
 pub fn maps_figure(title: &str, mosaic: &Mosaic, maps: &Maps) -> Result<String, ReportError> {
     let bounds = mosaic.window().bounds();
     let layout = Layout::of(bounds.width() / bounds.height());

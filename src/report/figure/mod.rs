@@ -145,7 +145,7 @@ fn with_unit(number: &str, unit: &str) -> String {
 /// or above the plots. A panel without data says why in a sentence. Equal input makes equal bytes.
 ///
 /// # Errors
-/// Returns [`ReportError::Histogram`] if edges and counts do not belong together,
+/// Fails if edges and counts do not belong together,
 /// [`ReportError::Curve`] if distances and values of a curve do not, [`ReportError::Png`] if a
 /// picture cannot be encoded.
 pub fn mosaic_figure(figure: &MosaicFigure) -> Result<String, ReportError> {

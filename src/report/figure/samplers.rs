@@ -40,7 +40,7 @@ pub struct SamplerPanel<'a> {
 /// The figure is a self-contained SVG, 180 mm wide.
 ///
 /// # Errors
-/// Returns [`ReportError::Curve`] if a curve has unequal numbers of distances and values.
+/// Fails if a curve has unequal numbers of distances and values.
 pub fn samplers_figure(title: &str, panels: &[SamplerPanel]) -> Result<String, ReportError> {
     for panel in panels {
         for curve in [panel.pcf, panel.radial] {

@@ -25,7 +25,7 @@ const STEPS: u32 = 128;
 /// The figure is a self-contained SVG, 180 mm wide. Frequencies are in cycles per 1/√density.
 ///
 /// # Errors
-/// Returns [`ReportError::Png`] if the picture cannot be encoded.
+/// Fails if the picture cannot be encoded.
 pub fn spectrum_figure(spectrum: &PowerSpectrum, scale: PowerScale) -> Result<String, ReportError> {
     let Plane { png, reach } = plane(spectrum, scale)?;
     let mut canvas = Canvas::new(CORNER.1 + SIDE + AXIS_DEPTH);
@@ -61,7 +61,7 @@ fn draw_bar(canvas: &mut Canvas, bar: Area, scale: PowerScale) -> Result<(), Rep
 /// Returns [`spectrum_figure`] as PNG, at 300 dpi.
 ///
 /// # Errors
-/// Returns [`ReportError::Png`] or [`ReportError::Convert`] if a picture cannot be encoded.
+/// Fails if a picture cannot be encoded.
 pub fn spectrum_png(spectrum: &PowerSpectrum, scale: PowerScale) -> Result<Vec<u8>, ReportError> {
     convert(&spectrum_figure(spectrum, scale)?, FigureFormat::Png)
 }

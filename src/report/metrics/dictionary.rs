@@ -115,7 +115,7 @@ fn all_rows() -> Vec<DictionaryRow> {
 /// tables.
 ///
 /// # Errors
-/// If the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn dictionary_csv() -> Result<Vec<u8>, ReportError> {
     DICTIONARY.csv(&all_rows())
 }

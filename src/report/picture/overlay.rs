@@ -131,7 +131,7 @@ fn blend(pixel: &mut Rgb<u8>, colour: [u8; 3], opacity: f64) {
 /// Encodes the picture as PNG, compressed for speed rather than size.
 ///
 /// # Errors
-/// Returns [`ReportError::Png`] if the picture has no pixels.
+/// Fails if the picture has no pixels.
 pub fn encode_png(picture: &RgbImage) -> Result<Vec<u8>, ReportError> {
     png(picture.as_raw(), picture.width(), picture.height(), ExtendedColorType::Rgb8)
 }

@@ -46,7 +46,7 @@ pub(in crate::report) struct Plane {
 /// mean of a square of them, so that no side has more than 1024.
 ///
 /// # Errors
-/// Returns [`ReportError::Png`] if the encoder refuses the picture.
+/// Fails if the encoder refuses the picture.
 pub fn spectrum_plane(spectrum: &PowerSpectrum, scale: PowerScale) -> Result<Vec<u8>, ReportError> {
     plane(spectrum, scale).map(|plane| plane.png)
 }

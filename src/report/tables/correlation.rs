@@ -96,7 +96,7 @@ pub static PCF: Table<PcfRow> = Table {
 /// There are no rows if the function is not defined.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn pcf_csv(measures: &Measures, curves: &[ReferenceCurve]) -> Result<Vec<u8>, ReportError> {
     let samplers: Vec<String> = curves.iter().map(|c| c.sampler.clone()).collect();
     let varying = measures.inhomogeneous.as_ref();
@@ -157,7 +157,7 @@ pub static ENVELOPE: Table<EnvelopeRow> = Table {
 /// Returns `NAME.envelope.csv` of a mosaic; there are no rows if its function is not defined.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn envelope_csv(measures: &Measures, verdicts: &[SamplerVerdict]) -> Result<Vec<u8>, ReportError> {
     let samplers: Vec<String> = verdicts.iter().map(|v| v.sampler.clone()).collect();
     let rows = measures

@@ -141,7 +141,7 @@ pub static POINTS: Table<PointRow> = Table {
 /// Returns `NAME.points.csv` of a mosaic.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn points_csv(mosaic: &Mosaic, measures: &Measures) -> Result<Vec<u8>, ReportError> {
     let cells = mosaic.points().iter().zip(&measures.cells.cells).enumerate();
     POINTS.csv(cells.map(|(index, (&point, &cell))| PointRow { index, point, cell, measures }))

@@ -50,7 +50,7 @@ pub static ROIS: Table<RoiRow> = Table {
 /// Returns `rois.csv`: the columns of the regions, then those of a summary except `file`.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn rois_csv(summary: &Summary, rows: &[RoiRow]) -> Result<Vec<u8>, ReportError> {
     let layout = Layout::default();
     let names = summary.header();

@@ -138,7 +138,7 @@ pub static VALIDATION: Table<ValidationRow> = Table {
 /// Returns `validation.csv`; `two` means that two detectors or graders are compared.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn validation_csv(rows: &[ValidationRow], two: bool) -> Result<Vec<u8>, ReportError> {
     let parts: &[Part] = if two { &[Part::Versus] } else { &[] };
     VALIDATION.csv_as(&Layout { samplers: &[], parts }, rows)
@@ -228,7 +228,7 @@ pub static FROC: Table<FrocPoint> = Table {
 /// Returns `froc.csv`, thinned to 1000 thresholds.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn froc_csv(froc: &Froc) -> Result<Vec<u8>, ReportError> {
     FROC.csv(froc.thinned(CURVE_POINTS))
 }
