@@ -5,6 +5,7 @@ use crate::report::{FigureFormat, ReportError, convert};
 use crate::stats::PowerSpectrum;
 use image::ExtendedColorType;
 
+/// Title above the plane of the spectrum.
 const TITLE: &str = "Power spectrum of the points (independent points have power 1 at every frequency)";
 /// Description of the figure for screen readers.
 const DESCRIPTION: &str = "The plane of the power spectrum of a point pattern, with frequency 0 in the middle; the lighter a \
@@ -12,12 +13,15 @@ const DESCRIPTION: &str = "The plane of the power spectrum of a point pattern, w
 
 /// Upper left corner of the plane, in canvas units.
 const CORNER: (f64, f64) = (64., 38.);
-/// Side of the plane; the bar of grey values stands to its right.
+/// Side of the plane, in canvas units; it leaves room for the bar of grey values on the right.
 const SIDE: f64 = 560.;
+/// Room for tick labels and the axis title below the plane, in canvas units.
 const AXIS_DEPTH: f64 = 36.;
+/// Gap between the plane and the bar of grey values, in canvas units.
 const BAR_GAP: f64 = 22.;
+/// Width of the bar of grey values, in canvas units.
 const BAR_WIDTH: f64 = 14.;
-/// Number of grey values of the bar.
+/// Number of grey values of the bar, one per row of pixels.
 const STEPS: u32 = 128;
 
 /// Draws the plane of a power spectrum with its axes and a bar of its grey values.

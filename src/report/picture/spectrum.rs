@@ -9,7 +9,7 @@ use crate::report::ReportError;
 use crate::stats::PowerSpectrum;
 use image::ExtendedColorType;
 
-/// Number of pixels along a side above which pictures are reduced by a whole factor.
+/// Number of pixels along a side above which pictures are reduced by an integer factor.
 const LARGEST: usize = 1024;
 
 /// The scale by which power becomes grey.
@@ -32,7 +32,7 @@ impl PowerScale {
     }
 }
 
-/// A picture of the plane of wave vectors.
+/// Picture of the plane of wave vectors.
 pub(in crate::report) struct Plane {
     /// Grey picture, as PNG.
     pub png: Vec<u8>,

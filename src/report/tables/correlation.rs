@@ -4,7 +4,7 @@ use crate::compare::{ReferenceCurve, SamplerVerdict};
 use crate::report::ReportError;
 use crate::stats::{Inhomogeneous, Measures, Pcf};
 
-/// One distance at which pair correlation functions are given.
+/// One distance, and the values of pair correlation functions at it: a row of the table.
 #[derive(Clone, Copy, Debug)]
 pub struct PcfRow<'a> {
     index: usize,
@@ -108,7 +108,8 @@ pub fn pcf_csv(measures: &Measures, curves: &[ReferenceCurve]) -> Result<Vec<u8>
     PCF.csv_as(&Layout { samplers: &samplers, parts: parts.as_slice() }, rows)
 }
 
-/// One distance at which a mosaic's pair correlation function and its envelopes are given.
+/// One distance, and the values of a mosaic's pair correlation function and its envelopes at it: a
+/// row of the table.
 #[derive(Clone, Copy, Debug)]
 pub struct EnvelopeRow<'a> {
     index: usize,

@@ -3,7 +3,7 @@ use super::{Row, Table, column};
 use crate::report::ReportError;
 use crate::stats::{DensityRecovery, Functions, PowerSpectrum};
 
-/// One distance at which functions are given, each under its name.
+/// One distance, and the values of functions at it, each under its name: a row of the table.
 #[derive(Clone, Copy, Debug)]
 pub struct FunctionsRow<'a> {
     index: usize,

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 pub struct GroupMember<'a> {
     /// Record of the member's mosaic.
     pub record: Subject<'a>,
-    /// Person of whom the image is, if known.
+    /// Person whose eye the image shows, if known.
     pub person: Option<&'a str>,
 }
 

@@ -155,7 +155,7 @@ pub fn profiles_csv(mosaic: &Mosaic, maps: &Maps) -> Result<Vec<u8>, ReportError
     PROFILES.csv(maps.profile.iter().map(|&profile| DistanceRow { profile, um_per_unit }))
 }
 
-/// The spacing at one place of the image, from the spectra of tiles.
+/// Spacing at one position of the image, from the spectra of tiles.
 #[derive(Clone, Copy, Debug)]
 pub struct FourierRow {
     at: Point,

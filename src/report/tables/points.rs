@@ -23,7 +23,7 @@ impl Row for DetectedCone {
 /// The table of detected cones.
 ///
 /// These files are written as coordinates, by [`write_points`](crate::mosaic::io::write_points); a
-/// test holds that function to these columns.
+/// test checks that the function writes these columns.
 pub static DETECTIONS: Table<DetectedCone> = Table {
     file: "points.csv",
     commands: "run (images/NAME/points.csv), detect (NAME.csv; NAME.rejected.csv: candidates that \
