@@ -25,7 +25,7 @@ pub struct Agree {
     /// column name or file.
     #[arg(required = true, num_args = 2..)]
     tables: Vec<PathBuf>,
-    /// Columns to compare, separated by commas [default: all that hold numbers in every table]
+    /// Columns to compare, separated by commas [default: all that contain numbers in every table]
     #[arg(long, value_name = "A,B,…", value_delimiter = ',', visible_alias = "metrics")]
     columns: Vec<String>,
     /// Rule that tells which images are of one subject
@@ -56,7 +56,7 @@ impl Agree {
     /// Compares the tables, writes the results and prints them.
     ///
     /// # Errors
-    /// If a table cannot be read, nothing can be paired, or the results cannot be written.
+    /// Fails if a table cannot be read, nothing can be paired, or the results cannot be written.
     pub fn execute(self, common: &Common) -> Result<Done> {
         let columns: Vec<String> = self.columns.iter().map(|c| c.trim().to_owned()).collect();
         let grouping = match &self.group_table {
@@ -77,7 +77,7 @@ impl Agree {
     }
 }
 
-/// Returns the table of agreement that is printed.
+/// Returns the printed table, with one row per column and pair of graders.
 fn words(outcome: &AgreementOutcome) -> String {
     let headers = [
         "column",

@@ -10,7 +10,7 @@ use conemosaic::report::{FindingRecord, VerdictRecord, significant};
 use conemosaic::sample::Sampler;
 use std::path::PathBuf;
 
-/// Examples, the terms, and files written, for the end of the help.
+/// Examples, an explanation of terms, and the files written, for the end of the help.
 const HELP: &str = include_str!("help/compare.txt").trim_ascii_end();
 
 /// Compares mosaics with random point patterns (samplers)
@@ -49,7 +49,8 @@ impl Compare {
     /// Compares the files, writes the results and prints them.
     ///
     /// # Errors
-    /// If an option is wrong, there are no coordinate files, or the results cannot be written.
+    /// Fails if an option is wrong, there are no coordinate files, or the results cannot be
+    /// written.
     pub fn execute(self, common: &Common) -> Result<Done> {
         let verdict = VerdictOptions { simulations: self.simulations, ..VerdictOptions::default() };
         let verdict = (!self.no_verdict).then_some(verdict);
@@ -97,8 +98,10 @@ fn distances(outcome: &CoordinatesOutcome, samplers: &[&'static dyn Sampler]) ->
     short_table(&headers, &rows, "l_infinity.csv") + &warned(outcome, "l_infinity.csv")
 }
 
-/// Returns a table with one row per file: the samplers that it could be drawn from, or else how it
-/// differs from the nearest one.
+/// Returns a table with one row per file: the verdicts.
+///
+/// A verdict names the samplers from which the mosaic of the file could be drawn. If there are
+/// none, it says how the mosaic differs from the nearest sampler.
 fn verdicts(outcome: &CoordinatesOutcome) -> String {
     let headers =
         ["file", "l∞ to simulations", "usual l∞", "95 % below", "p of l∞", "verdict by the envelope of g(r)"];

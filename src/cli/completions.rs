@@ -18,10 +18,10 @@ pub struct Completions {
 }
 
 impl Completions {
-    /// Prints the script for `command`, the whole command line.
+    /// Prints the script for `command`, which describes the complete command line.
     ///
     /// # Errors
-    /// Never; the type is that of the other commands.
+    /// Never fails; the return type is that of the other commands.
     pub fn execute(self, command: &mut clap::Command) -> Result<Done> {
         let mut text = Vec::new();
         generate(self.shell, command, "conemosaic", &mut text);

@@ -45,7 +45,7 @@ impl Detect {
     /// Detects the cones in all images and writes the results.
     ///
     /// # Errors
-    /// If an option is wrong, there are no images, or the results cannot be written.
+    /// Fails if an option is wrong, there are no images, or the results cannot be written.
     pub fn execute(self, common: &Common) -> Result<Done> {
         let options = self.detect.options()?;
         let scales = self.scale.source()?;

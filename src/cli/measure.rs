@@ -51,7 +51,8 @@ impl Measure {
     /// Measures the files, writes the results and prints the main ones.
     ///
     /// # Errors
-    /// If an option is wrong, there are no coordinate files, or the results cannot be written.
+    /// Fails if an option is wrong, there are no coordinate files, or the results cannot be
+    /// written.
     pub fn execute(self, common: &Common) -> Result<Done> {
         let verdict = VerdictOptions { simulations: self.simulations, ..VerdictOptions::default() };
         let verdict = self.verdict.then_some(verdict);
@@ -82,7 +83,7 @@ pub fn say_failures(common: &Common, outcome: &CoordinatesOutcome, out: &Path) {
     }
 }
 
-/// Returns the table that is printed: the columns chosen by `--metrics`, or a few of all.
+/// Returns the printed table: the columns chosen by `--metrics`, or by default eight main ones.
 fn summary(outcome: &CoordinatesOutcome, options: &CoordinatesOptions) -> String {
     let subjects: Vec<Subject> = outcome.records.iter().map(Subject::Coordinates).collect();
     if let Some((headers, rows)) = options.plan.summary(SummaryKind::Coordinates).readable(&subjects) {
@@ -113,12 +114,14 @@ fn summary(outcome: &CoordinatesOutcome, options: &CoordinatesOptions) -> String
     short_table(&headers, &rows, "summary.csv") + &warned(outcome, "summary.csv")
 }
 
-/// Returns the name of the file, with an exclamation mark if there are warnings about it.
+/// Returns the name of the file, followed by an exclamation mark if there are warnings about it.
 pub fn marked(record: &CoordinatesRecord) -> String {
     format!("{}{}", record.file, if record.warnings.is_empty() { "" } else { " !" })
 }
 
 /// Returns the warnings about the files, to be printed below a table.
+///
+/// `table` is the file that the last line names for further warnings.
 pub fn warned(outcome: &CoordinatesOutcome, table: &str) -> String {
     let files = outcome.records.iter().map(|r| (r.file.as_str(), r.warnings.as_slice()));
     warnings_table(files, table)

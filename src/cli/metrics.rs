@@ -29,7 +29,7 @@ impl Metrics {
     /// Prints the columns in the format asked for.
     ///
     /// # Errors
-    /// If the CSV cannot be made.
+    /// Fails if the CSV cannot be made.
     pub fn execute(self, common: &Common) -> Result<Done> {
         let text = if self.csv {
             String::from_utf8_lossy(&dictionary_csv()?).into_owned()

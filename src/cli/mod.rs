@@ -91,7 +91,7 @@ enum Done {
 }
 
 impl Done {
-    /// Returns the outcome of a batch with these failures.
+    /// Returns the outcome of a batch: stopped by a signal, with `failures`, or complete.
     fn of<T>(failures: &[T], ending: &Ending) -> Self {
         match (ending.stopped(), signals::received()) {
             (true, Some(signal)) => Self::Stopped(signal),
@@ -101,9 +101,10 @@ impl Done {
     }
 }
 
-/// Returns what the user should know about the end of a batch of `total` files.
+/// Describes for the user the end of a batch of `total` files.
 ///
-/// Empty if all files were done and the folder of the results holds nothing from elsewhere.
+/// The text is empty if all files were done and the folder of the results holds nothing from
+/// elsewhere.
 fn ending_words(ending: &Ending, total: usize) -> String {
     let mut lines = Vec::new();
     if ending.stopped() {
@@ -157,10 +158,10 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Returns the command line.
+/// Returns the description of the command line for clap.
 ///
-/// A negative number after an option counts as its value, so that the error names the values that
-/// are allowed instead of an unknown option.
+/// A negative number after an option counts as the value of the option. The error then names the
+/// values that are allowed, and does not complain of an unknown option.
 fn command() -> clap::Command {
     let may_be_negative = |arg: clap::Arg| {
         let takes_value = !arg.is_positional() && arg.get_action().takes_values();
@@ -227,10 +228,11 @@ fn one_line(text: &str) -> String {
     words.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }
 
-/// Largest number of rows of a table that is printed.
+/// Number of rows after which a printed table is cut, chosen by eye; the file has the other rows.
 const MOST_ROWS: usize = 24;
 
-/// Returns the first rows of a table, and a line that says which file holds the others.
+/// Returns the first [`MOST_ROWS`] rows of a table, and a line that says which file holds the
+/// others.
 fn short_table(headers: &[&str], rows: &[Vec<String>], file: &str) -> String {
     let mut text = table(headers, &rows[..rows.len().min(MOST_ROWS)]);
     if rows.len() > MOST_ROWS {
@@ -239,12 +241,13 @@ fn short_table(headers: &[&str], rows: &[Vec<String>], file: &str) -> String {
     text
 }
 
-/// Largest number of files whose warnings are printed.
+/// Number of files whose warnings are printed; those of further files are only counted.
 const MOST_WARNED: usize = 5;
 
-/// Returns the warnings of the first files that have any, one per line.
+/// Returns the warnings of the first [`MOST_WARNED`] files that have any, one per line.
 ///
-/// A last line says which file holds the others. Empty if there are no warnings.
+/// `warned` has the name and the warnings of each file. A last line says that the table `file` has
+/// the other warnings. The text is empty if there are no warnings.
 fn warnings_table<'a>(warned: impl Iterator<Item = (&'a str, &'a [String])>, file: &str) -> String {
     let warned: Vec<(&str, &[String])> = warned.filter(|(_, warnings)| !warnings.is_empty()).collect();
     let mut text = String::new();

@@ -58,7 +58,7 @@ impl MosaicArgs {
     /// Returns the options for reading the files.
     ///
     /// # Errors
-    /// If a value is out of its range.
+    /// Fails if a value is out of its range.
     pub fn read(&self) -> Result<ReadOptions> {
         self.coordinates.options()
     }

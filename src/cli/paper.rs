@@ -28,7 +28,7 @@ impl Paper {
     /// Computes the results, writes them and prints the main ones.
     ///
     /// # Errors
-    /// If a sampler fails or the results cannot be written.
+    /// Fails if a sampler fails or the results cannot be written.
     pub fn execute(self, common: &Common) -> Result<Done> {
         let results = remake_paper(usize::from(self.patterns), common.seed, &self.out, &*common.progress())?;
         common.say(&rows(&results));

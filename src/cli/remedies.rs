@@ -5,7 +5,8 @@ use conemosaic::batch::BatchError;
 
 /// Phrases of the library, each with its replacement that names options.
 ///
-/// Of two phrases that begin alike the longer one comes first.
+/// Phrases are replaced in this order. Of two phrases that begin alike the longer one comes first,
+/// because the shorter one would replace its beginning.
 const PHRASES: &[(&str, &str)] = &[
     ("choose another folder for the results", "choose another --out folder"),
     (
@@ -34,12 +35,13 @@ const PHRASES: &[(&str, &str)] = &[
     ("give the spacing if you know it", "give --spacing if you know it"),
 ];
 
-/// Returns a text of the library with the options that help instead of neutral words.
+/// Returns a text of the library in which neutral remedies are replaced by the options of this
+/// program.
 pub fn with_options(text: &str) -> String {
     PHRASES.iter().fold(text.to_owned(), |text, (neutral, options)| text.replace(neutral, options))
 }
 
-/// Returns the message of an error, with the options that help.
+/// Returns the message of an error, with the options that remedy it.
 pub fn words(error: &BatchError) -> String {
     with_options(&error.to_string())
 }

@@ -93,7 +93,7 @@ impl Run {
     /// Analyses all images, writes the results and prints the main ones.
     ///
     /// # Errors
-    /// If an option is wrong, there are no images, or the results cannot be written.
+    /// Fails if an option is wrong, there are no images, or the results cannot be written.
     pub fn execute(self, common: &Common) -> Result<Done> {
         let read = self.coordinates.options()?;
         if self.cones.is_none() && read != ReadOptions::default() {
@@ -146,7 +146,7 @@ impl Run {
             "l∞",
             "expected errors",
         ];
-        // images that a person should look at come first, as a long table is cut
+        // images that a person should look at come first, because a long table is cut
         let rows: Vec<Vec<String>> = by_need(&outcome.records)
             .into_iter()
             .map(|k| {

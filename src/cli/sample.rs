@@ -86,7 +86,7 @@ impl Sample {
     /// Draws the points and writes them, or lists the samplers.
     ///
     /// # Errors
-    /// If an option is wrong, the points cannot be drawn, or the file cannot be written.
+    /// Fails if an option is wrong, the points cannot be drawn, or the file cannot be written.
     pub fn execute(self, common: &Common) -> Result<Done> {
         let (false, Some(n)) = (self.list, self.n) else {
             // the list is what was asked for, so --quiet does not hide it
@@ -153,7 +153,9 @@ impl Sample {
         Ok(if self.torus { Window::Torus(bounds) } else { Window::Rectangle(bounds) })
     }
 
-    /// Returns the sampler with the parameters and the density of the options; `None` without any.
+    /// Returns the sampler with the parameters and the density set by options.
+    ///
+    /// `None` if no such option is set, so that the sampler `default` can be used as it is.
     fn changed(&self, default: &dyn Sampler) -> Result<Option<Box<dyn Sampler>>> {
         let steps = self.steps.map(|steps| steps.to_string());
         let set = self.set.iter().map(|(name, value)| (name.as_str(), value.as_str()));

@@ -6,10 +6,12 @@ use signal_hook::flag;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock};
 
-/// Number of the signal that asked the program to stop; 0 if none did.
+/// Number of the first signal that arrived, such as 2 for SIGINT, or 0 if none has arrived.
+///
+/// It lies in an [`Arc`] because the signal handler keeps a reference of its own.
 static SIGNAL: LazyLock<Arc<AtomicUsize>> = LazyLock::new(Arc::default);
 
-/// Starts to catch both signals.
+/// Starts to catch SIGINT (Ctrl-C) and SIGTERM.
 pub fn listen() {
     let asked = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
@@ -24,7 +26,7 @@ pub fn listen() {
     }
 }
 
-/// Returns the number of the signal that asked the program to stop; `None` if there was none.
+/// Returns the number of the signal that asked the program to stop, or `None` without a signal.
 pub fn received() -> Option<u8> {
     match SIGNAL.load(Ordering::Relaxed) {
         0 => None,

@@ -12,7 +12,7 @@ fn ends_of_help() -> Vec<(String, String)> {
     std::iter::once(text(&whole)).chain(whole.get_subcommands().map(text)).collect()
 }
 
-/// Returns the commands for the shell in a text, those over several lines in one.
+/// Returns the shell commands in a text; a command over several lines is joined into one.
 fn shell_commands(text: &str) -> Vec<String> {
     let joined = text.replace("\\\n", " ");
     let ours = joined.lines().filter_map(|line| line.strip_prefix("  conemosaic "));

@@ -129,14 +129,14 @@ fn origin(text: &str) -> Result<Origin, String> {
     text.parse().map_err(|_| "expected 0, 0.5 or 1".to_owned())
 }
 
-/// Number of the worst images that are printed.
+/// Number of images with the lowest Dice coefficients that the printed text lists.
 const WORST: usize = 5;
 
 impl Validate {
     /// Scores the detections, writes the results and prints the main ones.
     ///
     /// # Errors
-    /// If an option is wrong, there are no marks, or the results cannot be written.
+    /// Fails if an option is wrong, there are no marks, or the results cannot be written.
     pub fn execute(self, common: &Common) -> Result<Done> {
         let options = self.options(common.seed)?;
         let outcome = validate_files(&self.reference, &options, &self.out, &*common.progress())?;
@@ -146,7 +146,7 @@ impl Validate {
         Ok(Done::of(&outcome.failures, &outcome.ending))
     }
 
-    /// Returns the options of the validation, checked.
+    /// Returns the options of the validation after checking them.
     fn options(&self, seed: u64) -> Result<ValidationOptions> {
         let matching = MatchOptions {
             border: self.border,

@@ -35,7 +35,7 @@ pub enum LengthUnit {
     /// Micrometres on the retina.
     #[serde(rename = "um")]
     Micrometre,
-    /// A length without a physical meaning: the side of the unit square.
+    /// Length without a physical meaning: the side of the unit square.
     #[serde(rename = "unit")]
     Unit,
 }
@@ -64,20 +64,20 @@ impl LengthUnit {
     }
 }
 
-/// Points that cannot be a mosaic.
+/// Error for points that cannot be a mosaic.
 #[derive(Debug, Error, PartialEq)]
 pub enum MosaicError {
-    /// A coordinate is infinite or not a number.
+    /// Coordinate that is infinite or not a number.
     #[error("point {index} (counted from 0) is ({x}, {y}): expected finite coordinates")]
     NotFinite {
         /// 0-based index of the point.
         index: usize,
-        /// The x coordinate that was given.
+        /// Coordinate x of the point.
         x: f64,
-        /// The y coordinate that was given.
+        /// Coordinate y of the point.
         y: f64,
     },
-    /// The window has no valid shape.
+    /// Window without a valid shape.
     #[error(transparent)]
     Window(#[from] WindowError),
 }
@@ -92,13 +92,14 @@ pub struct Mosaic {
 }
 
 impl Mosaic {
-    /// Makes a mosaic of the points inside `window`, and counts those outside, which are left out.
+    /// Makes a mosaic of the points inside `window`, and counts the points outside, which it leaves
+    /// out.
     ///
     /// Points on the border count as inside. `unit` is the unit of both the points and the window.
     /// `scale` applies to pixels only; without it, results stay in pixels and say so.
     ///
     /// # Errors
-    /// If a coordinate is not finite.
+    /// Fails if a coordinate is not finite.
     pub fn new(
         points: Vec<Point>,
         window: Window,
@@ -115,7 +116,7 @@ impl Mosaic {
         Ok((Self { points, window, unit, scale }, dropped))
     }
 
-    /// Returns the points, in the order given.
+    /// Returns the points, in the order in which they were passed to [`Self::new`].
     pub fn points(&self) -> &[Point] {
         &self.points
     }
@@ -159,9 +160,10 @@ impl Mosaic {
         self.points.len() as f64 / self.window.area()
     }
 
-    /// Returns the hexagonal spacing of this density, in units of the coordinates.
+    /// Returns the hexagonal spacing of the mosaic, in units of the coordinates.
     ///
-    /// See [`hexagonal_spacing`]; `None` if there are no points.
+    /// It is the function [`hexagonal_spacing()`] of the number of points and the area of the
+    /// window; `None` if there are no points.
     pub fn hexagonal_spacing(&self) -> Option<f64> {
         hexagonal_spacing(self.points.len(), self.window.area())
     }

@@ -1,4 +1,4 @@
-//! Cone density to expect at a place of the average eye, for comparison with a measured density.
+//! Cone density to expect at a location in the average eye, for comparison with a measured density.
 //!
 //! The values are those of Curcio, Sloan, Kalina & Hendrickson (1990),
 //! <https://doi.org/10.1002/cne.902920402>, along four meridians. Between two eccentricities the
@@ -8,9 +8,10 @@ use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 use strum::{Display, IntoStaticStr, VariantArray};
 
-// Each entry is the eccentricity in mm of retina and the cones per mm² there, read off the
-// published curves, which are means over the eyes. The nasal meridian has no value at 4 mm, where
-// the optic disc is.
+/// Cone density towards the nose: pairs of eccentricity (mm of retina) and cones per mm².
+///
+/// As on the other meridians, the values are read off the published curves, which are means over
+/// the eyes. There is no value at 4 mm, where the optic disc is.
 const NASAL: &[(f64, f64)] = &[
     (0., 196_000.),
     (0.05, 154_000.),
@@ -47,6 +48,7 @@ const NASAL: &[(f64, f64)] = &[
     (22., 5_200.),
 ];
 
+/// Cone density towards the temple: pairs of eccentricity (mm of retina) and cones per mm².
 const TEMPORAL: &[(f64, f64)] = &[
     (0., 196_000.),
     (0.05, 161_000.),
@@ -80,6 +82,7 @@ const TEMPORAL: &[(f64, f64)] = &[
     (18., 3_400.),
 ];
 
+/// Cone density upwards on the retina: pairs of eccentricity (mm of retina) and cones per mm².
 const SUPERIOR: &[(f64, f64)] = &[
     (0., 198_000.),
     (0.05, 141_000.),
@@ -115,6 +118,7 @@ const SUPERIOR: &[(f64, f64)] = &[
     (20., 3_300.),
 ];
 
+/// Cone density downwards on the retina: pairs of eccentricity (mm of retina) and cones per mm².
 const INFERIOR: &[(f64, f64)] = &[
     (0., 198_000.),
     (0.05, 147_000.),
@@ -196,10 +200,10 @@ impl Meridian {
         self.densities().last().map_or(0., |(at, _)| *at)
     }
 
-    /// Returns the cones per mm² at this eccentricity, in mm of retina from the fovea.
+    /// Returns the cones per mm² at `eccentricity_mm`, the distance from the fovea in mm of retina.
     ///
     /// The logarithm of the density is interpolated between the known values. `None` beyond the
-    /// last of them, and if the eccentricity is negative or not a number.
+    /// last known value, and if the eccentricity is negative or not a number.
     pub fn cones_per_mm2(self, eccentricity_mm: f64) -> Option<f64> {
         let known = self.densities();
         let after = known.partition_point(|(at, _)| *at < eccentricity_mm);
@@ -219,7 +223,7 @@ impl FromStr for Meridian {
     /// Reads the name of a meridian or its first letter, in upper or lower case.
     ///
     /// # Errors
-    /// If the text is neither; the message lists the four names.
+    /// Fails if the text is neither; the message lists the four names.
     fn from_str(text: &str) -> Result<Self, String> {
         let text = text.trim().to_lowercase();
         let fits = |m: &Self| text == m.name() || text == m.name()[..1];
@@ -231,7 +235,7 @@ impl FromStr for Meridian {
     }
 }
 
-/// A place on the retina, as far as it is known.
+/// Location on the retina, as far as it is known.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RetinalPlace {
     /// Distance from the fovea along the retina, in mm.
@@ -241,7 +245,7 @@ pub struct RetinalPlace {
 }
 
 impl RetinalPlace {
-    /// Returns the cones per mm² at this place in the average eye.
+    /// Returns the cones per mm² at this location in the average eye.
     ///
     /// This is the value on the meridian or, if that is not known, the mean of all four (Curcio et
     /// al. 1990, <https://doi.org/10.1002/cne.902920402>). `None` beyond the published values,

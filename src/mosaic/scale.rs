@@ -3,14 +3,14 @@ use thiserror::Error;
 
 /// Retinal micrometres per degree of visual angle in the average eye.
 ///
-/// Drasdo & Fowler (1974), <https://doi.org/10.1136/bjo.58.8.709>, with the value that Lanaro et
-/// al. use.
+/// The value that Lanaro et al. (2020) use, after Drasdo & Fowler (1974),
+/// <https://doi.org/10.1136/bjo.58.8.709>.
 pub const MICROMETRES_PER_DEGREE: f64 = 288.;
 
-/// Axial length, in mm, of the eye in which a degree spans 291 µm (the rule of the Metricks
-/// package).
+/// Axial length, in mm, of the reference eye of the Metricks package, in which a degree spans 291
+/// µm.
 const REFERENCE_AXIAL_LENGTH_MM: f64 = 24.;
-/// Micrometres per degree in the eye of that axial length.
+/// Micrometres per degree in the reference eye of the Metricks package, which is 24 mm long.
 const REFERENCE_MICROMETRES_PER_DEGREE: f64 = 291.;
 
 /// Error for a scale that is not a positive number.
@@ -30,7 +30,7 @@ fn positive(quantity: &'static str, value: f64) -> Result<f64, ScaleError> {
 /// The rule is that of the Metricks package: 291 µm × length / 24 mm.
 ///
 /// # Errors
-/// If the length is not a positive number.
+/// Fails if the length is not a positive number.
 pub fn micrometres_per_degree(axial_length_mm: f64) -> Result<f64, ScaleError> {
     let length = positive("axial length in mm", axial_length_mm)?;
     Ok(REFERENCE_MICROMETRES_PER_DEGREE * length / REFERENCE_AXIAL_LENGTH_MM)
@@ -47,7 +47,7 @@ impl Scale {
     /// Makes a scale from µm per pixel and µm per degree.
     ///
     /// # Errors
-    /// If either is not a positive number.
+    /// Fails if either is not a positive number.
     pub fn new(um_per_px: f64, um_per_degree: f64) -> Result<Self, ScaleError> {
         Ok(Self {
             um_per_px: positive("µm per pixel", um_per_px)?,
@@ -58,7 +58,7 @@ impl Scale {
     /// Makes a scale from pixels per degree and µm per degree.
     ///
     /// # Errors
-    /// If either is not a positive number.
+    /// Fails if either is not a positive number.
     pub fn from_pixels_per_degree(pixels_per_degree: f64, um_per_degree: f64) -> Result<Self, ScaleError> {
         let per_degree = positive("pixels per degree", pixels_per_degree)?;
         Self::new(um_per_degree / per_degree, um_per_degree)

@@ -3,7 +3,7 @@ use serde::{Serialize, Serializer};
 
 /// The value of one cell of a table.
 ///
-/// Serialised in full precision, as files hold it; a missing value is an empty cell.
+/// Files contain it in full precision; a missing value is an empty cell.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
     /// A piece of text.

@@ -12,18 +12,21 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::{Arc, LazyLock};
 
-/// The fonts in which figures are set, regular and bold.
+/// Fonts in which figures are set, regular and bold.
 ///
-/// Arimo has the character widths of Helvetica and Arial, which figures ask for first, so that
-/// texts take the same room.
+/// Arimo has the character widths of Helvetica and Arial, which SVG figures ask for. Texts
+/// therefore take as much room in a PDF or PNG as in the SVG.
 const FONTS: [&[u8]; 2] = [include_bytes!("fonts/Arimo-Regular.ttf"), include_bytes!("fonts/Arimo-Bold.ttf")];
+/// Name of the font family of [`FONTS`].
 const FAMILY: &str = "Arimo";
 
 /// Resolution of figures written as PNG, in pixels per inch: what journals ask for.
 const DPI: f32 = 300.;
+/// Millimetres per inch, to convert [`DPI`] to the pixels per metre that PNG files state.
 const MM_PER_INCH: f32 = 25.4;
-/// Units per inch to which the lengths of an SVG are resolved; a PDF counts in points, 72 per inch.
+/// Units per inch in which an SVG states lengths, as CSS defines its px.
 const SVG_UNITS_PER_INCH: f32 = 96.;
+/// Points per inch, the unit of lengths in a PDF.
 const POINTS_PER_INCH: f32 = 72.;
 
 /// A kind of file that a figure can be written as.
@@ -69,15 +72,14 @@ impl FromStr for FigureFormat {
     }
 }
 
-/// Converts a figure of this crate to bytes of the given format.
+/// Converts a figure of this crate to the bytes of a file in `format`.
 ///
 /// Equal figures make equal bytes on every machine, because texts are set in a font that is part of
-/// the crate. Only characters that it lacks (it has Latin, Greek and basic Cyrillic) are looked for
-/// in the fonts of the machine.
+/// the crate. The font has Latin, Greek and basic Cyrillic letters. Only other characters are
+/// looked for in the fonts of the machine.
 ///
 /// # Errors
-/// Returns [`ReportError::Convert`] if `svg` is not valid SVG, or has no size that the format can
-/// hold.
+/// Fails if `svg` is not valid SVG, has no size, or is too large for the format.
 pub fn convert(svg: &str, format: FigureFormat) -> Result<Vec<u8>, ReportError> {
     match format {
         FigureFormat::Svg => Ok(svg.as_bytes().to_vec()),
@@ -113,7 +115,9 @@ fn own_fonts() -> Database {
     fonts
 }
 
-/// Returns whether the crate's own font has the character, by the blocks to which it was reduced.
+/// Returns whether the crate's own font has the character.
+///
+/// The font was reduced to the blocks of characters listed here.
 const fn is_covered(c: char) -> bool {
     matches!(
         c,

@@ -9,7 +9,7 @@ use std::io::Write;
 /// fields; a field that is a `Vec` makes one cell per element.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if a row has more or fewer cells than the header, does not fit in a
+/// Fails if a row has more or fewer cells than the header, does not fit in a
 /// row (a map), or cannot be written.
 pub fn write_csv<T: Serialize>(writer: impl Write, header: &[&str], rows: &[T]) -> Result<(), ReportError> {
     let mut writer = ::csv::WriterBuilder::new().has_headers(false).from_writer(writer);

@@ -1,15 +1,15 @@
 use super::FigureFormat;
 use thiserror::Error;
 
-/// A table or a figure that could not be made.
+/// Error for a table or a figure that could not be made.
 #[derive(Debug, Error)]
 pub enum ReportError {
     /// A histogram whose edges and counts do not belong together.
     #[error("a histogram of {counts} counts needs {} finite edges in rising order, found {edges} edges: pass edges and counts of the same histogram", .counts + 1)]
     Histogram {
-        /// Number of edges given.
+        /// Number of edges of the histogram.
         edges: usize,
-        /// Number of counts given.
+        /// Number of counts of the histogram.
         counts: usize,
     },
     /// A curve with unequal numbers of abscissae and values.
@@ -17,9 +17,9 @@ pub enum ReportError {
     Curve {
         /// Name of the curve: that of a sampler, or “the mosaic”.
         name: String,
-        /// Number of distances given.
+        /// Number of distances of the curve.
         r: usize,
-        /// Number of values given.
+        /// Number of values of the curve.
         g: usize,
     },
     /// A PNG that could not be encoded.
@@ -35,7 +35,7 @@ pub enum ReportError {
     /// A figure that could not be turned into another format.
     #[error("could not write a figure as {format}: {reason}")]
     Convert {
-        /// The format asked for.
+        /// Format that was asked for.
         format: FigureFormat,
         /// The reason why it failed.
         reason: String,

@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 pub struct FindingRecord {
     /// Name of the sampler.
     pub sampler: String,
-    /// Number of mosaics that have both numbers.
+    /// Number of mosaics that have a regularity index and a distance to the sampler.
     pub mosaics: usize,
     /// Spearman's ρ between regularity index and l-infinity, with its permutation p-value; `None`
     /// if it is not defined.
@@ -19,9 +19,10 @@ pub struct FindingRecord {
 }
 
 impl FindingRecord {
-    /// Computes the correlation from each mosaic's regularity index and distance to the sampler.
+    /// Computes the correlation between the regularity index and the distance to a sampler.
     ///
-    /// `seed` is the seed of the permutations.
+    /// `pairs` has both numbers for each mosaic. `seed` is the seed of the permutations from which
+    /// the p-value comes.
     pub fn of(sampler: &str, pairs: &[(f64, f64)], seed: u64) -> Self {
         let correlation = rank_correlation(pairs, &mut ChaCha8Rng::seed_from_u64(seed));
         Self { sampler: sampler.to_owned(), mosaics: pairs.len(), correlation }

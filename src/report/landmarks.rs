@@ -9,23 +9,25 @@ use serde::{Deserialize, Serialize};
 /// Lengths are in the unit of the mosaic.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LandmarkRecord {
-    /// Path of the file, as given.
+    /// Path of the file, as set by the user.
     pub file: String,
-    /// The unit of all lengths here that do not say otherwise.
+    /// Unit of all lengths in this record whose name ends in no unit.
     pub unit: LengthUnit,
     /// Micrometres per unit, if known.
     pub um_per_unit: Option<f64>,
-    /// The window around each cone: “100 cells”, or the length of its side.
+    /// Size of the window around each cone: “100 cells”, or the length of its side.
     pub window: String,
     /// Number of cones in the mosaic.
     pub n: usize,
-    /// Number of cones whose window lies in that of the mosaic; the map is made of these.
+    /// Number of cones whose window lies inside the window of the mosaic; the landmarks are taken
+    /// from these cones.
     pub whole: usize,
     /// Peak cone density, per squared unit.
     pub peak: Option<f64>,
-    /// Place of the peak density.
+    /// Position of the peak density.
     pub peak_at: Option<Point>,
-    /// Cone density centroid: the density-weighted centroid of the region.
+    /// Cone density centroid: the density-weighted centroid of the region in which the density is
+    /// at least `isodensity` × `peak`.
     pub centroid: Option<Point>,
     /// Value of the density map at the centroid, per squared unit.
     pub centroid_density: Option<f64>,
@@ -35,7 +37,7 @@ pub struct LandmarkRecord {
     pub isodensity_area: Option<f64>,
     /// Ellipse fitted to the contour of the region.
     pub ellipse: Option<Ellipse>,
-    /// Remark that a reader of these numbers needs; empty if there is none.
+    /// Remark on why landmarks are missing or distorted; empty if they are neither.
     pub note: String,
 }
 

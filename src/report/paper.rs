@@ -15,7 +15,7 @@ pub struct PaperResults {
     pub distances: [DistanceBetween; 3],
     /// Rows of Table 2, as printed.
     pub printed: Vec<PrintedDistances>,
-    /// Triangle inequality with the least slack, for each row of Table 2.
+    /// Triangle inequality that is nearest to being violated, for each row of Table 2.
     pub tightest: Vec<Tightest>,
     /// The main finding on the printed tables: correlation of regularity with the distance to each
     /// sampler of Table 2.

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 pub struct MosaicRecord {
     /// Number of points in the window.
     pub n: usize,
-    /// The unit of all lengths here that do not say otherwise.
+    /// Unit of all lengths in this record whose name ends in no unit.
     pub unit: LengthUnit,
     /// Micrometres per unit, if known.
     pub um_per_unit: Option<f64>,
@@ -40,12 +40,13 @@ pub struct MosaicRecord {
     /// l-infinity distance of the pair correlation function to that of each sampler, in the order
     /// of the samplers.
     pub l_infinity: Vec<SamplerDistance>,
-    /// Verdicts by simulations of each sampler; empty if none were asked for.
+    /// Verdicts by simulations of each sampler; empty if no verdicts were asked for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub verdicts: Vec<VerdictRecord>,
 }
 
-/// The l-infinity distance of a mosaic's pair correlation function to the mean one of a sampler.
+/// Distance (l-infinity) between the pair correlation function of a mosaic and the mean one of a
+/// sampler.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SamplerDistance {
     /// Name of the sampler.
@@ -57,7 +58,7 @@ pub struct SamplerDistance {
 impl MosaicRecord {
     /// Records a mosaic, its scalar statistics and its distances to samplers.
     ///
-    /// Place, labels and verdicts are left empty.
+    /// Location, labels and verdicts are left empty.
     pub fn new(mosaic: &Mosaic, measures: &stats::Measures, l_infinity: Vec<SamplerDistance>) -> Self {
         let bounds = mosaic.window().bounds();
         let in_micrometres = mosaic.unit() == LengthUnit::Micrometre;
@@ -116,15 +117,15 @@ impl MosaicRecord {
         self.l_infinity.iter().find(|d| d.sampler == sampler).map(|d| d.l_infinity)
     }
 
-    /// Returns the name of the sampler with the least l-infinity distance; `None` without
+    /// Returns the name of the sampler with the smallest l-infinity distance, or `None` without
     /// distances.
     pub fn closest_sampler(&self) -> Option<&str> {
         let closest = self.l_infinity.iter().min_by(|a, b| a.l_infinity.total_cmp(&b.l_infinity))?;
         Some(&closest.sampler)
     }
 
-    /// Returns the cones per mm² that are expected at the mosaic's place on the retina, if that is
-    /// known.
+    /// Returns the cones per mm² that are expected at the mosaic's location on the retina, if the
+    /// location is known.
     ///
     /// See [`RetinalPlace::expected_cones_per_mm2`].
     pub fn expected_cones_per_mm2(&self) -> Option<f64> {
@@ -144,11 +145,11 @@ pub struct DetectionRecord {
     pub detector: Detector,
     /// Modality that was assumed for the image.
     pub modality: Modality,
-    /// Probability that the modality is right; 1 if it was given.
+    /// Probability that the modality is right; 1 if the user set it.
     pub modality_confidence: f64,
     /// Polarity that was assumed for the contrast of the cones.
     pub polarity: Polarity,
-    /// Number of cones found in the whole image.
+    /// Number of cones found in the entire image.
     pub n: usize,
     /// Cone spacing from Yellott's ring in the spectrum of the image, px.
     pub ring_spacing_px: f64,
@@ -170,7 +171,7 @@ pub struct DetectionRecord {
 }
 
 impl DetectionRecord {
-    /// Records how the cones were detected; `n` is their number in the whole image.
+    /// Records how the cones were detected; `n` is the number of cones in the entire image.
     pub fn new(found: &Detections, n: usize) -> Self {
         Self {
             detector: found.detector,
@@ -201,14 +202,14 @@ impl DetectionRecord {
 pub enum ConesFrom {
     /// Cones that this program found.
     Detected,
-    /// Cones that were marked or found before, and given.
+    /// Cones from a file of the user, marked by hand or found by a program.
     Given,
     /// Cones that this program found and a person corrected.
     Corrected,
 }
 
 impl ConesFrom {
-    /// Returns the name of the origin, as files hold it.
+    /// Returns the name of the origin that is written to files.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Detected => "detected",
@@ -218,8 +219,10 @@ impl ConesFrom {
     }
 }
 
-/// Returns the indices of the records, those first that most need a person's eye; ties keep their
-/// order.
+/// Returns the indices of the records, sorted by how much a person should look at them, most first.
+///
+/// The measure is the expected errors per cone, plus the doubt about modality and spacing. Records
+/// with equal measures keep their order.
 pub fn by_need(records: &[ImageRecord]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..records.len()).collect();
     // A wrong modality or spacing makes the scores wrong as well, so doubt about either counts as
@@ -236,7 +239,7 @@ pub fn by_need(records: &[ImageRecord]) -> Vec<usize> {
 /// One image of a run: a row of `summary.csv` and the content of `metrics.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ImageRecord {
-    /// Path of the image, as given.
+    /// Path of the image, as set by the user.
     pub file: String,
     /// Name under which the results of the image are filed.
     pub name: String,
@@ -250,10 +253,10 @@ pub struct ImageRecord {
     pub height_px: usize,
     /// Origin of the cones' coordinates.
     pub cones_from: ConesFrom,
-    /// Number of given cones outside the window, which are left out.
+    /// Number of cones from a file that lie outside the window and are left out.
     #[serde(default)]
     pub outside: usize,
-    /// Record of the detection; `None` if the cones were given or corrected.
+    /// Record of the detection, or `None` if the cones come from a file or were corrected.
     pub detection: Option<DetectionRecord>,
     /// Spacing from the spectrum of the image; `None` if no column that needs it is wanted.
     #[serde(default)]
@@ -267,7 +270,7 @@ pub struct ImageRecord {
 /// Coordinates measured without an image: a row of `measure`'s `summary.csv`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CoordinatesRecord {
-    /// Path of the file, as given.
+    /// Path of the file, as set by the user.
     pub file: String,
     /// Name under which the results of the file are filed.
     pub name: String,

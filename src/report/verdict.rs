@@ -16,30 +16,32 @@ pub struct VerdictRecord {
     pub p_l_infinity: f64,
     /// l-infinity between the mosaic and the mean of the simulations at its own n and window.
     ///
-    /// [`MosaicRecord::l_infinity`](super::MosaicRecord::l_infinity) holds the distance to the mean
-    /// curve of the class of n and window.
+    /// The distance in [`MosaicRecord::l_infinity`](super::MosaicRecord::l_infinity) differs: it is
+    /// the distance to the mean curve for a class of similar n and window.
     pub l_infinity: f64,
     /// Median l-infinity of one simulation to the mean of all other curves.
     pub l_infinity_usual: f64,
-    /// Value that the l-infinity of 95 % of the simulations stays within.
+    /// Value that the l-infinity of 95 % of the simulations does not exceed.
     pub l_infinity_most: f64,
     /// Ranges of r, from–to in hexagonal spacings, in which g is outside the envelope.
     pub outside: Vec<(f64, f64)>,
-    /// Mean regularity index of the simulations (all points, sample deviation).
+    /// Mean regularity index of the simulations, over all points and with the sample standard
+    /// deviation.
     pub ri_mean: Option<f64>,
-    /// Standard deviation of that index over the simulations.
+    /// Standard deviation of the regularity index over the simulations.
     pub ri_sd: Option<f64>,
     /// Number of simulations made.
     pub simulations: usize,
-    /// Fewest and most points of any simulation.
+    /// Smallest and largest number of points of a simulation.
     pub points: (usize, usize),
     /// Level of the test and of the envelope.
     pub level: f64,
 }
 
-/// Gap, in spacings, below which two stretches are reported as one.
+/// Gap, in hexagonal spacings, below which two stretches outside the envelope are reported as one.
 const NEAR: f64 = 0.05;
-/// Number of stretches that are reported at most.
+/// Largest number of stretches outside the envelope that the words of a verdict name, the widest
+/// first.
 const MOST_STRETCHES: usize = 3;
 
 impl From<&SamplerVerdict> for VerdictRecord {
@@ -101,7 +103,7 @@ impl VerdictRecord {
         words.join(", ")
     }
 
-    /// Returns all stretches outside the envelope, as `verdicts.csv` holds them.
+    /// Returns all stretches outside the envelope in the form in which `verdicts.csv` lists them.
     pub(super) fn outside_words(&self) -> String {
         let stretch = |(from, to): &(f64, f64)| format!("{from:.4}–{to:.4}");
         self.outside.iter().map(stretch).collect::<Vec<_>>().join(" ")

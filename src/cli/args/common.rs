@@ -30,7 +30,7 @@ impl Common {
     /// Sets the number of threads and the level of diagnostics.
     ///
     /// # Errors
-    /// If the threads cannot be started.
+    /// Fails if the threads cannot be started.
     pub fn apply(&self) -> Result<()> {
         let level = match self.verbose {
             0 => tracing::Level::ERROR,
@@ -52,8 +52,11 @@ impl Common {
         Ok(())
     }
 
-    /// Returns how progress is shown: a bar on a terminal, one line per file elsewhere, failures
-    /// only with `--quiet`. From here on, Ctrl-C and SIGTERM stop the batch instead of the program.
+    /// Returns the display of progress for a batch, and starts to catch signals.
+    ///
+    /// Progress is shown as a bar on a terminal and as one line per file elsewhere; with `--quiet`
+    /// only failures are shown. From the call on, Ctrl-C and SIGTERM stop the batch instead of the
+    /// program.
     pub fn progress(&self) -> Box<dyn Progress> {
         signals::listen();
         let shown: Box<dyn Progress> = if self.quiet {
@@ -71,7 +74,7 @@ impl Common {
         if self.quiet { Steps::hidden() } else { Steps::shown() }
     }
 
-    /// Prints a text to standard output, unless it is empty or `--quiet` was given.
+    /// Prints a text to standard output, unless the text is empty or `--quiet` is set.
     ///
     /// A closed pipe (`| head`) is not an error.
     pub fn say(&self, text: &str) {

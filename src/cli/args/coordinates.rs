@@ -30,10 +30,10 @@ fn origin(text: &str) -> Result<Origin, String> {
 }
 
 impl CoordinateArgs {
-    /// Returns the options for reading, checked.
+    /// Returns the options for reading after checking them.
     ///
     /// # Errors
-    /// If the height is not a positive number.
+    /// Fails if the height is not a positive number.
     pub fn options(&self) -> Result<ReadOptions> {
         let options = ReadOptions { origin: self.origin, flip_y: self.flip_y, dataset: self.dataset.clone() };
         options.validate()?;

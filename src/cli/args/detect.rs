@@ -59,17 +59,17 @@ fn read_model(path: &Path) -> Result<UserModel> {
     UserModel::new(&name, &bytes).context(name)
 }
 
-/// Returns a parser that accepts these names and `auto`.
+/// Returns a parser that accepts `auto` and every one of `names`.
 fn or_auto(names: &'static [&'static str]) -> PossibleValuesParser {
     PossibleValuesParser::new(["auto"].into_iter().chain(names.iter().copied()))
 }
 
 impl DetectArgs {
-    /// Returns the options of detection, checked.
+    /// Returns the options of detection after checking them.
     ///
     /// # Errors
-    /// If the spacing is out of its range, or the network cannot be read or does not fit the other
-    /// options.
+    /// Fails if the spacing is out of its range, or the network cannot be read or does not fit the
+    /// other options.
     pub fn options(&self) -> Result<DetectOptions> {
         let given = |text: &str| (text != "auto").then(|| text.to_owned());
         let options = DetectOptions {

@@ -15,10 +15,10 @@ pub struct MapArgs {
     /// the centroid (cone density centroid, CDC), the isodensity area and profiles.
     #[arg(long)]
     maps: bool,
-    /// Number of bound cells that each window grows to hold (3–100000) [default: 100]
+    /// Number of bound cells that each window grows to contain (3–100000) [default: 100]
     ///
-    /// A window that reaches beyond the mosaic before it holds them is flagged “edge”, and no
-    /// landmark is taken from it.
+    /// A window that extends beyond the mosaic before it contains N bound cells is flagged “edge”,
+    /// and no landmark is taken from it.
     #[arg(long, value_name = "N", requires = "maps", conflicts_with = "map_side")]
     map_cells: Option<usize>,
     /// Side of the windows, instead of a number of cells
@@ -40,15 +40,15 @@ pub struct MapArgs {
 }
 
 impl MapArgs {
-    /// Returns whether `--maps` was given.
+    /// Returns whether `--maps` is set.
     pub const fn asked(&self) -> bool {
         self.maps
     }
 
-    /// Returns the maps to be made; `None` without `--maps`.
+    /// Returns the maps to be made, or `None` without `--maps`.
     ///
     /// # Errors
-    /// If a value is out of its range.
+    /// Fails if a value is out of its range.
     pub fn request(&self) -> Result<Option<MapRequest>> {
         if !self.asked() {
             return Ok(None);

@@ -6,7 +6,7 @@ use strum::VariantNames;
 
 /// Options for the estimate of the pair correlation function g(r).
 ///
-/// The unit s is the hexagonal spacing of the mosaic, √(2/(√3 density)).
+/// Distances are in hexagonal spacings of the mosaic, √(2/(√3 density)).
 #[derive(Args)]
 #[command(next_help_heading = "Pair correlation function (s: hexagonal spacing)")]
 pub struct PcfArgs {
@@ -14,10 +14,11 @@ pub struct PcfArgs {
     ///
     /// set-covariance  g(r) is divided by the isotropised set covariance of
     ///                 the window
-    /// translation     each pair is weighted by the overlap of the window
-    ///                 with its shifted copy (Ohser & Stoyan 1981)
-    /// isotropic       each pair is weighted by the part of its circle that
-    ///                 lies inside the window (Ripley 1976)
+    /// translation     each pair is weighted by the inverse of the overlap of
+    ///                 the window with its shifted copy (Ohser & Stoyan 1981)
+    /// isotropic       each pair is weighted by the inverse of the share of a
+    ///                 circle, about one point through the other, that lies
+    ///                 inside the window (Ripley 1976)
     /// torus           distances go across opposite edges; needs --torus
     /// none            no correction: g(r) falls with r
     #[arg(long, verbatim_doc_comment, value_name = "E", default_value = "set-covariance", value_parser = PossibleValuesParser::new(EdgeCorrection::VARIANTS))]
@@ -27,19 +28,20 @@ pub struct PcfArgs {
     /// The numbers of Lanaro et al. (2020) were made with a Gaussian.
     #[arg(long, value_name = "K", default_value = "gaussian", value_parser = PossibleValuesParser::new(Kernel::VARIANTS))]
     kernel: String,
-    /// Standard deviation of the smoothing kernel, in s (0.005–1)
+    /// Standard deviation of the smoothing kernel, in hexagonal spacings (0.005–1)
     #[arg(long, value_name = "S", default_value_t = PcfOptions::default().bandwidth)]
     bandwidth: f64,
-    /// Start of the first bin, in s (at least 1.5 bandwidths)
+    /// Start of the first bin, in hexagonal spacings (at least 1.5 bandwidths)
     ///
-    /// Nearer to 0 the kernel would reach negative distances.
+    /// Nearer to 0 the kernel would extend to negative distances.
     #[arg(long, value_name = "S", default_value_t = PcfOptions::default().r_min)]
     r_min: f64,
-    /// End of the last bin, in s (at most 50) [default: 2.5]
+    /// End of the last bin, in hexagonal spacings (at most 50) [default: 2.5]
     ///
     /// With --functions this option sets the last distance of those functions instead, in the unit
-    /// of the coordinates; the bins of g(r) then end at 2.5 s. [default with --functions: a quarter
-    /// of the shorter side of the window, at most the radius within which 1000 points are expected]
+    /// of the coordinates; the bins of g(r) then end at 2.5 hexagonal spacings. [default with
+    /// --functions: a quarter of the shorter side of the window, at most the radius within which
+    /// 1000 points are expected]
     #[arg(long, value_name = "S")]
     pub r_max: Option<f64>,
     /// Number of bins between --r-min and --r-max (1–2000)
@@ -48,10 +50,13 @@ pub struct PcfArgs {
 }
 
 impl PcfArgs {
-    /// Returns the options, checked; `r_max` is in s, 2.5 if `None`.
+    /// Returns the options after checking them.
+    ///
+    /// `r_max` is the end of the last bin in hexagonal spacings, by default 2.5. It is passed apart
+    /// from `self` because with `--functions` the option has another meaning.
     ///
     /// # Errors
-    /// If a value is out of its range.
+    /// Fails if a value is out of its range.
     pub fn options(&self, r_max: Option<f64>) -> Result<PcfOptions> {
         let options = PcfOptions {
             kernel: self.kernel.parse()?,

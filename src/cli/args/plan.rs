@@ -50,15 +50,15 @@ pub struct PlanArgs {
     /// Also write functions of distance and a table of the points
     ///
     /// G  distribution of nearest-neighbour distances
-    /// F  distribution of distances from places of the window to the nearest
-    ///    point
+    /// F  distribution of distances from locations in the window to the
+    ///    nearest point
     /// J  (1 − G)/(1 − F)
     /// K  Ripley's K
     /// L  √(K/π)
     /// g  pair correlation function
     ///
-    /// Each is given with several edge corrections. The table of points holds
-    /// the nearest neighbour and the Voronoi cell of each point.
+    /// Each is computed with several edge corrections. The table of points
+    /// holds the nearest neighbour and the Voronoi cell of each point.
     #[arg(long, verbatim_doc_comment, help_heading = "Functions of distance")]
     functions: bool,
     /// Distance between the rows of these functions [default: 1/128 of the last distance]
@@ -81,24 +81,27 @@ pub struct PlanArgs {
 
 /// Settings that differ between the commands that make a plan.
 pub struct Defaults {
-    /// Comparison with the default samplers if `--samplers` names none.
+    /// `true` to compare with the default samplers if `--samplers` is not set.
     pub compare: bool,
-    /// Simulations of each sampler, if they were asked for.
+    /// Settings of the simulations of each sampler, or `None` to simulate nothing.
     pub verdict: Option<VerdictOptions>,
     /// Seed of the random numbers.
     pub seed: u64,
 }
 
 impl PlanArgs {
-    /// Returns whether `--maps` was given.
+    /// Returns whether `--maps` is set.
     pub const fn maps_asked(&self) -> bool {
         self.maps.asked()
     }
 
-    /// Returns the plan. `read` says how the coordinates of regions of interest are read.
+    /// Returns the plan.
+    ///
+    /// `read` has the options for reading the coordinates of regions of interest; `defaults` has
+    /// the settings of the command.
     ///
     /// # Errors
-    /// If a value is out of its range, a sampler is unknown, or a table cannot be read.
+    /// Fails if a value is out of its range, a sampler is unknown, or a table cannot be read.
     pub fn plan(&self, read: &ReadOptions, defaults: Defaults) -> Result<Plan> {
         let functions =
             self.functions.then_some(FunctionOptions { r_step: self.r_step, r_max: self.pcf.r_max });

@@ -4,7 +4,9 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::io::Write;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Progress that also stops on Ctrl-C or SIGTERM and adds the options that help to errors.
+/// Wrapper of another display of progress, for every batch of the command line.
+///
+/// It stops the batch on Ctrl-C or SIGTERM, and names in every error the options that remedy it.
 pub struct Watched(pub Box<dyn Progress>);
 
 impl Progress for Watched {
@@ -65,12 +67,14 @@ impl Progress for Bar {
 
 /// Progress as one line per file, for logs.
 pub struct Lines {
+    /// Number of files in the batch.
     total: AtomicUsize,
+    /// Number of files that are finished, with or without success.
     done: AtomicUsize,
 }
 
 impl Lines {
-    /// Returns the progress of a batch that has not begun.
+    /// Returns the display for a batch that has not begun.
     pub const fn new() -> Self {
         Self { total: AtomicUsize::new(0), done: AtomicUsize::new(0) }
     }
@@ -127,7 +131,7 @@ impl Steps {
         Self(ProgressBar::hidden())
     }
 
-    /// Moves the bar to `step` of at most `of` steps.
+    /// Moves the bar to step number `step` of at most `of` steps.
     pub fn at(&self, step: usize, of: usize) {
         self.0.set_length(of as u64);
         self.0.set_position(step as u64);

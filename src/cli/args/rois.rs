@@ -26,21 +26,22 @@ pub struct RoiArgs {
     /// In the unit of the coordinates, or in µm with the suffix um.
     #[arg(long, value_name = "STEP", requires = "roi_side", conflicts_with = "rois")]
     roi_step: Option<Length>,
-    /// Number of bound cells that each region grows to hold (1–100000)
+    /// Number of bound cells that each region grows to contain (1–100000)
     ///
-    /// Regions grow about their centre and keep their proportions. One that reaches the border of
-    /// the window before it holds that many is flagged “few”. [default: regions do not grow]
+    /// Regions grow about their centre and keep their proportions. A region that reaches the border
+    /// of the window before it contains N bound cells is flagged “few”. [default: regions do not
+    /// grow]
     #[arg(long, value_name = "N", requires = "roi_source")]
     roi_cells: Option<usize>,
 }
 
 impl RoiArgs {
-    /// Returns the regions to be measured; `None` if none were asked for.
+    /// Returns the regions to be measured, or `None` if no option asks for any.
     ///
-    /// `read` says how their coordinates are read.
+    /// `read` has the options for reading the coordinates of a table of regions.
     ///
     /// # Errors
-    /// If the table cannot be read or a value is out of its range.
+    /// Fails if the table cannot be read or a value is out of its range.
     pub fn request(&self, read: &ReadOptions) -> Result<Option<RoiRequest>> {
         let source = match (&self.rois, self.roi_side) {
             (Some(path), _) => RoiSource::Table(RoiTable::read(path, read)?),

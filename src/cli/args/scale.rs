@@ -38,7 +38,7 @@ pub struct ScaleArgs {
     um_per_degree: Option<f64>,
     /// Axial length of the eye in mm, to compute the micrometres per degree
     ///
-    /// They are 291 µm × length / 24 mm.
+    /// The rule of the Metricks package: 291 µm per degree × length / 24 mm.
     #[arg(long, value_name = "MM", requires = "scale")]
     axial_length: Option<f64>,
     /// Linear shrinkage of post-mortem tissue, as a fraction of its living length (0–0.9)
@@ -54,7 +54,7 @@ impl ScaleArgs {
     /// Returns the source of the scales.
     ///
     /// # Errors
-    /// If a value is out of its range or the table cannot be read.
+    /// Fails if a value is out of its range or the table cannot be read.
     pub fn source(&self) -> Result<ScaleSource> {
         let slide = self.slide()?;
         match self.shrinkage {

@@ -22,9 +22,9 @@ pub struct SummaryArgs {
     /// name contains its identifier; of several such rows the one with the longest identifier
     /// counts.
     ///
-    /// Where it has columns eccentricity_mm (or eccentricity_deg) and meridian (nasal, temporal,
-    /// superior or inferior, on the retina), the density of the average eye at that place (Curcio
-    /// et al. 1990) is given beside the measured one.
+    /// If it has columns eccentricity_mm (or eccentricity_deg) and meridian (nasal, temporal,
+    /// superior or inferior, on the retina), summary.csv lists the density of the average eye at
+    /// that location (Curcio et al. 1990) beside the measured one.
     #[arg(long, value_name = "FILE")]
     manifest: Option<PathBuf>,
     /// Rule that groups the files, for groups.csv
@@ -43,15 +43,16 @@ pub struct SummaryArgs {
 }
 
 impl SummaryArgs {
-    /// Returns the columns to be shown; all if none were chosen.
+    /// Returns the columns to be shown, by default all.
     pub fn metrics(&self) -> MetricSelection {
         self.metrics.clone().unwrap_or_default()
     }
 
-    /// Returns the manifest and the rule of grouping.
+    /// Returns the manifest and the rule of grouping, each `None` if its option is not set.
     ///
     /// # Errors
-    /// If the manifest cannot be read, or is missing though its columns are to group the files.
+    /// Fails if the manifest cannot be read, or is missing though its columns are to group the
+    /// files.
     pub fn labels(&self) -> Result<Labels> {
         let manifest = self.manifest.as_deref().map(Manifest::read).transpose()?;
         if manifest.is_none() && matches!(self.group_by, Some(GroupBy::Columns(_))) {

@@ -8,7 +8,7 @@ use serde_json::json;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Options for points with a given pair correlation function or spectrum.
+/// Options for points that shall have the pair correlation function or spectrum in a file.
 #[derive(Args)]
 #[command(next_help_heading = "Points with a given pair correlation function or spectrum (instead of NAME)")]
 pub struct TargetArgs {
@@ -34,15 +34,16 @@ pub struct TargetArgs {
 pub struct Target {
     /// Sampler that draws points with this curve.
     pub shaped: Shaped,
-    /// Rows of r, in spacings, and g; `None` if the target is a spectrum.
+    /// Rows `[r, g]` of the target, with r in hexagonal spacings; `None` if the target is a
+    /// spectrum.
     pub pcf: Option<Vec<[f64; 2]>>,
 }
 
 impl TargetArgs {
-    /// Reads the target curve; `None` if no option names one.
+    /// Reads the target curve from its file, or returns `None` if no option names a file.
     ///
     /// # Errors
-    /// If the file cannot be read or no point pattern has this curve.
+    /// Fails if the file cannot be read or no point pattern has this curve.
     pub fn target(&self) -> Result<Option<Target>> {
         let (curve, pcf) = match (&self.target_pcf, &self.target_spectrum) {
             (Some(path), _) => {
@@ -56,7 +57,9 @@ impl TargetArgs {
     }
 }
 
-/// Returns a sentence on how well points fit their target; a warning if they fit it poorly.
+/// Returns a sentence on how well points fit their target.
+///
+/// The sentence is a warning, with a possible cause and its remedy, if the fit is poor.
 pub fn fit_in_words(fit: &TargetFit) -> String {
     let miss = significant(fit.l_infinity, 2);
     let words =
@@ -78,7 +81,7 @@ pub fn fit_in_words(fit: &TargetFit) -> String {
 /// Writes the fit beside the file of the points, as NAME.fit.json, and returns its path.
 ///
 /// # Errors
-/// If the file cannot be written.
+/// Fails if the file cannot be written.
 pub fn write_fit(points: &Path, n: usize, fit: &TargetFit) -> Result<PathBuf> {
     let path = points.with_extension("fit.json");
     let told = json!({

@@ -4,7 +4,8 @@ use conemosaic::detect::{Modality, Polarity};
 use conemosaic::render::{PointSpread, RenderOptions};
 use rand::Rng;
 
-/// Options for the appearance of cones and image. The unit s is the local spacing of the cones.
+/// Options for the appearance of cones and image. A cone spacing, as a unit, is the local spacing
+/// of the cones.
 #[derive(Args)]
 #[command(next_help_heading = "Appearance (N, or a range A..B from which each image draws; s: cone spacing)")]
 pub struct Appearance {
@@ -13,7 +14,7 @@ pub struct Appearance {
     /// airy: diffraction pattern of a round pupil, with rings.
     #[arg(long, value_name = "PSF", value_parser = ["gaussian", "airy"])]
     psf: Option<String>,
-    /// Size of a cone in s (0.1–1.5) [default: confocal 0.55, others 0.8]
+    /// Size of a cone, in cone spacings (0.1–1.5) [default: confocal 0.55, others 0.8]
     ///
     /// Full width at half maximum of its spot in confocal images, diameter of its inner segment in
     /// the others.
@@ -99,14 +100,14 @@ pub struct Appearance {
     /// Number of blood vessels that enter the image and branch (0–50) [default: 0]
     #[arg(long, value_name = "N")]
     vessels: Option<Draw>,
-    /// Width of a vessel in s (0.5–50) [default: 3]
+    /// Width of a vessel, in cone spacings (0.5–50) [default: 3]
     #[arg(long, value_name = "S")]
     vessel_width: Option<Draw>,
     /// Fraction of the light that a vessel absorbs (0–1) [default: 0.6]
     #[arg(long, value_name = "F")]
     vessel_depth: Option<Draw>,
-    /// Standard deviation of additional Gaussian blur, in s (0–1) [default: split 0.06, others
-    /// 0.05]
+    /// Standard deviation of additional Gaussian blur, in cone spacings (0–1) [default: split 0.06,
+    /// others 0.05]
     #[arg(long, value_name = "S")]
     blur: Option<Draw>,
     /// Standard deviation of the noise of a pixel at mid-grey (0–0.5) [default: confocal 0.01,
@@ -131,7 +132,10 @@ pub struct Appearance {
 }
 
 impl Appearance {
-    /// Returns the options of one image: the values given, and otherwise those of `defaults`.
+    /// Returns the options of one image: the values set by the user, and otherwise those of
+    /// `defaults`.
+    ///
+    /// An option that is a range draws its value for this image from `rng`.
     pub fn options(&self, defaults: RenderOptions, polarity: Polarity, rng: &mut dyn Rng) -> RenderOptions {
         let mut o = RenderOptions { polarity, ..defaults };
         if let Some(psf) = &self.psf {
@@ -178,7 +182,7 @@ impl Appearance {
         o
     }
 
-    /// Returns the first option given that images of this modality do not have.
+    /// Returns the first option set by the user that images of `modality` do not have.
     pub fn foreign(&self, modality: Modality) -> Option<&'static str> {
         let all = [
             ("--psf", self.psf.is_some(), &[Modality::Confocal][..]),

@@ -4,7 +4,9 @@ use std::str::FromStr;
 /// A number, or a range from which each image draws its own number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Draw {
+    /// Lower end of the range.
     low: f64,
+    /// Upper end of the range, equal to `low` for a single number.
     high: f64,
 }
 

@@ -9,6 +9,7 @@ use std::path::Path;
 #[derive(Serialize)]
 pub struct Entry {
     image: String,
+    /// Path of the table of true cones; empty if it is not written.
     truth: String,
     seed: u64,
     /// Number of all cones of the truth.
@@ -18,11 +19,14 @@ pub struct Entry {
     /// Number of cones of class missing.
     missing_cones: usize,
     um_per_px: Option<f64>,
+    /// Source of the cones: a sampler, a file or “lattice patches”, the built-in model.
     mosaic: String,
 }
 
 impl Entry {
-    /// Returns the entry of an image and, if it is written, the file of its truth.
+    /// Returns the entry of an image.
+    ///
+    /// `truth` is the table of true cones if it is written, and `mosaic` the source of the cones.
     pub fn new(
         (image, truth): (&Path, Option<&Path>),
         seed: u64,
@@ -47,10 +51,10 @@ impl Entry {
 /// One row per image: its description, its mosaic and its appearance.
 pub type Row = (Entry, MosaicOptions, RenderOptions);
 
-/// Writes the manifest as CSV, whole or not at all.
+/// Writes the manifest as CSV; the file appears complete or not at all.
 ///
 /// # Errors
-/// If the file cannot be written.
+/// Fails if the file cannot be written.
 pub fn write(path: &Path, rows: &[Row]) -> Result<()> {
     let mut table = csv::Writer::from_writer(Vec::new());
     for row in rows {
@@ -62,7 +66,7 @@ pub fn write(path: &Path, rows: &[Row]) -> Result<()> {
 
 /// Returns the table of the true cones: position in px, contrast and class.
 ///
-/// If the scale is known, positions are given in µm as well.
+/// If the scale is known, positions are written in µm as well.
 pub fn truth(made: &Simulation, um_per_px: Option<f64>) -> String {
     let mut text = String::from("x_px,y_px,contrast,class");
     text.push_str(if um_per_px.is_some() { ",x_um,y_um\n" } else { "\n" });

@@ -100,7 +100,7 @@ impl Render {
     /// Makes the images and writes them with their truth and manifest.
     ///
     /// # Errors
-    /// If an option is wrong or a file cannot be written.
+    /// Fails if an option is wrong or a file cannot be written.
     pub fn execute(self, common: &Common) -> Result<Done> {
         if self.truth.as_ref() == Some(&self.out) {
             bail!("--out and --truth name the same file: give each a file of its own");
@@ -157,7 +157,8 @@ impl Render {
         }
         image.width = self.width.unwrap_or(image.width);
         image.height = self.height.unwrap_or(image.height);
-        // a random stream of its own, so that ranges do not change an image whose values are given
+        // options that are ranges draw from a separate random stream, so that they leave the random
+        // numbers of the image itself unchanged
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         rng.set_stream(1);
         let mut image = self.appearance.options(image, self.polarity, &mut rng);
@@ -179,7 +180,7 @@ impl Render {
         path.with_file_name(format!("{stem}_{:0digits$}{ending}", k + 1))
     }
 
-    /// Writes image and truth, both or neither.
+    /// Writes the image and, if `truth` is a path, its true cones: both files or neither.
     fn write(
         &self,
         made: &Simulation,
@@ -204,7 +205,7 @@ impl Render {
     }
 }
 
-/// Returns the simulation without the cones that nobody could mark, those dim or missing.
+/// Returns the simulation without the cones of class dim or missing, which nobody could mark.
 fn seen(made: Simulation) -> Simulation {
     let all = made.cones.into_iter().zip(made.visibility);
     let (cones, visibility) = all.filter(|(_, v)| v.class == ConeClass::Cone).unzip();

@@ -37,7 +37,8 @@ pub struct MosaicSource {
     /// Spacing along y divided by spacing along x (0.5–2) [default: 1]
     #[arg(long, value_name = "RATIO", conflicts_with = "points")]
     anisotropy: Option<Draw>,
-    /// Standard deviation of a random displacement of each cone in x and y, in s (0–0.5)
+    /// Standard deviation of a random displacement of each cone in x and y, in cone spacings
+    /// (0–0.5)
     ///
     /// [default: 0.085, which gives the regularity index of real mosaics; with --mosaic: 0]
     #[arg(long, value_name = "S", conflicts_with = "points")]
@@ -58,7 +59,10 @@ pub struct MosaicSource {
 }
 
 impl MosaicSource {
-    /// Returns the options of the mosaic of one image: the values given, and otherwise `defaults`.
+    /// Returns the options of the mosaic of one image: the values set by the user, and otherwise
+    /// those of `defaults`.
+    ///
+    /// An option that is a range draws its value for this image from `rng`.
     pub fn options(
         &self,
         defaults: MosaicOptions,
@@ -85,16 +89,19 @@ impl MosaicSource {
         o
     }
 
-    /// Returns the spacing given for the cones of a file, which may be too few to measure it;
-    /// `None` if there is no file or no spacing was given.
+    /// Returns the spacing that the user set for cones read from a file.
+    ///
+    /// The cones may be too few to measure their spacing. `None` if the cones are not read from a
+    /// file or no spacing is set; `mosaic` has the spacing drawn for this image.
     pub fn given_spacing(&self, mosaic: &MosaicOptions) -> Option<f64> {
         self.points.as_ref().and(self.spacing).map(|_| mosaic.spacing)
     }
 
-    /// Returns the image of the cones of one mosaic.
+    /// Makes the image of one mosaic, from a file of cones, a sampler or the built-in model.
     ///
     /// # Errors
-    /// If the file of cones cannot be read, or the sampler or an option does not allow the image.
+    /// Fails if the file of cones cannot be read, or the sampler or an option does not allow the
+    /// image.
     pub fn picture(
         &self,
         mosaic: &MosaicOptions,

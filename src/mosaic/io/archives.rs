@@ -5,9 +5,11 @@ use super::text::decode;
 use super::{RawFile, imagej, webplotdigitizer};
 use std::io::{Cursor, Read};
 
-/// Largest size in bytes to which one ROI may unpack: 4 million sub-pixel points.
+/// Limit on the unpacked size of one ROI, in bytes: 4 million sub-pixel points of 12 bytes each.
+///
+/// A ROI that unpacks to more is refused, so that a small archive cannot fill the memory.
 const LARGEST_ROI: u64 = 48 << 20;
-/// Largest size in bytes to which all ROIs of a set together may unpack: 16 million such points.
+/// Limit on the unpacked size of all ROIs of a set together, in bytes: 16 million sub-pixel points.
 const LARGEST_SET: u64 = 192 << 20;
 
 /// Reads a `RoiSet.zip` that ImageJ's ROI manager saved.

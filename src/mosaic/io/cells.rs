@@ -41,7 +41,7 @@ impl Separator {
 
     /// Splits a line into cells without surrounding blanks and quotation marks.
     ///
-    /// `None` if a quotation mark is not closed.
+    /// Returns `None` if a quotation mark is not closed.
     fn split<'a>(self, line: &'a str) -> Option<Vec<Cow<'a, str>>> {
         let separates = |c: char| match self {
             Self::Comma => c == ',',
@@ -80,13 +80,13 @@ impl Separator {
 pub(super) struct Row<'a> {
     /// Number of the line, from 1.
     pub line: usize,
-    /// Whole text of the line.
+    /// Complete text of the line.
     pub text: &'a str,
     /// Cells without surrounding blanks and quotation marks.
     pub cells: Vec<Cow<'a, str>>,
 }
 
-/// Rows of a text that are not empty, all with as many cells as the first, and their separator.
+/// Non-empty rows of a text, each with as many cells as the first, and the separator between cells.
 pub(super) struct Table<'a> {
     /// Rows in the order of the text, the header included.
     pub rows: Vec<Row<'a>>,
@@ -94,13 +94,14 @@ pub(super) struct Table<'a> {
 }
 
 impl<'a> Table<'a> {
-    /// Splits a text into rows of cells; `expected` is what errors say should be there.
+    /// Splits a text into rows of cells; `expected` describes, in errors, the content of a good
+    /// file.
     ///
     /// Empty cells at the end of a row that is longer than the first are dropped.
     ///
     /// # Errors
-    /// If the text has no content, a row has more or fewer cells than the first, or a quotation
-    /// mark is not closed.
+    /// Fails if the text has no content, a row has more or fewer cells than the first, or a
+    /// quotation mark is not closed on its line.
     pub fn new(text: &'a str, expected: &'static str) -> Result<Self, Located> {
         let (_, first) = content_lines(text).next().ok_or(ReadFault::Empty { expected })?;
         let separator = Separator::of(first);
@@ -137,7 +138,7 @@ impl<'a> Table<'a> {
     /// Returns the number in cell `index` of a row.
     ///
     /// # Errors
-    /// If the cell has no finite number; the message calls it `column`.
+    /// Fails if the cell has no finite number; the message calls the cell by the name `column`.
     pub fn number(&self, row: &Row, index: usize, column: &str) -> Result<f64, Located> {
         let cell = row.cells.get(index).map_or("", |cell| cell.as_ref());
         let fault = match self.parse(cell) {
@@ -157,7 +158,7 @@ impl<'a> Table<'a> {
         Err(Located::line(row.line, fault))
     }
 
-    /// Returns whether a cell that is not a number looks like one with a decimal comma.
+    /// Returns whether a cell that is not a number looks like a number with a decimal comma.
     ///
     /// A line such as `1,5 2,5` is split at its commas, so that the cell `5 2` contains a blank.
     fn may_be_decimal_comma(&self, cell: &str) -> bool {

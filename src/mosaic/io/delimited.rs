@@ -6,8 +6,8 @@ use crate::geometry::Point;
 
 /// Reads text in columns, with or without a header, with one point per row.
 ///
-/// WebPlotDigitizer's CSV of one dataset and ImageJ's results are of this kind; the CSV of all
-/// datasets is recognised by its header.
+/// WebPlotDigitizer's CSV of one dataset and ImageJ's results are of this kind. WebPlotDigitizer's
+/// CSV of all datasets is recognised by its header and read as several datasets.
 pub(super) fn read(text: &str) -> Result<RawFile, Located> {
     let table = Table::new(text, "two columns of numbers, x and y")?;
     if let Some(names) = all_datasets_header(&table) {
@@ -63,7 +63,7 @@ pub(super) fn read_rings(text: &str) -> Result<RawFile, Located> {
     Ok(RawFile { dialect, unit, y_may_point_up: true, datasets, scores: None })
 }
 
-/// Returns the indices of the columns, and the rows below the header, if there is one.
+/// Returns the indices of the columns, and the rows below the header, or all rows without a header.
 fn columns_of<'t, 'a>(table: &'t Table<'a>) -> Result<(Columns, &'t [Row<'a>]), Located> {
     match table.rows.split_first() {
         Some((first, rest)) if !first.cells.iter().any(|cell| table.is_number(cell)) => {

@@ -3,7 +3,7 @@ use std::io;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Place in a file where something is wrong.
+/// Location of a fault within a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A line of text, counted from 1.
@@ -12,14 +12,15 @@ pub enum Place {
     Member(String),
 }
 
-/// Error for a coordinate file or a table that cannot be read: the file, the place and the fault.
+/// Error for a coordinate file or a table that cannot be read: the file, the location and the
+/// fault.
 #[derive(Debug)]
 pub struct ReadError {
-    /// Path of the file, as given.
+    /// Path of the file, as passed by the caller.
     pub file: String,
-    /// Place in the file; `None` if the fault has none.
+    /// Location in the file, or `None` if the fault is not on a line or in a member of an archive.
     pub place: Option<Place>,
-    /// Fault that was found there.
+    /// Fault that was found in the file.
     pub fault: ReadFault,
 }
 
@@ -49,16 +50,16 @@ impl std::error::Error for ReadError {
 /// The message says what was expected, what was found and what to do.
 #[derive(Debug, Error)]
 pub enum ReadFault {
-    /// The operating system refuses to read the file.
+    /// Refusal of the operating system to read the file.
     #[error("cannot be read ({0}): check that it exists and may be read")]
     Io(io::Error),
-    /// The file is larger than a coordinate file can sensibly be.
+    /// File, or ROI in an archive, that is larger than coordinates can sensibly be.
     #[error("is larger than {limit_mib} MiB, too large for coordinates: give a file of point coordinates")]
     TooLarge {
         /// Size of the largest file that is read, in MiB.
         limit_mib: u64,
     },
-    /// The file has nothing but blanks and comments.
+    /// File with nothing but blanks and comments.
     #[error(
         "expected {expected}, found an empty file: export it again (a header alone would mean no points)"
     )]
@@ -66,7 +67,7 @@ pub enum ReadFault {
         /// Content that was expected.
         expected: &'static str,
     },
-    /// The file is neither text nor any of the known binary dialects.
+    /// File that is neither text nor any of the known binary dialects.
     #[error(
         "expected coordinates as text, a WebPlotDigitizer project or ImageJ ROIs, found {found}: export the \
          coordinates as CSV"
@@ -75,7 +76,7 @@ pub enum ReadFault {
         /// Kind of file that it seems to be.
         found: String,
     },
-    /// A cell that should be a number has other text.
+    /// Cell that should be a number but has other text.
     #[error("expected a number for {column}, found {found}: {remedy}")]
     NotANumber {
         /// Name of the column.
@@ -85,7 +86,7 @@ pub enum ReadFault {
         /// Advice on what to do.
         remedy: &'static str,
     },
-    /// A number is NaN, infinite, or too large for a floating-point number.
+    /// Number that is NaN, infinite, or too large for a floating-point number.
     #[error("expected a finite number for {column}, found {found}: leave out points without a position")]
     NotFinite {
         /// Name of the column.
@@ -93,7 +94,7 @@ pub enum ReadFault {
         /// Text of the cell, shortened.
         found: String,
     },
-    /// The file has a single column.
+    /// File with a single column.
     #[error(
         "expected two columns, x and y, separated by comma, semicolon, tab or blanks, found only one in \
          {found}: export both"
@@ -102,7 +103,7 @@ pub enum ReadFault {
         /// Text of the first line, shortened.
         found: String,
     },
-    /// A row has more or fewer cells than the first one.
+    /// Row with more or fewer cells than the first row.
     #[error(
         "expected {expected} cells as in the first row, found {found} in {line}: correct the row (is this a \
          table of coordinates? are decimal commas separated by semicolons?)"
@@ -115,13 +116,13 @@ pub enum ReadFault {
         /// Text of the row, shortened.
         line: String,
     },
-    /// A quotation mark is not closed on its line.
+    /// Quotation mark that is not closed on its line.
     #[error("expected a closing quotation mark on the same line, found none in {line}: correct the row")]
     OpenQuote {
         /// Text of the line, shortened.
         line: String,
     },
-    /// The header lacks the expected columns.
+    /// Header without the expected columns.
     #[error(
         "expected a header that names {expected}, found {found}: rename the columns or leave out the header"
     )]
@@ -131,7 +132,7 @@ pub enum ReadFault {
         /// Text of the header, shortened.
         found: String,
     },
-    /// Two columns have the same name.
+    /// Two columns with the same name.
     #[error("expected one column named {column}, found two in {header}: keep only the right one")]
     TwoColumns {
         /// Name of the column.
@@ -139,7 +140,7 @@ pub enum ReadFault {
         /// Text of the header, shortened.
         header: String,
     },
-    /// The JSON is broken, or not a WebPlotDigitizer project.
+    /// JSON that is broken, or not a WebPlotDigitizer project.
     #[error(
         "expected a WebPlotDigitizer project (version 3 or 4), found JSON that is damaged or of another \
          kind ({detail}): save the project again"
@@ -148,7 +149,7 @@ pub enum ReadFault {
         /// Message of the JSON parser.
         detail: String,
     },
-    /// The archive is broken.
+    /// Archive that is broken and cannot be unpacked.
     #[error("expected {expected}, found a damaged archive ({detail}): save it again")]
     Archive {
         /// Kind of archive that was expected.
@@ -156,7 +157,7 @@ pub enum ReadFault {
         /// Message of the archive reader.
         detail: String,
     },
-    /// The archive lacks the expected file.
+    /// Archive without the expected file.
     #[error("expected {expected} in the archive, found {found}: {remedy}")]
     NotInArchive {
         /// File that was expected.
@@ -166,7 +167,7 @@ pub enum ReadFault {
         /// Advice on what to do.
         remedy: &'static str,
     },
-    /// The file is an archive, and this build cannot read archives.
+    /// Archive, which this build cannot read because it lacks the feature `archives`.
     #[cfg(not(feature = "archives"))]
     #[error(
         "expected a file that is not packed, found {found}, which this build cannot open: unpack it, or build conemosaic \
@@ -176,7 +177,7 @@ pub enum ReadFault {
         /// Kind of archive that was found.
         found: &'static str,
     },
-    /// The ImageJ ROI ends too early or does not start like one.
+    /// ImageJ ROI that ends too early or does not begin with the bytes of a ROI.
     #[error(
         "expected an ImageJ ROI of at least {expected} bytes that begins with “Iout”, found {found}: save the ROI again"
     )]
@@ -186,7 +187,7 @@ pub enum ReadFault {
         /// Description of what was found.
         found: String,
     },
-    /// The ImageJ ROI is not a set of points.
+    /// ImageJ ROI that is not a set of points.
     #[error(
         "expected an ImageJ point or multi-point ROI, found {found}: mark cones with the multi-point tool"
     )]
@@ -194,7 +195,7 @@ pub enum ReadFault {
         /// Kind of ROI that was found.
         found: String,
     },
-    /// The ImageJ ROI is of a kind that encloses no window.
+    /// ImageJ ROI of a kind that encloses no window.
     #[error(
         "expected an ImageJ polygon, freehand, traced or rectangular ROI, found {found}: draw the window with one of \
          these tools"
@@ -203,10 +204,10 @@ pub enum ReadFault {
         /// Kind of ROI that was found.
         found: String,
     },
-    /// The rings enclose no window.
+    /// Rings of corners that enclose no window.
     #[error("{0}")]
     Outline(crate::geometry::PolygonError),
-    /// The file lacks the dataset that was asked for.
+    /// Request for a dataset that the file does not contain.
     #[error("expected a dataset named {wanted}, found only {found}: choose one of these")]
     NoSuchDataset {
         /// Name that was asked for.
@@ -214,7 +215,7 @@ pub enum ReadFault {
         /// Names in the file, shortened.
         found: String,
     },
-    /// The options give a pixel origin for coordinates that are not pixels.
+    /// Pixel origin set for coordinates that are not in pixels.
     #[error(
         "expected coordinates in px, since the origin is {origin}, found coordinates in \
          {unit}: leave out the origin"
@@ -225,7 +226,7 @@ pub enum ReadFault {
         /// Symbol of the unit that the header names.
         unit: &'static str,
     },
-    /// An option is out of its range.
+    /// Option with a value outside its range.
     #[error("{option} is {found}: expected {expected}")]
     Option {
         /// Name of the option.
@@ -235,10 +236,10 @@ pub enum ReadFault {
         /// Range of the option.
         expected: &'static str,
     },
-    /// The scale is not a positive number.
+    /// Scale that is not a positive number.
     #[error("{0}: correct the row")]
     Scale(#[from] crate::mosaic::ScaleError),
-    /// Two rows give the same identifier different scales.
+    /// Two rows with the same identifier but different scales.
     #[error(
         "expected one scale for {identifier}, found another on line {first_line}: keep only the right one"
     )]
@@ -248,7 +249,7 @@ pub enum ReadFault {
         /// Number of the line that gave the first scale.
         first_line: usize,
     },
-    /// Two rows give the same name different groups.
+    /// Two rows with the same name but different groups.
     #[error("expected one group for {name}, found another on line {first_line}: keep only the right one")]
     TwoGroups {
         /// Name that occurs twice, shortened.
@@ -256,13 +257,13 @@ pub enum ReadFault {
         /// Number of the line that gave the first group.
         first_line: usize,
     },
-    /// A row of a table of groups lacks the name or the group.
+    /// Row of a table of groups without a name or without a group.
     #[error("expected a name and its group, found {line}: give both, separated by a comma")]
     NoGroup {
         /// Text of the row, shortened.
         line: String,
     },
-    /// Two different rows of a manifest have the same identifier.
+    /// Two different rows of a manifest with the same identifier.
     #[error("expected one row for {identifier}, found another on line {first_line}: keep only the right one")]
     TwoRows {
         /// Identifier of both rows, shortened.
@@ -270,7 +271,7 @@ pub enum ReadFault {
         /// Number of the line of the first row.
         first_line: usize,
     },
-    /// The distance from the fovea is negative.
+    /// Distance from the fovea that is negative.
     #[error(
         "expected a distance of 0 or more in column {column}, found {value}: give the distance without a \
          sign, and the direction in the column meridian"
@@ -281,7 +282,7 @@ pub enum ReadFault {
         /// Number in the cell.
         value: f64,
     },
-    /// The direction from the fovea is not one of the four meridians.
+    /// Direction from the fovea that is not one of the four meridians.
     #[error(
         "expected the meridian nasal, temporal, superior or inferior (of the retina), found {found}: name \
          one of these, or leave the cell empty"
@@ -290,13 +291,13 @@ pub enum ReadFault {
         /// Text of the cell, shortened.
         found: String,
     },
-    /// The box has no area.
+    /// Box without an area, in a table of regions.
     #[error("expected a box with an area (x0 < x1 and y0 < y1), found {line}: correct the row")]
     NoBox {
         /// Text of the row, shortened.
         line: String,
     },
-    /// Two boxes of one file have the same name.
+    /// Two boxes of one file with the same name.
     #[error("expected one box named {name} per file, found another on line {first_line}: rename one of them")]
     TwoBoxes {
         /// Name that occurs twice, shortened.
@@ -304,7 +305,7 @@ pub enum ReadFault {
         /// Number of the line that gave the first box.
         first_line: usize,
     },
-    /// A row of a table of scales or of a manifest has no identifier.
+    /// Row of a table of scales or of a manifest without an identifier.
     #[error("expected an identifier in the first column, found none in {line}: give a part of the file name")]
     NoIdentifier {
         /// Text of the row, shortened.
@@ -312,22 +313,22 @@ pub enum ReadFault {
     },
 }
 
-/// Fault with its place, before the path of the file is added.
+/// Fault and its location within a file, before the path of the file is added.
 #[derive(Debug)]
 pub(super) struct Located {
-    /// Place in the file; `None` if the fault has none.
+    /// Location in the file, or `None` if the fault is not on a line or in a member of an archive.
     pub place: Option<Place>,
-    /// Fault that was found there.
+    /// Fault that was found in the file.
     pub fault: ReadFault,
 }
 
 impl Located {
-    /// Places a fault on a line, counted from 1.
+    /// Returns the fault with its line, counted from 1.
     pub fn line(line: usize, fault: ReadFault) -> Self {
         Self { place: Some(Place::Line(line)), fault }
     }
 
-    /// Places a fault in a member of an archive.
+    /// Returns the fault with the name of the member of an archive that has it.
     #[cfg(feature = "archives")]
     pub fn member(name: &str, fault: ReadFault) -> Self {
         Self { place: Some(Place::Member(name.to_owned())), fault }
@@ -348,7 +349,7 @@ impl From<ReadFault> for Located {
 /// Error for a coordinate file that cannot be written.
 #[derive(Debug, Error)]
 pub enum WriteError {
-    /// The operating system refuses to write the file.
+    /// Refusal of the operating system to write the file.
     #[error(
         "{} cannot be written ({source}): check that its folder exists, may be written to and has room",
         .file.display()
@@ -359,7 +360,7 @@ pub enum WriteError {
         /// Error of the operating system.
         source: io::Error,
     },
-    /// A coordinate or score is not finite, so that no reader would accept it.
+    /// Coordinate or score that is not finite, so that no reader would accept it.
     #[error(
         "{}: point {index} (counted from 0) has a coordinate or score that is not a finite number: leave \
          it out",
@@ -371,19 +372,19 @@ pub enum WriteError {
         /// 0-based index of the point.
         index: usize,
     },
-    /// The scores are not one per point.
+    /// Number of scores that differs from the number of points.
     #[error("{}: there are {points} points but {scores} scores: give one score per point", .file.display())]
     Scores {
         /// Path of the file.
         file: PathBuf,
-        /// Number of points given.
+        /// Number of points to be written.
         points: usize,
-        /// Number of scores given.
+        /// Number of scores to be written.
         scores: usize,
     },
 }
 
-/// Length of the longest quotation from a file in a message, in characters.
+/// Number of characters after which a quotation from a file is cut in a message.
 const QUOTED: usize = 48;
 
 /// Returns text from a file in a form that is safe in a one-line message.
@@ -393,7 +394,9 @@ pub(super) fn shortened(text: &str) -> String {
     format!("“{}”", clipped(text.trim(), QUOTED))
 }
 
-/// Returns the first `length` characters, made printable, with an ellipsis if there are more.
+/// Returns the first `length` characters of a text, and an ellipsis if the text has more.
+///
+/// Characters that would disturb a terminal are replaced by `·`.
 pub(super) fn clipped(text: &str, length: usize) -> String {
     let mut start: String = text.chars().take(length + 1).collect();
     if start.chars().count() > length {

@@ -18,22 +18,23 @@ impl GroupTable {
     /// Reads a table of groups.
     ///
     /// # Errors
-    /// If the file cannot be read, a row lacks its name or group, or two rows give the same name
-    /// different groups.
+    /// Fails if the file cannot be read, a row lacks its name or group, or two rows give the same
+    /// name different groups.
     pub fn read(path: &Path) -> Result<Self, ReadError> {
         let file = path.display().to_string();
         let entries = read_file(path).map_err(Located::from).and_then(|bytes| entries(&bytes));
         entries.map(|entries| Self { file: file.clone(), entries }).map_err(|located| located.in_file(&file))
     }
 
-    /// Returns the path of the table, as given.
+    /// Returns the path of the table, as passed to [`Self::read`].
     pub fn file(&self) -> &str {
         &self.file
     }
 
-    /// Returns the group of the image of this name; `None` if no row fits.
+    /// Returns the group of the image called `name`, or `None` if no row fits.
     ///
-    /// A row fits if the name of the image begins with the name in the row; the longest one wins.
+    /// A row fits if the name of the image begins with the name in the row. Of several such rows,
+    /// the row with the longest name wins.
     pub fn group_of(&self, name: &str) -> Option<&str> {
         let fits = self.entries.iter().filter(|(start, _)| name.starts_with(start.as_str()));
         fits.max_by_key(|(start, _)| start.len()).map(|(_, group)| group.as_str())

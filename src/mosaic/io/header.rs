@@ -15,13 +15,14 @@ pub(super) struct Columns {
     pub unit: Option<LengthUnit>,
 }
 
-/// Names of the abscissa, each with its ordinate, in order of preference.
+/// Names of the columns of x, each with that of y, in order of preference.
 ///
 /// `XM` and `YM` are ImageJ's centre of mass; for points they equal X and Y, which are preferred in
 /// a file that has all four.
 const STEMS: [(&str, &str); 2] = [("x", "y"), ("xm", "ym")];
 
-/// Units in order of preference; `None` is a column that names no unit.
+/// Units of the columns of coordinates, in order of preference; `None` stands for a column that
+/// names no unit.
 ///
 /// Pixels come first as they need no scale, and a file that names them is explicit about them.
 const UNITS: [Option<LengthUnit>; 4] =
@@ -31,13 +32,13 @@ const UNITS: [Option<LengthUnit>; 4] =
 const SCORES: [&str; 3] = ["score", "confidence", "probability"];
 
 impl Columns {
-    /// The first two columns, which hold x and y in a file without a header.
+    /// Columns of a file without a header: x is in the first column and y in the second.
     pub const FIRST_TWO: Self = Self { x: 0, y: 1, score: None, unit: None };
 
     /// Finds the columns in a header: `x`, `X`, `x_px`, `x (px)`, `X [µm]` and the like.
     ///
     /// # Errors
-    /// If a column is missing or named twice.
+    /// Fails if a column is missing or named twice.
     pub fn named_in(header: &Row) -> Result<Self, Located> {
         let names: Vec<_> = header.cells.iter().map(|cell| Name::parse(cell)).collect();
         let find = |stem: &str, unit: Option<LengthUnit>| {
@@ -78,7 +79,7 @@ impl Columns {
 /// Unit at the end of a column's name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Unit {
-    /// A known unit, or `None` if the name ends without one.
+    /// Known unit, or `None` if the name has no unit.
     Is(Option<LengthUnit>),
     /// Words that are no known unit.
     Unknown,

@@ -7,8 +7,9 @@ pub(super) fn without_folder(file_name: &str) -> &str {
 
 /// Returns the rows whose identifier fits a name best.
 ///
-/// An identifier fits if it is part of the name. The longest one wins; of equally long ones, the
-/// one with which the name begins. Several rows are returned if they fit equally well.
+/// An identifier fits if it is part of the name. The longest identifier wins; of equally long ones,
+/// the one with which the name begins. Several rows are returned if they fit equally well, and none
+/// if no identifier fits.
 pub(super) fn best_fits<'a, T>(rows: &'a [T], name: &str, identifier: impl Fn(&T) -> &str) -> Vec<&'a T> {
     let rank = |row: &T| (identifier(row).len(), name.starts_with(identifier(row)));
     let fitting: Vec<&T> = rows.iter().filter(|row| name.contains(identifier(row))).collect();

@@ -5,22 +5,22 @@ use super::{Dataset, Dialect, Origin, RawFile};
 use crate::geometry::Point;
 use crate::mosaic::LengthUnit;
 
-/// Number of bytes in the header, after which the coordinates follow.
+/// Size of the header in bytes; the coordinates begin at this offset.
 const HEADER: usize = 64;
 /// Bit of the options at byte 50 that marks sub-pixel coordinates.
 const SUB_PIXEL: u16 = 128;
-/// First version of the format that can hold sub-pixel coordinates.
+/// First version of the format that can contain sub-pixel coordinates.
 const FIRST_SUB_PIXEL: u16 = 222;
 /// First version of the format whose point selections count from the centre of the first pixel.
 ///
 /// ImageJ 1.52t (2020) introduced it; before, they counted from the corner of that pixel. The class
 /// `ij.gui.Roi` says: "Line and Point Rois: Integer coordinates refer to the center of a pixel".
 const FIRST_CENTRED: u16 = 228;
-/// Kind of ROI: a rectangle.
+/// Value of the byte at offset 6 for a rectangle.
 const RECTANGLE: u8 = 1;
-/// Kind of ROI: one or several points.
+/// Value of the byte at offset 6 for one or several points.
 const POINT: u8 = 10;
-/// Kinds of ROI that are lists of corners: polygon, freehand outline, traced outline.
+/// Values of the byte at offset 6 for lists of corners: polygon, freehand outline, traced outline.
 const OUTLINES: [u8; 3] = [0, 7, 8];
 
 /// Content that is expected of a ROI.
@@ -37,7 +37,7 @@ pub(super) fn read_roi(name: &str, bytes: &[u8], wanted: Wanted) -> Result<RawFi
     Ok(file(vec![parse(name, bytes, wanted)?]))
 }
 
-/// Returns the ROIs of one file as a file in pixels.
+/// Returns the contents of a file in pixels, with one dataset per ROI.
 pub(super) fn file(datasets: Vec<Dataset>) -> RawFile {
     RawFile {
         dialect: Dialect::ImageJRoi,
@@ -99,6 +99,7 @@ pub(super) fn parse(name: &str, bytes: &[u8], wanted: Wanted) -> Result<Dataset,
             Point::new(roi.f32(x), roi.f32(x + 4 * n))
         } else {
             let x = HEADER + 2 * i;
+            // ImageJ raises negative offsets to 0 too.
             Point::new(roi.i16(10) + roi.i16(x).max(0.), roi.i16(8) + roi.i16(x + 2 * n).max(0.))
         }
     };
@@ -112,7 +113,8 @@ pub(super) fn parse(name: &str, bytes: &[u8], wanted: Wanted) -> Result<Dataset,
     Ok(Dataset { name, origin, points })
 }
 
-/// Big-endian fields, read by their offset in bytes; fields past the end are 0.
+/// Bytes of a ROI, from which big-endian fields are read by their offset; fields past the end are
+/// 0.
 struct Fields<'a>(&'a [u8]);
 
 impl Fields<'_> {

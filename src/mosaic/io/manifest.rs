@@ -13,7 +13,7 @@ use thiserror::Error;
 /// The first column is an identifier, a part of the file name of an image. All further columns are
 /// free, for example subject, eye or diagnosis. Three names have a meaning: `eccentricity_mm` or
 /// `eccentricity_deg` (distance from the fovea) and `meridian` (nasal, temporal, superior or
-/// inferior, of the retina) state the place of an image on the retina; their cells may be empty.
+/// inferior, of the retina) state the location of an image on the retina; their cells may be empty.
 #[derive(Clone, Debug)]
 pub struct Manifest {
     file: String,
@@ -50,7 +50,8 @@ pub struct AmbiguousRow {
 }
 
 impl ManifestRow {
-    /// Returns the place of the image on the retina; `None` if the manifest does not state it.
+    /// Returns the location of the image on the retina, or `None` if the manifest states no
+    /// eccentricity.
     ///
     /// An eccentricity in degrees is converted by `um_per_degree`, micrometres of retina per
     /// degree.
@@ -67,9 +68,9 @@ impl Manifest {
     /// Reads a manifest.
     ///
     /// # Errors
-    /// If the file cannot be read; if its header has fewer than two columns, or one of them twice;
-    /// if a row has no identifier, an eccentricity that is not a number of at least 0, or an
-    /// unknown meridian; or if two rows with the same identifier differ.
+    /// Fails if the file cannot be read; if its header has fewer than two columns, or the same
+    /// column twice; if a row has no identifier, an eccentricity that is not a number of at least
+    /// 0, or an unknown meridian; or if two rows with the same identifier differ.
     pub fn read(path: &Path) -> Result<Self, ReadError> {
         let file = path.display().to_string();
         let found = read_file(path).map_err(Located::from).and_then(|bytes| parse(&bytes));
@@ -78,7 +79,7 @@ impl Manifest {
             .map_err(|located| located.in_file(&file))
     }
 
-    /// Returns the path of the manifest, as given.
+    /// Returns the path of the manifest, as passed to [`Self::read`].
     pub fn file(&self) -> &str {
         &self.file
     }
@@ -88,13 +89,13 @@ impl Manifest {
         &self.columns
     }
 
-    /// Returns the row of the image with this file name; `None` if no row fits.
+    /// Returns the row of the image with this file name, or `None` if no row fits.
     ///
     /// A row fits if its identifier is part of the file name, folders not included. The longest
     /// identifier wins; of two equally long ones, the one with which the name begins.
     ///
     /// # Errors
-    /// If several rows fit equally well.
+    /// Fails if several rows fit equally well.
     pub fn row_of(&self, file_name: &str) -> Result<Option<&ManifestRow>, AmbiguousRow> {
         let name = without_folder(file_name);
         let winners = best_fits(&self.rows, name, |e| &e.identifier);
@@ -112,8 +113,11 @@ impl Manifest {
 
 /// Indices, from 0, of the columns whose names have a meaning.
 struct Meanings {
+    /// Column of the eccentricity in mm of retina.
     millimetres: Option<usize>,
+    /// Column of the eccentricity in degrees of visual angle.
     degrees: Option<usize>,
+    /// Column of the direction from the fovea.
     meridian: Option<usize>,
 }
 

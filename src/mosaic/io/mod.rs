@@ -1,8 +1,8 @@
 //! Readers and writers of coordinate files, of tables of scales, groups and regions, and of
 //! manifests.
 //!
-//! Whatever a file calls the first pixel, [`read_coordinates`] returns pixels that count from 0 at
-//! the centre of the top-left pixel.
+//! Files count pixels from 0, from 0.5 or from 1. [`read_coordinates`] always returns pixel
+//! coordinates that count from 0 at the centre of the top-left pixel.
 //!
 //! # Examples
 //! ```

@@ -21,7 +21,7 @@ use strum::{Display, VariantArray};
 pub enum Origin {
     /// Centre at (0, 0), as in this crate, NumPy, OpenCV and ImageJ.
     ///
-    /// In ImageJ this holds for integer ROIs and, since version 1.52t, for all point ROIs.
+    /// ImageJ uses it for integer ROIs and, since version 1.52t, for all point ROIs.
     #[default]
     #[serde(rename = "0")]
     #[strum(serialize = "0")]
@@ -46,7 +46,8 @@ impl Origin {
         }
     }
 
-    /// Returns a point of such a file, counted from 0 at the centre of the top-left pixel.
+    /// Converts a point of a file with this origin to pixels that count from 0 at the centre of the
+    /// top-left pixel.
     pub const fn to_zero_based(self, p: Point) -> Point {
         Point::new(p.x - self.value(), p.y - self.value())
     }
@@ -58,7 +59,7 @@ impl FromStr for Origin {
     /// Reads an origin from its number, so that `1.0` is the same as `1`.
     ///
     /// # Errors
-    /// If the text is no such number.
+    /// Fails if the text is none of the numbers 0, 0.5 and 1.
     fn from_str(text: &str) -> Result<Self, UnknownChoice> {
         let value: Option<f64> = text.parse().ok();
         let fits = |o: &Self| value == Some(o.value());

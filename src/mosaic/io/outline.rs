@@ -10,7 +10,7 @@ use std::path::Path;
 pub struct OutlineFile {
     /// Area that the rings enclose. Pixels count from 0 at the centre of the top-left pixel.
     pub window: Window,
-    /// Unit of the window; `None` if the file does not name one.
+    /// Unit of the window, or `None` if the file does not name one.
     pub unit: Option<LengthUnit>,
 }
 
@@ -27,8 +27,8 @@ pub struct OutlineFile {
 /// Rings inside rings are holes.
 ///
 /// # Errors
-/// If the file cannot be read or understood, or its rings enclose no area or cross. The error names
-/// the file, the line, what was expected and found, and a remedy.
+/// Fails if the file cannot be read or understood, or its rings enclose no area or cross. The error
+/// names the file, the line, what was expected and found, and a remedy.
 pub fn read_outline(path: &Path, options: &ReadOptions) -> Result<OutlineFile, ReadError> {
     let name = path.display().to_string();
     let read = || -> Result<OutlineFile, Located> {

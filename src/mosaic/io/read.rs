@@ -7,23 +7,23 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// Size of the largest file that is read, in bytes (1 GiB).
+/// Size in bytes (1 GiB) above which a file is refused as too large for coordinates.
 const LARGEST_FILE: u64 = 1 << 30;
 
-/// Interpretation of a coordinate file where the file does not state it itself.
+/// Options for reading a coordinate file, about what the file does not state itself.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ReadOptions {
     /// Coordinate that the file gives to the centre of the top-left pixel.
     ///
-    /// By default that of the dialect: 0.5 for WebPlotDigitizer projects and for sub-pixel ROIs of
-    /// ImageJ before 1.52t, otherwise 0.
+    /// The default depends on the dialect: 0.5 for WebPlotDigitizer projects, for sub-pixel ROIs of
+    /// ImageJ before 1.52t and for outlines drawn in ImageJ, otherwise 0.
     pub origin: Option<Origin>,
     /// Height of the image, in the unit of the file (for px: the number of rows), if y points up.
     ///
     /// By default y points down. The option applies to text only; in projects and ROIs y always
     /// points down.
     pub flip_y: Option<f64>,
-    /// Name of the only dataset (WebPlotDigitizer) or ROI to take.
+    /// Name of the only dataset (WebPlotDigitizer) or ROI (ImageJ) to take.
     ///
     /// By default all of them are taken, one after another.
     pub dataset: Option<String>,
@@ -33,7 +33,7 @@ impl ReadOptions {
     /// Checks that every option is within its range.
     ///
     /// # Errors
-    /// If the height is not a positive number.
+    /// Fails if the height is not a positive number.
     pub fn validate(&self) -> Result<(), ReadFault> {
         match self.flip_y {
             Some(height) if !(height.is_finite() && height > 0.) => Err(ReadFault::Option {
@@ -54,9 +54,9 @@ pub enum Dialect {
     Delimited,
     /// WebPlotDigitizer's CSV of all datasets.
     WebPlotDigitizerCsv,
-    /// A WebPlotDigitizer project as JSON or `.tar`.
+    /// WebPlotDigitizer project as JSON or `.tar`.
     WebPlotDigitizerProject,
-    /// An ImageJ `.roi` file or a `.zip` of several.
+    /// ImageJ `.roi` file or a `.zip` of several.
     ImageJRoi,
 }
 
@@ -65,7 +65,7 @@ pub enum Dialect {
 pub struct Series {
     /// Name of the dataset; empty for plain columns.
     pub name: String,
-    /// Number of points in it.
+    /// Number of points in the dataset.
     pub len: usize,
 }
 
@@ -93,7 +93,7 @@ pub(super) struct RawFile {
     pub dialect: Dialect,
     /// Unit of the coordinates; `None` if the file does not name one.
     pub unit: Option<LengthUnit>,
-    /// True if the option [`ReadOptions::flip_y`] applies to this dialect.
+    /// `true` if the option [`ReadOptions::flip_y`] applies to this dialect.
     pub y_may_point_up: bool,
     /// Datasets in the order of the file.
     pub datasets: Vec<Dataset>,
@@ -101,7 +101,7 @@ pub(super) struct RawFile {
     pub scores: Option<Vec<f64>>,
 }
 
-/// Named run of points and the origin from which its dialect counts.
+/// Named run of points, and the origin from which the dialect of its file counts.
 pub(super) struct Dataset {
     /// Name of the dataset; empty if it has none.
     pub name: String,
@@ -117,8 +117,8 @@ pub(super) struct Dataset {
 /// project (JSON, `.tar`) or ImageJ ROIs (`.roi`, `.zip`).
 ///
 /// # Errors
-/// If the file cannot be read or understood. The error names the file, the line, what was expected
-/// and found, and a remedy.
+/// Fails if the file cannot be read or understood. The error names the file, the line, what was
+/// expected and found, and a remedy.
 pub fn read_coordinates(path: &Path, options: &ReadOptions) -> Result<CoordinateFile, ReadError> {
     let name = path.display().to_string();
     let bytes = read_file(path).map_err(|fault| Located::from(fault).in_file(&name))?;
@@ -128,7 +128,7 @@ pub fn read_coordinates(path: &Path, options: &ReadOptions) -> Result<Coordinate
 /// Reads the coordinates in the bytes of a file, which errors call `name`.
 ///
 /// # Errors
-/// If the bytes cannot be understood; see [`read_coordinates`].
+/// Fails if the bytes cannot be understood; see [`read_coordinates`].
 pub fn read_from(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<CoordinateFile, ReadError> {
     let read = || {
         options.validate()?;
@@ -176,7 +176,9 @@ pub(super) fn is_tar(name: &str, bytes: &[u8]) -> bool {
     !bytes.is_empty() && (bytes.get(257..262) == Some(b"ustar") || named())
 }
 
-/// Returns the kind of file that was given by mistake, recognised by its first bytes.
+/// Returns the kind of a file that was passed by mistake, recognised by its first bytes.
+///
+/// `None` if the file is of no kind that is recognised here.
 pub(super) fn foreign(bytes: &[u8]) -> Option<&'static str> {
     [
         (&b"\x89PNG"[..], "a PNG image"),

@@ -17,7 +17,7 @@ const EXPECTED: &str = "columns x0, y0, x1, y1 or x, y, width, height (all may e
 /// Error for boxes that cannot be looked up in a table.
 #[derive(Debug, Error)]
 pub enum RoiTableError {
-    /// No row of the table is for the file.
+    /// Coordinate file to which no row of the table applies.
     #[error(
         "{table}: expected rows for {file_name}, with a part of its name in the column file, found none \
          among {candidates}: add such rows, or leave that cell empty for boxes of every file"
@@ -30,7 +30,7 @@ pub enum RoiTableError {
         /// Cells of the column `file`.
         candidates: String,
     },
-    /// Several identifiers fit equally well.
+    /// Coordinate file that several cells of the column `file` fit equally well.
     #[error(
         "{table}: expected one name in the column file for {file_name}, found several that match equally \
          well ({candidates}): make one of them longer"
@@ -75,12 +75,12 @@ struct Entry {
 }
 
 impl RoiTable {
-    /// Reads a table of regions; `options` give its origin and the direction of y, as for
+    /// Reads a table of regions; `options` has its origin and the direction of y, as for
     /// coordinates.
     ///
     /// # Errors
-    /// If the file cannot be read, lacks a header or rows, a row has no box or a box has no area,
-    /// or two boxes of one file have the same name.
+    /// Fails if the file cannot be read, lacks a header or rows, a row has no box or a box has no
+    /// area, or two boxes of one file have the same name.
     pub fn read(path: &Path, options: &ReadOptions) -> Result<Self, ReadError> {
         let file = path.display().to_string();
         let read = || -> Result<Self, Located> {
@@ -91,7 +91,7 @@ impl RoiTable {
         read().map_err(|located| located.in_file(&file))
     }
 
-    /// Returns the path of the table, as given.
+    /// Returns the path of the table, as passed to [`Self::read`].
     pub fn file(&self) -> &str {
         &self.file
     }
@@ -101,14 +101,14 @@ impl RoiTable {
         self.unit
     }
 
-    /// Returns the boxes of the file of this name, in the order of the table.
+    /// Returns the boxes of the file called `file_name`, in the order of the table.
     ///
-    /// These are the boxes for every file, and those whose cell in the column `file` fits best: it
-    /// is part of the file name, folders not included, and the longest such part. Of two equally
-    /// long ones, the one with which the name begins wins.
+    /// Boxes whose cell in the column `file` is empty are always returned. Of the other cells, the
+    /// longest that is part of the file name, folders not included, selects further boxes. Of two
+    /// equally long cells, the one with which the name begins wins.
     ///
     /// # Errors
-    /// If no row fits, or several identifiers fit equally well.
+    /// Fails if no row fits, or several identifiers fit equally well.
     pub fn boxes_of(&self, file_name: &str) -> Result<Vec<&Roi>, RoiTableError> {
         let name = without_folder(file_name);
         let fitting = best_fits(&self.entries, name, |e| &e.identifier);
@@ -143,9 +143,11 @@ impl RoiTable {
 
 /// Indices, from 0, of the columns of a table of regions.
 struct Columns {
+    /// Indices of the four columns of numbers.
     numbers: [usize; 4],
+    /// Names of these four columns without a unit, for errors.
     labels: [&'static str; 4],
-    /// True if the third and fourth number are sides and not edges.
+    /// `true` if the third and fourth number are sides and not edges.
     sides: bool,
     name: Option<usize>,
     file: Option<usize>,
@@ -198,7 +200,7 @@ fn entries(bytes: &[u8], options: &ReadOptions) -> Result<(Option<LengthUnit>, V
     }
     let from = if pixels { options.origin.unwrap_or_default().value() } else { 0. };
     // If y points up, 0 is the centre of the bottom row of pixels, which is at height − 1 when y
-    // points down; the same holds for coordinates.
+    // points down. Coordinate files are converted in the same way.
     let top = if pixels { 1. } else { 0. };
     let mut seen: HashMap<(String, String), usize> = HashMap::new();
     let mut entries = Vec::with_capacity(rows.len());

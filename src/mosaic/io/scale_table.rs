@@ -11,10 +11,10 @@ use thiserror::Error;
 /// Error for a scale that cannot be looked up in a table.
 #[derive(Debug, Error)]
 pub enum ScaleTableError {
-    /// The table cannot be read.
+    /// Table that cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// No identifier of the table is part of the file name.
+    /// File name of which no identifier of the table is a part.
     #[error(
         "{table}: expected a row whose identifier is part of {file_name}, found none among {candidates}: add a row, \
          or let files without a row stay in pixels"
@@ -27,7 +27,7 @@ pub enum ScaleTableError {
         /// Identifiers in the table, the first few of many.
         candidates: String,
     },
-    /// Several identifiers fit equally well.
+    /// File name that several identifiers fit equally well.
     #[error(
         "{table}: expected one row for {file_name}, found several that match its name equally well \
          ({candidates}): give one of them a longer identifier"
@@ -69,11 +69,12 @@ enum Quantity {
 impl ScaleTable {
     /// Reads a table of scales.
     ///
-    /// `um_per_degree` applies to rows without an axial length; the other rows use their own.
+    /// `um_per_degree`, micrometres of retina per degree, applies to rows without an axial length.
+    /// Rows with an axial length use the value of [`micrometres_per_degree`].
     ///
     /// # Errors
-    /// If the file cannot be read, a row lacks its identifier or a positive number, or two rows
-    /// give the same identifier different scales.
+    /// Fails if the file cannot be read, a row lacks its identifier or a positive number, or two
+    /// rows give the same identifier different scales.
     pub fn read(path: &Path, um_per_degree: f64) -> Result<Self, ReadError> {
         let file = path.display().to_string();
         let entries = read_file(path).map_err(Located::from).and_then(|bytes| entries(&bytes, um_per_degree));
@@ -86,7 +87,7 @@ impl ScaleTable {
     /// identifier wins; of two equally long ones, the one with which the name begins.
     ///
     /// # Errors
-    /// If no row fits, or several fit equally well.
+    /// Fails if no row fits, or several fit equally well.
     pub fn scale_for(&self, file_name: &str) -> Result<Scale, ScaleTableError> {
         let name = without_folder(file_name);
         let winners = best_fits(&self.entries, name, |e| &e.identifier);

@@ -2,11 +2,11 @@ use super::error::ReadFault;
 
 /// Decodes the text of a file and turns every kind of line end into `\n`.
 ///
-/// The text is UTF-8 with or without a byte order mark, UTF-16 with one, or otherwise Latin-1 (old
-/// spreadsheets write `µ` in it).
+/// The text may be UTF-8 with or without a byte order mark, or UTF-16 with one. Any other text is
+/// read as Latin-1, in which old spreadsheets write `µ`.
 ///
 /// # Errors
-/// If the file contains control characters or broken UTF-16, and so is not text.
+/// Fails if the file contains control characters or broken UTF-16, and so is not text.
 pub(super) fn decode(bytes: &[u8]) -> Result<String, ReadFault> {
     let text = match bytes {
         [0xef, 0xbb, 0xbf, rest @ ..] => utf8_or_latin1(rest),

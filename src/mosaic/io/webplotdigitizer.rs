@@ -7,7 +7,7 @@ use serde::Deserialize;
 /// WebPlotDigitizer project of version 3 or 4.
 ///
 /// Version 4 has its datasets at the top level, version 3 inside `wpd`. The axes and all other keys
-/// are ignored: `x` and `y` are the places clicked, in pixels from the top-left corner, whatever
+/// are ignored: `x` and `y` are the positions clicked, in pixels from the top-left corner, whatever
 /// the axes.
 #[derive(Deserialize)]
 struct Project {

@@ -6,13 +6,14 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
 
-/// Writes points in pixels as CSV; the file appears whole or not at all.
+/// Writes points in pixels as CSV; the file appears complete or not at all.
 ///
 /// The columns are `x_px,y_px`, then `score` if there are scores, then `x_um,y_um` if the scale is
 /// known. Each number has the fewest digits from which the same value is read back.
 ///
 /// # Errors
-/// If a number is not finite, the scores are not one per point, or the file cannot be written.
+/// Fails if a number is not finite, the number of scores is not that of the points, or the file
+/// cannot be written.
 pub fn write_points(
     path: &Path,
     points: &[Point],
@@ -24,10 +25,10 @@ pub fn write_points(
     write_text(path, &text)
 }
 
-/// Writes points without a unit as CSV with columns `x,y`; the file appears whole or not at all.
+/// Writes points without a unit as CSV with columns `x,y`; the file appears complete or not at all.
 ///
 /// # Errors
-/// If a coordinate is not finite or the file cannot be written.
+/// Fails if a coordinate is not finite or the file cannot be written.
 pub fn write_plain_points(path: &Path, points: &[Point]) -> Result<(), WriteError> {
     check(path, points, None)?;
     let text = format_plain_points(points);

@@ -3,13 +3,18 @@ use super::panels::{two_areas, two_panels};
 use crate::compare::Interval;
 use crate::report::significant;
 
+/// Description of the figure for screen readers.
 const DESCRIPTION: &str = "Bland–Altman plots: the difference of two measurements of each image against their mean. The solid \
     line is the mean difference (bias), the dashed lines are the 95 % limits of agreement, and the bands are the 95 % \
     confidence intervals of these lines.";
 
+/// Colour of the dots, one per image (blue of Okabe & Ito 2008).
 const DOTS: &str = "#0072B2";
+/// Colour of the limits of agreement (vermilion of Okabe & Ito 2008).
 const LIMITS: &str = "#D55E00";
+/// Opacity of the bands of confidence intervals, chosen by eye so that dots show through.
 const BAND_OPACITY: f64 = 0.15;
+/// Opacity of the dots, chosen by eye so that overlapping dots show as darker.
 const DOT_OPACITY: f64 = 0.45;
 
 /// A horizontal line of a Bland–Altman plot.
@@ -93,7 +98,7 @@ fn signed(value: f64) -> String {
     if value < 0. { format!("−{number}") } else { format!("+{number}") }
 }
 
-/// Returns the least and the largest value, each moved outwards by a margin.
+/// Returns the smallest and the largest value, each moved outwards by a margin.
 ///
 /// The margin is 12 % of the range. Without a range it is a tenth of the value, and at least 1.
 fn with_margin(values: impl Iterator<Item = f64>) -> (f64, f64) {

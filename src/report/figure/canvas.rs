@@ -11,11 +11,14 @@ use std::fmt::Write;
 /// A unit is a quarter of a millimetre, so that the page prints 180 mm wide and a text of size 10
 /// in 7 pt.
 pub(super) const PAGE_WIDTH: f64 = 720.;
+/// Canvas units per millimetre of the printed page.
 const UNITS_PER_MM: f64 = 4.;
+/// Fonts of all texts, in order of preference: the letters of the first three have equal widths.
 const FONTS: &str = "Helvetica, Arial, 'Liberation Sans', sans-serif";
 
 /// Colour of frames and of lines that are not data.
 pub(super) const FRAME: &str = "#8c8c8c";
+/// Colour of texts and of the curve or points of the mosaic.
 pub(super) const INK: &str = "#000000";
 
 /// An upright rectangle on the page, in canvas units.
@@ -28,9 +31,11 @@ pub(super) struct Area {
 }
 
 impl Area {
+    /// Returns the x coordinate of the right edge.
     pub(super) const fn right(&self) -> f64 {
         self.x + self.width
     }
+    /// Returns the y coordinate of the lower edge.
     pub(super) const fn bottom(&self) -> f64 {
         self.y + self.height
     }
@@ -39,9 +44,13 @@ impl Area {
 /// The purpose of a text, which sets its size and weight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Style {
+    /// Title of the page.
     Title,
+    /// Bold letter that names a panel: a, b, c.
     Letter,
+    /// Title of an axis, or name of a panel.
     Axis,
+    /// Small text: tick labels, legends and notes.
     Note,
 }
 
@@ -55,7 +64,7 @@ impl Style {
     }
 }
 
-/// The point of a text that stands at its place.
+/// Part of a text that lies at the position at which the text is drawn.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Anchor {
     Start,
@@ -80,10 +89,10 @@ pub(super) struct Ranges {
     pub(super) y: (f64, f64),
 }
 
-/// Returns the approximate width of a text in canvas units, from Helvetica's widths of classes of
-/// letters.
+/// Returns the approximate width of a text in canvas units.
 ///
-/// That is near enough for placing it.
+/// Letters are put into five classes of width, with the widths of Helvetica. That is near enough
+/// for placing texts.
 pub(super) fn text_width(text: &str, style: Style) -> f64 {
     let advance = |c: char| match c {
         'i' | 'j' | 'l' | '\'' => 0.24,
@@ -245,7 +254,7 @@ impl Canvas {
         });
     }
 
-    /// Draws a PNG stretched over `place`; what lies outside `view` is cut off.
+    /// Draws a PNG stretched over the area `place`; what lies outside the area `view` is cut off.
     pub(super) fn picture(&mut self, png: &[u8], place: Area, view: Area) {
         // A nested <svg> clips without an id. Ids would clash where several figures share a page.
         let _ = write!(
@@ -294,8 +303,8 @@ impl Canvas {
         add_axes_and_grid(&mut self.scene, &computed, &layout);
         let middle = area.x + area.width / 2.;
         self.text(middle, area.bottom() + 26., labels.0, Style::Axis, Anchor::Middle);
-        // Ticks are multiples of the step with equal numbers of decimals, so one of the outermost
-        // is the widest.
+        // Ticks are multiples of the step with equal numbers of decimals, so the lowest or the
+        // highest one has the widest label.
         let decimals = (-y_step.log10().floor()).max(0.) as usize;
         let width = |tick: f64| text_width(&format!("{:.decimals$}", tick * y_step), Style::Note);
         let ticks = width((ranges.y.1 / y_step).floor()).max(width((ranges.y.0 / y_step).ceil()));
@@ -381,9 +390,9 @@ fn wrap(text: &str, style: Style, width: f64) -> Vec<String> {
 
 /// Returns the upper end of a y axis that leaves room for a block of text at the top of the plot.
 ///
-/// `peak` is the highest value of all curves, which stay below the upper end. `peak_under` is the
-/// highest value of the curves that pass beneath the block, which covers none of them. The block is
-/// `block` units high, the plot `height` units.
+/// `peak` is the highest value of all curves; the upper end lies above it. `peak_under` is the
+/// highest value of the curves where they pass beneath the block; the block covers none of them.
+/// The block is `block` canvas units high, the plot `height` canvas units.
 pub(super) fn headroom(peak: f64, peak_under: f64, block: f64, height: f64) -> f64 {
     let free = (1. - block / height).max(0.1);
     (peak * 1.06).max(peak_under * 1.02 / free)

@@ -2,30 +2,40 @@ use super::canvas::{Area, Canvas, FRAME, INK, Ranges, headroom, round_above};
 use super::labels::{self, Label};
 use super::{Curve, MosaicFigure, ReferenceLine};
 
-/// Colours that colour-blind readers can tell apart (Okabe & Ito 2008).
+/// Colours of the samplers, which colour-blind readers can tell apart (Okabe & Ito 2008).
 ///
-/// Black is left to the mosaic, and their yellow is too pale for a line.
+/// Of their eight colours, black is the colour of the mosaic, and yellow is too pale for a line.
 const COLOURS: [&str; 6] = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00"];
-/// The same colours, dark enough for words on white.
+/// Colours of the labels of samplers: those of `COLOURS`, dark enough to read words on white.
 const DARK: [&str; 6] = ["#0072B2", "#8A5F00", "#007A59", "#A3457A", "#1F7CB0", "#B84F00"];
-/// Dashes that tell lines apart in grey, and beyond the sixth line, where colours repeat.
+/// Dashes of lines, which tell them apart in grey print and beyond the sixth line, where colours
+/// repeat.
 const DASHES: [Option<&str>; 3] = [None, Some("5 1.6"), Some("1.6 1.2")];
-/// Number of samplers drawn, the nearest ones.
+/// Number of samplers drawn, those nearest to the mosaic; more curves would hide each other.
 const NEAREST: usize = 3;
-/// Name of the sampler of independent points, drawn in grey as a scale for reading the others.
+/// Name of the sampler of independent points, which is drawn in grey as a scale for reading the
+/// other curves.
 const SCALE: &str = "uniform";
+/// Colour of the curve and label of independent points, a grey dark enough to read on white.
 const GREY: &str = "#767676";
+/// Line width of a sampler, in canvas units; chosen by eye, thinner than the mosaic.
 const SAMPLER_WIDTH: f64 = 1.1;
+/// Line width of the mosaic, in canvas units; chosen by eye.
 const MOSAIC_WIDTH: f64 = 2.2;
-/// Limit to which a sampler may stretch the axis, as a multiple of the mosaic's highest value, or
-/// of the floor if that is higher.
+/// Limit to which the curve of a sampler may stretch the axis, as a multiple of the highest value
+/// of the mosaic.
+///
+/// Without a limit, a spike of a sampler would flatten the curve of the mosaic.
 const SPIKE_FACTOR: f64 = 1.5;
+/// Value of g that stands for the highest value of the mosaic if the mosaic stays below it.
 const SPIKE_FLOOR: f64 = 3.;
-/// Distance in spacings from the peaks to the labels on their right: beyond the flank of the
-/// widest.
+/// Distance in hexagonal spacings from the rightmost peak to the labels on its right.
+///
+/// It is beyond the flank of the widest peak.
 const BESIDE_PEAK: f64 = 0.3;
-/// Value below which a curve has no peak to be labelled at; its label points to where the labels
-/// begin.
+/// Value of g that a curve must exceed for its label to point to its peak.
+///
+/// The label of a flatter curve points to the curve where the labels begin.
 const FLAT: f64 = 1.15;
 
 pub(super) fn style(index: usize) -> (&'static str, Option<&'static str>) {
@@ -52,8 +62,8 @@ impl Line<'_> {
         }
     }
 
-    /// Returns the highest point between two distances, lowered to `g_max` if the curve is cut
-    /// there.
+    /// Returns the highest point between two distances, lowered to `g_max` if the curve is cut at
+    /// that value.
     fn peak(&self, from: f64, to: f64, g_max: f64) -> Option<(f64, f64)> {
         let within = finite(self.curve).filter(|p| p.0 >= from && p.0 <= to);
         within.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(r, g)| (r, g.min(g_max)))
@@ -62,8 +72,8 @@ impl Line<'_> {
 
 /// Returns the curves to draw, the mosaic's last.
 ///
-/// They are the three samplers nearest to the mosaic, and independent points for scale. More would
-/// hide each other; all distances are in the tables.
+/// Before it come independent points, as a scale, and the three samplers nearest to the mosaic.
+/// More curves would hide each other; the distances to all samplers are in the tables.
 fn lines<'a>(figure: &MosaicFigure<'a>, mosaic: Curve<'a>) -> Vec<Line<'a>> {
     let line = |l: &ReferenceLine<'a>, colour, dark| Line {
         name: l.name,
@@ -157,15 +167,16 @@ fn finite(curve: Curve<'_>) -> impl Iterator<Item = (f64, f64)> {
     curve.r.iter().copied().zip(curve.g.iter().copied()).filter(|p| p.0.is_finite() && p.1.is_finite())
 }
 
-/// Returns the end of the r axis: the next half spacing if that is near, else `r_max`.
+/// Returns the end of the r axis: the next multiple of half a spacing if that is within 3 %, else
+/// `r_max`.
 ///
-/// Bins are named by their left edges, so that the last one stands just before a tick.
+/// Bins are named by their left edges, so that the last bin usually stands just before a tick.
 pub(super) fn axis_end(r_max: f64) -> f64 {
     let tick = (r_max * 2.).ceil() / 2.;
     if tick - r_max < 0.03 * r_max { tick } else { r_max }
 }
 
-/// Returns the stretches of a curve without gaps, up to `r_max`, and cut where they leave
+/// Returns the stretches of a curve up to `r_max`, split at gaps and cut where they leave
 /// 0..`g_max`.
 pub(super) fn runs(curve: Curve, r_max: f64, g_max: f64) -> Vec<Vec<(f64, f64)>> {
     let mut runs = vec![vec![]];

@@ -8,27 +8,37 @@ const DESCRIPTION: &str = "The pair correlation function of a mosaic (black), on
     95 % envelope of simulations of the sampler, the thin blue line their mean. Where the mosaic's curve leaves the band it is \
     drawn in red.";
 
+/// Number of panels in a row of the page.
 const COLUMNS: usize = 3;
+/// Width and height of the axes of a panel, in canvas units; three panels with their axes fit in
+/// the width of the page.
 const PANEL: (f64, f64) = (184., 118.);
+/// Room for tick labels and the axis title left of a panel, in canvas units.
 const AXIS_ROOM: f64 = 44.;
+/// Room for the names of samplers above a row of panels, in canvas units.
 const ROW_HEAD: f64 = 30.;
+/// Room for tick labels and the axis title below a panel, in canvas units.
 const AXIS_DEPTH: f64 = 36.;
+/// Colour of the envelope, a light blue behind all lines.
 const BAND: &str = "#9ecae1";
+/// Colour of the mean of the simulations (blue of Okabe & Ito 2008).
 const MEAN: &str = "#0072B2";
+/// Colour of the curve of the mosaic outside the envelope (vermilion of Okabe & Ito 2008).
 const OUTSIDE: &str = "#D55E00";
-/// Widths of the lines: the mosaic's, the mean of the simulations, and what is outside the
-/// envelope.
+/// Line width of the mosaic, in canvas units; chosen by eye like the other widths.
 const OWN_WIDTH: f64 = 1.6;
+/// Line width of the mean of the simulations, in canvas units.
 const MEAN_WIDTH: f64 = 1.1;
+/// Line width of the parts outside the envelope, in canvas units; the widest of the three.
 const OUTSIDE_WIDTH: f64 = 2.2;
-/// Depth of the key, which stands in a line of its own below the title.
+/// Height of the key, a line of text below the title, in canvas units.
 const KEY_DEPTH: f64 = 16.;
-/// Length of the sample of a line in the key.
+/// Length of the sample of a line in the key, in canvas units.
 const SWATCH: f64 = 18.;
 
 /// The panel of one sampler.
 ///
-/// All its curves are given at the distances of the mosaic's curve.
+/// All its curves have one value for each distance of the mosaic's curve.
 #[derive(Clone, Copy, Debug)]
 pub struct EnvelopePanel<'a> {
     /// Name of the sampler.
@@ -47,7 +57,7 @@ pub struct EnvelopePanel<'a> {
 /// self-contained SVG, 180 mm wide.
 ///
 /// # Errors
-/// Returns [`ReportError::Curve`] if curves differ in length.
+/// Fails if curves differ in length.
 pub fn envelope_figure(title: &str, mosaic: Curve, panels: &[EnvelopePanel]) -> Result<String, ReportError> {
     let bins = mosaic.r.len();
     for (name, curve) in [("the mosaic", mosaic.g)]
@@ -113,7 +123,8 @@ fn draw(canvas: &mut Canvas, area: Area, ranges: Ranges, mosaic: Curve, panel: &
     canvas.line(place(ranges.x.0, 1.), place(ranges.x.1, 1.), FRAME, 0.6);
     canvas.polyline(along(panel.mean), MEAN, MEAN_WIDTH, None);
     canvas.polyline(along(mosaic.g), INK, OWN_WIDTH, None);
-    // The edges of the envelope are rounded to three decimals, but this g is not.
+    // The edges of the envelope are rounded to three decimals, but this g is not: 6e-4 is just
+    // above the rounding error.
     let within = |bin: usize| (panel.low[bin] - 6e-4..=panel.high[bin] + 6e-4).contains(&mosaic.g[bin]);
     let mut bin = 0;
     while bin < mosaic.r.len() {

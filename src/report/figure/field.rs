@@ -11,30 +11,34 @@ use image::imageops::thumbnail;
 use image::{ExtendedColorType, GrayImage};
 use ndarray::{Axis, Slice};
 
-/// Largest side and area to which pictures are reduced before they are embedded, in px: about 560
-/// dpi in a row of square fields.
+/// Side in px to which larger pictures are reduced before they are embedded.
+///
+/// Together with the limit on the area it leaves about 560 dpi in a row of square fields.
 const LARGEST_SIDE: f64 = 1200.;
+/// Area in px to which larger pictures are reduced before they are embedded.
 const LARGEST_AREA: f64 = 0.6e6;
-/// Number of points above which points are embedded as a picture: as vectors they would make the
-/// file large and slow to open.
+/// Number of points above which the points are embedded as a picture; as vectors, more points would
+/// make the file large and slow to open.
 const MOST_VECTOR_POINTS: usize = 4000;
-/// Pixels per canvas unit of that picture (600 dpi).
+/// Pixels per canvas unit of the picture of points (600 dpi).
 const DOT_RESOLUTION: f64 = 6.;
-/// Largest side of that picture, px.
+/// Largest side of the picture of points, in px.
 const LARGEST_DOT_SIDE: f64 = 1500.;
 /// Radius of a point in hexagonal spacings.
 const DOT_RADIUS: f64 = 0.2;
 /// Smallest and largest radius of a point, in canvas units.
 const DOT_RADIUS_BOUNDS: (f64, f64) = (0.1, 1.5);
-/// Colour on a picture of the border of a window that is no rectangle (Okabe & Ito 2008).
+/// Colour, on a picture, of the border of a window that is not a rectangle (orange of Okabe & Ito
+/// 2008).
 const OUTLINE_ON_PICTURE: &str = "#E69F00";
-/// Width of that border, in canvas units.
+/// Width of the border of a window that is not a rectangle, in canvas units.
 const OUTLINE_WIDTH: f64 = 0.8;
 /// Largest share of the field's width that the scale bar takes.
 const SCALE_BAR_SHARE: f64 = 0.4;
 
-/// The map from the mosaic's coordinates to the page: both have y down, and the scale is the same
-/// along x and y.
+/// Map from the coordinates of a mosaic to the page.
+///
+/// In both y points down, and the scale is the same along x and y.
 pub(super) struct Projection {
     area: Area,
     bounds: Rectangle,

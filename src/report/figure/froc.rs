@@ -3,20 +3,28 @@ use super::panels::{two_areas, two_panels};
 use crate::compare::{Froc, FrocPoint, Summary};
 use crate::report::significant;
 
+/// Description of the figure for screen readers.
 const DESCRIPTION: &str = "Left: FROC curve, sensitivity against false alarms per image, as the threshold of the score falls. \
     Right: precision against sensitivity. The dot marks the threshold with the highest mean Dice (F1), the cross the detections \
     as given.";
 
 /// Colours of the curves (Okabe & Ito 2008).
 const COLOURS: [&str; 2] = ["#0072B2", "#D55E00"];
+/// Dashes of the curves, which tell them apart in grey as well.
 const DASHES: [Option<&str>; 2] = [None, Some("5 1.6")];
+/// Distance between two lines of the legend, in canvas units.
 const LINE: f64 = 11.;
+/// Length of the sample of a line in the legend, in canvas units.
 const SWATCH: f64 = 15.;
 /// Half the width of a cross, in canvas units.
 const CROSS: f64 = 3.2;
-/// Multiple of what the dot lacks to a rate of 1, and of its false alarms, that the axes show.
+/// Extent of the axes, as a multiple of the false alarms and missing rates at the dot.
+///
+/// An axis of a rate ends at 1 and shows this multiple of 1 − rate; the axis of false alarms begins
+/// at 0.
 const SHOWN: f64 = 4.;
-/// Smallest part of an axis of rates that is shown.
+/// Smallest extent of an axis of a rate, so that a nearly perfect detector still has a readable
+/// axis.
 const LEAST_SHOWN: f64 = 0.02;
 /// Largest number of corners of a drawn curve; nobody sees more.
 const CORNERS: usize = 600;
@@ -28,7 +36,8 @@ pub struct FrocLine<'a> {
     pub name: &'a str,
     /// FROC curve of the detector.
     pub froc: &'a Froc,
-    /// Scores of the detections as they were given.
+    /// Scores of the detections themselves, without a change of the threshold; they are drawn as a
+    /// cross.
     pub given: &'a Summary,
 }
 
@@ -62,23 +71,27 @@ pub fn froc_figure(title: &str, lines: &[FrocLine]) -> String {
     canvas.into_svg(title, DESCRIPTION)
 }
 
-/// Returns the lower end of an axis that shows well a rate that lacks `missing` to 1.
+/// Returns the lower end of the axis of a rate, `missing` being 1 − rate at the dot.
 fn shown(missing: f64) -> f64 {
     let span = (SHOWN * missing).clamp(LEAST_SHOWN, 1.);
     let step = round_above(span / 5.);
     1. - ((span / step).ceil() * step).min(1.)
 }
 
-/// A quantity along an axis: its value at a threshold, and that of the detections as given.
+/// Quantity along an axis: its value `of` a threshold, and its value for the detections as `given`,
+/// without a change of the threshold.
 #[derive(Clone, Copy)]
 struct Value {
     of: fn(&FrocPoint) -> f64,
     given: fn(&Summary) -> f64,
 }
 
+/// False alarms per image, the x axis of the FROC curve.
 const ALARMS: Value =
     Value { of: |p| p.false_alarms_per_image, given: |s| s.pooled.fp as f64 / s.images as f64 };
+/// Sensitivity, which is also called recall.
 const SENSITIVITY: Value = Value { of: |p| p.sensitivity, given: |s| s.pooled.sensitivity };
+/// Precision, 1 − false discovery rate.
 const PRECISION: Value = Value { of: |p| p.precision, given: |s| s.pooled.precision };
 
 struct Plot<'a> {

@@ -6,18 +6,18 @@
 
 use super::canvas::{Anchor, Area, Canvas, Style, text_width};
 
-/// Distance between two baselines, in canvas units.
+/// Distance between the baselines of two labels, in canvas units.
 const LINE: f64 = 11.;
-/// Height of the middle of a text above its baseline.
+/// Height of the middle of a text above its baseline, in canvas units.
 const MIDDLE: f64 = 3.;
-/// Room above the baseline of the uppermost text.
+/// Room above the baseline of the uppermost text, in canvas units.
 const ASCENT: f64 = 8.;
-/// Room below the baseline of the lowest text.
+/// Room below the baseline of the lowest text, in canvas units.
 const DESCENT: f64 = 5.;
-/// Gap between a leader and its text.
+/// Gap between a leader and its text, in canvas units.
 const GAP: f64 = 3.;
 
-/// The name of a curve, and the point of the curve that it belongs to.
+/// Name of a curve, and the point of the curve to which a leader (a thin line) leads.
 pub(super) struct Label<'a> {
     /// Text of the label.
     pub text: String,
@@ -34,13 +34,13 @@ pub(super) fn width(labels: &[Label]) -> f64 {
     labels.iter().map(|l| text_width(&l.text, Style::Note)).fold(0., f64::max) + GAP
 }
 
-/// Returns the height that `count` labels take above whatever lies below them.
+/// Returns the height of `count` labels, in canvas units.
 pub(super) fn height(count: usize) -> f64 {
     if count == 0 { 0. } else { (count - 1) as f64 * LINE + ASCENT + DESCENT }
 }
 
-/// Draws every label at its own height where possible, and above `floor` (a height on the page) in
-/// any case.
+/// Draws every label at the height of its target where possible, and above `floor`, a y coordinate
+/// of the page, if there is room.
 ///
 /// Labels keep their order from top to bottom and never overlap. Texts begin at `left`.
 pub(super) fn draw(canvas: &mut Canvas, area: Area, left: f64, floor: f64, mut labels: Vec<Label>) {

@@ -9,45 +9,54 @@ use crate::stats::{LocalValues, LocalWindow, MapGrid, Maps};
 use image::ExtendedColorType;
 use kuva::plot::ColorMap;
 
-/// Colour map that is perceptually uniform, told apart by colour-blind readers and in grey.
+/// Colour map of all maps: perceptually uniform, and readable in grey and for colour-blind readers.
 const COLOURS: ColorMap = ColorMap::Viridis;
-/// Number of samples of a map along the longer side of the window.
+/// Number of samples of a map along the longer side of the window; each becomes one pixel.
 const SAMPLES: usize = 192;
-/// Share of white in the colours of windows that reach beyond the mosaic.
+/// Share of white in the colours of local windows that extend beyond the mosaic.
 const PALE: f64 = 0.65;
 
 /// Width over height of a field above which fields stand in two columns.
 const WIDE: f64 = 1.9;
 /// Width over height of a field above which fields stand in one column.
 const VERY_WIDE: f64 = 4.;
+/// Gap between two fields of a row, in canvas units.
 const GAP: f64 = 12.;
-/// Room for a colour bar and its labels beside a field.
+/// Room for a colour bar and its labels beside a field, in canvas units.
 const BAR_ROOM: f64 = 56.;
-/// Gap between a field and its colour bar.
+/// Gap between a field and its colour bar, in canvas units.
 const BAR_GAP: f64 = 6.;
 /// Width of a colour bar, in canvas units.
 const BAR_WIDTH: f64 = 9.;
-/// Smallest height of a colour bar.
+/// Smallest height of a colour bar, in canvas units.
 const LEAST_HEIGHT: f64 = 60.;
-/// Largest height of a field.
+/// Largest height of a field, in canvas units.
 const MOST_HEIGHT: f64 = 330.;
+/// Room for the title and the letters above the first row, in canvas units.
 const HEAD: f64 = 36.;
-/// Room for the scale bar below a row and the titles above the next.
+/// Room for the scale bar below a row and the titles above the next, in canvas units.
 const ROW_ROOM: f64 = 40.;
-/// Room for the legend below the last row.
+/// Room for the legend below the last row, in canvas units.
 const FOOT: f64 = 34.;
+/// Radius of the marks of peak and centroid, in canvas units.
 const MARK: f64 = 4.5;
+/// Colour of the border around marks and contours, which sets them off from dark colours of a map.
 const HALO: &str = "#ffffff";
 
+/// Description of the figure for screen readers.
 const DESCRIPTION: &str = "Maps of one cone mosaic. Each value is taken over a square window around a cone; between cones it is \
     interpolated linearly. PCD: peak of the density map. CDC: density-weighted centroid of the outlined region, in which the \
     density is above a share of the peak.";
 
 /// One map of the figure.
 struct Panel {
+    /// Title above the map, without the unit.
     title: &'static str,
+    /// Unit of the labels of the colour bar; empty for numbers without one.
     unit: String,
+    /// Factor from values of the map to this unit.
     factor: f64,
+    /// Function that takes the value of the map from the local values of a cone.
     value: fn(&LocalValues) -> Option<f64>,
 }
 
@@ -69,12 +78,17 @@ fn panels(mosaic: &Mosaic) -> [Panel; 6] {
     ]
 }
 
-/// The places of the fields on the page.
+/// Arrangement of the fields on the page; lengths are in canvas units.
 struct Layout {
+    /// Number of fields in a row.
     columns: usize,
+    /// Width of a column: a field with its colour bar.
     cell: f64,
+    /// Width of a field.
     width: f64,
+    /// Height of a field.
     height: f64,
+    /// Height of a colour bar, which is also the height of a row.
     bar: f64,
 }
 
@@ -111,12 +125,13 @@ impl Layout {
 /// Draws six maps of a mosaic, as a self-contained SVG, 180 mm wide.
 ///
 /// The maps show local density, inter-cell distance, nearest-neighbour distance, its regularity
-/// index, |ψ6| and the share of six-sided cells. Each has a colour bar from the least to the
-/// largest value of whole windows. Peak (PCD) and centroid (CDC) are marked. Windows that reach
-/// beyond that of the mosaic are pale. Equal input makes equal bytes.
+/// index, |ψ6| and the share of six-sided cells. Each has a colour bar, from the smallest to the
+/// largest value of local windows that lie inside the window of the mosaic. Local windows that
+/// extend beyond it are pale. Peak (PCD) and centroid (CDC) are marked. Equal input makes equal
+/// bytes.
 ///
 /// # Errors
-/// Returns [`ReportError::Png`] if a picture cannot be encoded.
+/// Fails if a picture cannot be encoded.
 pub fn maps_figure(title: &str, mosaic: &Mosaic, maps: &Maps) -> Result<String, ReportError> {
     let bounds = mosaic.window().bounds();
     let layout = Layout::of(bounds.width() / bounds.height());
@@ -169,7 +184,10 @@ pub fn maps_figure(title: &str, mosaic: &Mosaic, maps: &Maps) -> Result<String, 
     Ok(canvas.into_svg(title, DESCRIPTION))
 }
 
-/// Returns the least and the largest value of whole windows, or of all windows if none is whole.
+/// Returns the smallest and the largest value of a map.
+///
+/// Only local windows inside the window of the mosaic count (`grid.whole`), or all local windows if
+/// there are none inside.
 fn range(grid: &MapGrid) -> Option<(f64, f64)> {
     let of = |whole: bool| {
         let values = grid.values.iter().zip(&grid.whole).filter(|(v, w)| v.is_finite() && (**w || !whole));
@@ -186,8 +204,10 @@ fn colour(share: f64) -> [u8; 3] {
     [red, green, blue]
 }
 
-/// Returns red, green, blue and opacity of every sample; a sample is transparent where the map is
-/// not defined.
+/// Returns red, green, blue and opacity of every sample.
+///
+/// The range `low`..`high` spans the colour map. Samples at which the map is not defined are
+/// transparent.
 fn coloured(grid: &MapGrid, (low, high): (f64, f64)) -> Vec<u8> {
     let pixel = |(&value, &whole): (&f64, &bool)| {
         if !value.is_finite() {
@@ -254,7 +274,7 @@ fn draw_centroid(canvas: &mut Canvas, (x, y): (f64, f64)) {
     with_halo(canvas, &ring, 1.2);
 }
 
-/// A function that draws a mark about a place of the page.
+/// Function that draws a mark centred at a position of the page.
 type Mark = fn(&mut Canvas, (f64, f64));
 
 /// Draws the legend: the meaning of the marks, and the window.

@@ -33,7 +33,7 @@ pub use reliability::{ReliabilityFigure, reliability_figure};
 pub use samplers::{SamplerPanel, samplers_figure};
 pub use spectrum::{spectrum_figure, spectrum_png};
 
-/// Description of the figure for screen readers, and for whoever wonders what ℓ∞ is.
+/// Description of the figure for screen readers; it also explains ℓ∞.
 const DESCRIPTION: &str = "One cone mosaic: its picture, its points, its nearest-neighbour distances with the Gaussian \
     of the same mean and standard deviation (RI, regularity index: mean over standard deviation), and its pair correlation \
     function with those of the three nearest point samplers and of independent points (ℓ∞, l-infinity: the largest difference \
@@ -48,7 +48,7 @@ pub struct Curve<'a> {
     pub g: &'a [f64],
 }
 
-/// The mean PCF of a sampler, and the distance of the mosaic's PCF from it.
+/// Mean pair correlation function (PCF) of a sampler, and its distance from the PCF of the mosaic.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceLine<'a> {
     /// Name of the sampler.
@@ -85,15 +85,15 @@ pub struct MosaicFigure<'a> {
     pub um_per_unit: Option<f64>,
     /// Nearest-neighbour distance of every point.
     pub nn: &'a [f64],
-    /// Mean of these distances.
+    /// Mean of the distances `nn`.
     pub nn_mean: Option<f64>,
-    /// Standard deviation of these distances.
+    /// Standard deviation of the distances `nn`.
     pub nn_sd: Option<f64>,
     /// Regularity index: mean over standard deviation.
     pub ri: Option<f64>,
     /// Rising edges of the histogram of `nn`, one more than counts; both empty without a histogram.
     pub histogram_edges: &'a [f64],
-    /// Number of points in each bin.
+    /// Number of points in each bin of the histogram.
     pub histogram_counts: &'a [usize],
     /// Pair correlation function of the mosaic.
     pub pcf: Option<Curve<'a>>,
@@ -121,8 +121,8 @@ impl MosaicFigure<'_> {
     }
 }
 
-/// Returns the factor from lengths of the mosaic to shown ones, and the unit of these (“” for the
-/// unit square).
+/// Returns the factor from lengths of the mosaic to shown lengths, and the unit of the shown
+/// lengths (“” in the unit square).
 fn shown_unit(um_per_unit: Option<f64>, unit: LengthUnit) -> (f64, &'static str) {
     match (um_per_unit, unit) {
         (Some(factor), _) => (factor, "µm"),
@@ -145,9 +145,9 @@ fn with_unit(number: &str, unit: &str) -> String {
 /// or above the plots. A panel without data says why in a sentence. Equal input makes equal bytes.
 ///
 /// # Errors
-/// Returns [`ReportError::Histogram`] if edges and counts do not belong together,
-/// [`ReportError::Curve`] if distances and values of a curve do not, [`ReportError::Png`] if a
-/// picture cannot be encoded.
+/// Fails if the histogram has not one edge more than counts or its edges do not rise
+/// ([`ReportError::Histogram`]), if a curve has unequal numbers of distances and values
+/// ([`ReportError::Curve`]), or if a picture cannot be encoded ([`ReportError::Png`]).
 pub fn mosaic_figure(figure: &MosaicFigure) -> Result<String, ReportError> {
     figure.validate()?;
     let bounds = figure.window.bounds();

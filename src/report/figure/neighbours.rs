@@ -2,18 +2,23 @@ use super::canvas::{Anchor, Area, Canvas, Ranges, Style, headroom, round_above, 
 use super::{MosaicFigure, shown_unit, with_unit};
 use crate::report::significant;
 
+/// Colour of the bars of the histogram, a grey behind the Gaussian.
 const BARS: &str = "#b8b8b8";
+/// Colour of the Gaussian (vermilion of Okabe & Ito 2008).
 const GAUSSIAN: &str = "#D55E00";
-/// Number of standard deviations to which the Gaussian is drawn, on either side of the mean.
+/// Number of standard deviations to which the Gaussian is drawn, on either side of the mean;
+/// farther out its height is below 1 % of the peak.
 const REACH: f64 = 3.2;
-/// Number of segments of the Gaussian's curve.
+/// Number of straight segments that make up the curve of the Gaussian.
 const CORNERS: usize = 120;
+/// Distance between two lines of the notes, in canvas units.
 const LINE: f64 = 11.;
 
-/// The Gaussian density N(mean, sd), scaled to the area of the histogram.
+/// Gaussian density N(mean, sd), scaled to the area of the histogram.
 struct Gaussian {
     mean: f64,
     sd: f64,
+    /// Area of the histogram: number of points × width of a bin.
     scale: f64,
 }
 

@@ -1,6 +1,6 @@
 use super::canvas::{Area, PAGE_WIDTH};
 
-/// Baseline of the title, from the top of the page.
+/// Distance of the baseline of the title from the top of the page, in canvas units.
 pub(super) const TITLE_BASELINE: f64 = 11.;
 /// Height of the baseline of a letter above the top of its panel.
 pub(super) const LETTER_RISE: f64 = 6.;
@@ -14,23 +14,28 @@ const HEAD: f64 = 36.;
 const LETTER_ROOM: f64 = 22.;
 /// Room for a scale bar below a field.
 const SCALE_BAR_ROOM: f64 = 18.;
+/// Gap between two panels of a row, in canvas units.
 const GAP: f64 = 14.;
 /// Room at the right edge of the page, for half a tick label.
 const RIGHT_EDGE: f64 = 8.;
 /// Room at the left edge of the page, for half a dot.
 pub(super) const LEFT_EDGE: f64 = 2.;
-/// Height of the plots where nothing asks for more.
+/// Height of the plots, in canvas units, unless the fields beside them are higher.
 const PLOT_HEIGHT: f64 = 160.;
-/// Largest height of a field beside the plots.
+/// Largest height of a field beside the plots, in canvas units.
 const TALLEST: f64 = 200.;
-/// Share of the two plots' width that the histogram gets; the PCF has more to show.
+/// Share of the width of both plots that the histogram gets; the pair correlation function has more
+/// to show.
 const HISTOGRAM_SHARE: f64 = 0.4;
 /// Width over height of a field above which fields are stacked beside the plots.
 const WIDE: f64 = 1.7;
 /// Width over height of a field above which fields are stacked above the plots.
 const VERY_WIDE: f64 = 4.;
 
-/// The places of all panels, in canvas units from the top left of the page.
+/// Areas of all panels, in canvas units from the top left of the page.
+///
+/// The “fields” are the picture and the points; the “plots” are the histogram of neighbours and the
+/// pair correlation function.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Page {
     pub(super) height: f64,
@@ -43,8 +48,8 @@ pub(super) struct Page {
 }
 
 impl Page {
-    /// Arranges a page for a field of the given width over height, shown once, or twice with a
-    /// picture.
+    /// Arranges a page for fields whose width over height is `aspect`: the points and, if
+    /// `with_picture`, the picture.
     pub(super) fn arrange(aspect: f64, with_picture: bool) -> Self {
         if aspect <= WIDE {
             Self::row(aspect, with_picture)
@@ -84,7 +89,8 @@ impl Page {
         Self { height: HEAD + bottom, picture, points, neighbours, correlation }
     }
 
-    /// Arranges the fields over the whole width, and the plots below.
+    /// Arranges the fields one above the other over the full width of the page, and the plots
+    /// below.
     fn stacked_above(aspect: f64, with_picture: bool) -> Self {
         let width = PAGE_WIDTH - 2. * LEFT_EDGE;
         let height = width / aspect;

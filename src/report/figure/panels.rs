@@ -1,12 +1,18 @@
 use super::canvas::{Anchor, Area, Canvas, PAGE_WIDTH, Style, fit};
 use super::page::{AXIS_ROOM, LEFT_EDGE, LETTER_RISE, TITLE_BASELINE};
 
+/// Room for the title and the letters above the plots, in canvas units.
 const HEAD: f64 = 36.;
+/// Height of the plots, in canvas units.
 const HEIGHT: f64 = 190.;
+/// Room for tick labels and the axis title below a plot, in canvas units.
 const AXIS_DEPTH: f64 = 34.;
+/// Gap between the first plot and the labels of the second, in canvas units.
 const GAP: f64 = 30.;
+/// Room at the right edge of the page for half a tick label, in canvas units.
 const RIGHT_EDGE: f64 = 10.;
-/// Room for the widest tick label, beyond the room that every axis has.
+/// Room for wide tick labels left of a plot, in canvas units, in addition to `AXIS_ROOM`, the room
+/// of every axis.
 const TICK_ROOM: f64 = 12.;
 
 /// Returns the areas of two plots side by side, without tick labels and axis titles.

@@ -3,14 +3,18 @@ use super::panels::{two_areas, two_panels};
 use crate::compare::{Reliability, ReliabilityBin};
 use crate::report::significant;
 
+/// Description of the figure for screen readers.
 const DESCRIPTION: &str = "Left: share of the detections that are hits in each bin of the score, with its 95 % interval. On the \
     diagonal the score equals the probability of a hit. Bars show the number of detections in each bin. Right: observed false \
     alarms against those expected from the scores, one dot per image.";
 
+/// Colour of the bars, a light grey behind lines and dots.
 const BARS: &str = "#d9d9d9";
+/// Colour of the dots (blue of Okabe & Ito 2008).
 const DOTS: &str = "#0072B2";
+/// Opacity of the dots of images, chosen by eye so that overlapping dots show as darker.
 const DOT_OPACITY: f64 = 0.45;
-/// Height of the largest bar, as a share of the plot.
+/// Height of the highest bar, as a share of the height of the plot.
 const BAR_HEIGHT: f64 = 0.3;
 
 /// The content of the figure of reliability.
@@ -20,7 +24,7 @@ pub struct ReliabilityFigure<'a> {
     pub title: &'a str,
     /// Reliability of the scores, bin by bin.
     pub reliability: &'a Reliability,
-    /// False alarms of every image, expected and observed.
+    /// Numbers of false alarms of every image: expected, then observed.
     pub alarms: &'a [(f64, f64)],
 }
 
@@ -58,8 +62,8 @@ fn diagram(canvas: &mut Canvas, area: Area, reliability: &Reliability) {
         format!("Brier score {}", significant(reliability.brier, 2)),
         format!("largest bar: {most} of {} detections", reliability.n),
     ];
-    // Where scores are too low, dots stand above the diagonal; then the notes go below it, over the
-    // bars.
+    // Where scores are too low, dots stand above the diagonal, and the notes go below it, over the
+    // bars. A surplus of hits above 5 % of the detections counts as such.
     let gap = |b: &ReliabilityBin| Some(b.n as f64 * (b.hits? - b.mean_score?));
     let above = reliability.bins.iter().filter_map(gap).sum::<f64>() > 0.05 * reliability.n as f64;
     let (x, y, anchor) = if above {

@@ -5,18 +5,29 @@ use super::page::{AXIS_ROOM, LEFT_EDGE};
 use crate::geometry::Point;
 use crate::report::ReportError;
 
+/// Description of the figure for screen readers.
 const DESCRIPTION: &str = "Point samplers. Top row: one pattern of each in the unit square. Middle row: the plane of its power \
     spectrum, with frequency 0 in the middle. Bottom row: the mean pair correlation functions and the radial power spectra.";
 
+/// Gap between two columns, in canvas units.
 const GAP: f64 = 8.;
+/// Room for the names of samplers above the first row, in canvas units.
 const HEAD: f64 = 18.;
+/// Gap between the patterns and their spectra, in canvas units.
 const ROW_GAP: f64 = 8.;
+/// Gap between the spectra and the plots below, in canvas units.
 const PLOT_HEAD: f64 = 26.;
+/// Height of the plots of curves, in canvas units.
 const PLOT_HEIGHT: f64 = 190.;
+/// Room for tick labels and the axis title below a plot, in canvas units.
 const AXIS_DEPTH: f64 = 36.;
+/// Radius of a point of a pattern, in canvas units; chosen by eye.
 const DOT_RADIUS: f64 = 0.75;
+/// Width of the curves, in canvas units.
 const LINE_WIDTH: f64 = 1.2;
+/// Distance between two lines of the legend, in canvas units.
 const LEGEND_LINE: f64 = 11.;
+/// Length of the sample of a line in the legend, in canvas units.
 const SWATCH: f64 = 15.;
 
 /// One sampler's column of the figure.
@@ -40,7 +51,7 @@ pub struct SamplerPanel<'a> {
 /// The figure is a self-contained SVG, 180 mm wide.
 ///
 /// # Errors
-/// Returns [`ReportError::Curve`] if a curve has unequal numbers of distances and values.
+/// Fails if a curve has unequal numbers of distances and values.
 pub fn samplers_figure(title: &str, panels: &[SamplerPanel]) -> Result<String, ReportError> {
     for panel in panels {
         for curve in [panel.pcf, panel.radial] {

@@ -5,6 +5,7 @@ use crate::report::{FigureFormat, ReportError, convert};
 use crate::stats::PowerSpectrum;
 use image::ExtendedColorType;
 
+/// Title above the plane of the spectrum.
 const TITLE: &str = "Power spectrum of the points (independent points have power 1 at every frequency)";
 /// Description of the figure for screen readers.
 const DESCRIPTION: &str = "The plane of the power spectrum of a point pattern, with frequency 0 in the middle; the lighter a \
@@ -12,12 +13,15 @@ const DESCRIPTION: &str = "The plane of the power spectrum of a point pattern, w
 
 /// Upper left corner of the plane, in canvas units.
 const CORNER: (f64, f64) = (64., 38.);
-/// Side of the plane; the bar of grey values stands to its right.
+/// Side of the plane, in canvas units; it leaves room for the bar of grey values on the right.
 const SIDE: f64 = 560.;
+/// Room for tick labels and the axis title below the plane, in canvas units.
 const AXIS_DEPTH: f64 = 36.;
+/// Gap between the plane and the bar of grey values, in canvas units.
 const BAR_GAP: f64 = 22.;
+/// Width of the bar of grey values, in canvas units.
 const BAR_WIDTH: f64 = 14.;
-/// Number of grey values of the bar.
+/// Number of grey values of the bar, one per row of pixels.
 const STEPS: u32 = 128;
 
 /// Draws the plane of a power spectrum with its axes and a bar of its grey values.
@@ -25,7 +29,7 @@ const STEPS: u32 = 128;
 /// The figure is a self-contained SVG, 180 mm wide. Frequencies are in cycles per 1/√density.
 ///
 /// # Errors
-/// Returns [`ReportError::Png`] if the picture cannot be encoded.
+/// Fails if the picture cannot be encoded.
 pub fn spectrum_figure(spectrum: &PowerSpectrum, scale: PowerScale) -> Result<String, ReportError> {
     let Plane { png, reach } = plane(spectrum, scale)?;
     let mut canvas = Canvas::new(CORNER.1 + SIDE + AXIS_DEPTH);
@@ -61,7 +65,7 @@ fn draw_bar(canvas: &mut Canvas, bar: Area, scale: PowerScale) -> Result<(), Rep
 /// Returns [`spectrum_figure`] as PNG, at 300 dpi.
 ///
 /// # Errors
-/// Returns [`ReportError::Png`] or [`ReportError::Convert`] if a picture cannot be encoded.
+/// Fails if a picture cannot be encoded.
 pub fn spectrum_png(spectrum: &PowerSpectrum, scale: PowerScale) -> Result<Vec<u8>, ReportError> {
     convert(&spectrum_figure(spectrum, scale)?, FigureFormat::Png)
 }

@@ -3,7 +3,7 @@ use super::{Metric, Quantity, metric};
 use crate::report::tables::EdgeRule::{All, Bound};
 use crate::report::tables::{Part, column};
 
-/// Metrics of density and of the spacing that follows from it.
+/// Metrics of density, and of the spacing of neighbouring cones.
 pub(super) const DENSITY: &[Metric] = &[
     metric(
         Density,

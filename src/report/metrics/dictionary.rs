@@ -3,6 +3,7 @@ use super::{Metric, MetricGroup, SummaryKind, metrics};
 use crate::report::tables::{ColumnWords, Row, TABLES, Table, TableWords, column};
 use crate::report::{ReportError, table};
 
+/// Kinds of summary, each with the command that writes it.
 const KINDS: [(SummaryKind, &str); 2] = [(SummaryKind::Images, "run"), (SummaryKind::Coordinates, "measure")];
 
 /// Opening paragraphs of the data dictionary.
@@ -69,7 +70,7 @@ static DICTIONARY: Table<DictionaryRow> = Table {
     ],
 };
 
-/// Returns one row per column of a metric, with the commands whose summaries have it.
+/// Returns one row per column of a metric, with the commands whose summaries have the column.
 fn rows_of(metric: &'static Metric) -> Vec<DictionaryRow> {
     let sampler = [String::from("SAMPLER")];
     let mut rows: Vec<DictionaryRow> = Vec::new();
@@ -115,7 +116,7 @@ fn all_rows() -> Vec<DictionaryRow> {
 /// tables.
 ///
 /// # Errors
-/// If the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn dictionary_csv() -> Result<Vec<u8>, ReportError> {
     DICTIONARY.csv(&all_rows())
 }

@@ -4,7 +4,7 @@ use super::{Metric, metric};
 use crate::report::tables::EdgeRule::All;
 use crate::report::tables::column;
 
-/// Metrics expected at the place of the image on the retina.
+/// Metrics of the location of the image on the retina, and values expected at this location.
 pub(super) const EXPECTED: &[Metric] = &[
     metric(
         Expected,

@@ -21,7 +21,7 @@ impl<'a> Subject<'a> {
         &self.mosaic().stats
     }
 
-    /// Returns the path of the file, as given.
+    /// Returns the path of the file, as set by the user.
     pub(super) fn file(&self) -> &'a str {
         match self {
             Self::Image(record) => &record.file,
@@ -119,7 +119,7 @@ pub enum MetricGroup {
     Fourier,
     /// Evenness of density across the window.
     Evenness,
-    /// Values expected at this place on the retina.
+    /// Values expected at the location of the image on the retina.
     Expected,
 }
 
@@ -177,14 +177,14 @@ impl MetricGroup {
     }
 }
 
-/// Dimension of a value, which determines the units in which the value is given.
+/// Dimension of a value, which determines the units in which the summary has columns of the value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// A length, in the unit of the coordinates, px, µm, degrees and minutes of visual angle.
     ///
-    /// An image's own unit is px and is not repeated.
+    /// The coordinates of an image are in px, so that a summary of images has one column in px.
     Length,
-    /// An area, in the squares of these units, with mm² in place of µm².
+    /// An area, in the squares of the units of a length, with mm² instead of µm².
     Area,
     /// A number of cones per area, in the inverse of the units of an area.
     Density,

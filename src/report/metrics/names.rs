@@ -5,7 +5,7 @@ use std::borrow::Cow;
 /// Metrics that had another name in earlier versions: the old name and the current one.
 const RENAMED: [(&str, &str); 1] = [("spacing", "spacing_density")];
 
-/// Returns the current name of a metric or column, which may be given by its name in an earlier
+/// Returns the current name of a metric or column; `name` may be its name in an earlier
 /// version.
 pub(super) fn canonical(name: &str) -> Cow<'_, str> {
     for (old, present) in RENAMED {

@@ -61,7 +61,7 @@ pub(super) const RECOVERY: &[Metric] = &[
     ),
 ];
 
-/// Metrics of the directions of neighbours and of anisotropy.
+/// Metrics of the directions of neighbours, and of anisotropy: differences between directions.
 pub(super) const ORIENTATION: &[Metric] = &[
     metric(
         Orientation,

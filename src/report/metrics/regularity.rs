@@ -1,3 +1,8 @@
+//! Metrics of regularity against independent points, and of the evenness of density.
+//!
+//! The edge rule `All` counts all points without any correction. `Own` means that the definition
+//! states a correction of its own; see [`EdgeRule`](crate::report::tables::EdgeRule).
+
 use super::MetricGroup::{Evenness, Regularity};
 use super::Quantity::Plain;
 use super::{Metric, metric};
@@ -26,8 +31,9 @@ pub(super) const REGULARITY: &[Metric] = &[
         column(
             "clark_evans_donnelly",
             "ratio",
-            "Clark–Evans index with an expected value that allows for the border by means of its \
-                length; empty on a torus.",
+            "Clark–Evans index with an expected value that allows for the border: 1/(2√density) + \
+                (0.0514 + 0.0412/√n) × length of the border/n for n points; empty for fewer than two \
+                points and on a torus.",
         )
         .edge(Own)
         .source("Donnelly 1978")
@@ -40,7 +46,9 @@ pub(super) const REGULARITY: &[Metric] = &[
             "clark_evans_cdf",
             "ratio",
             "Clark–Evans index with the mean distance taken from the Kaplan–Meier estimate of the \
-                distribution of nearest-neighbour distances.",
+                distribution of nearest-neighbour distances: a point nearer to the border than to its \
+                nearest neighbour counts only up to its distance from the border. Empty for fewer than \
+                two points, and if every point is nearer to the border than to its nearest neighbour.",
         )
         .edge(Own)
         .source("Baddeley, Rubak & Turner 2015")
@@ -57,8 +65,8 @@ pub(super) const EVENNESS: &[Metric] = &[
             "trend_p",
             "0–1",
             "p-value of a test for a trend in density: probability of a trend at least this \
-                strong if the density varies by 10 %. Values below .01 lead to a warning; empty for \
-                fewer than 20 points.",
+                strong if the density varies by 10 % (the tolerated variation, not zero). Values below \
+                .01 lead to a warning; empty for fewer than 20 points.",
         )
         .of(|s| s.stats().trend.p_value.into()),
     ),
@@ -70,7 +78,8 @@ pub(super) const EVENNESS: &[Metric] = &[
             "ratio",
             "Size of the slow variation of density across the window, as a fraction of the mean \
                 density: √12 × its root mean square, after subtraction of what chance alone \
-                produces. For a linear gradient it is the difference between opposite edges.",
+                produces. The factor √12 makes it the difference between opposite edges for a linear \
+                gradient.",
         )
         .of(|s| s.stats().trend.variation.into()),
     ),

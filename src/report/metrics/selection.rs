@@ -69,7 +69,7 @@ impl FromStr for MetricSelection {
     /// Names of earlier versions are replaced by the current ones.
     ///
     /// # Errors
-    /// If there is no name, or one that is not known.
+    /// Fails if there is no name, or one that is not known.
     fn from_str(text: &str) -> Result<Self, String> {
         let parts = text.split(',').map(str::trim).filter(|part| !part.is_empty());
         let wanted: Vec<String> = parts.map(|part| canonical(part).into_owned()).collect();

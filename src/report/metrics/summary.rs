@@ -106,7 +106,7 @@ impl Summary {
     /// Returns `summary.csv`, one row per subject.
     ///
     /// # Errors
-    /// If the table cannot be written as CSV.
+    /// Fails if the table cannot be written as CSV.
     pub fn csv<'a>(&self, subjects: impl IntoIterator<Item = Subject<'a>>) -> Result<Vec<u8>, ReportError> {
         let rows: Vec<Vec<Cell>> = subjects.into_iter().map(|subject| self.row(&subject)).collect();
         sheet(&self.header(), &rows)
@@ -117,7 +117,7 @@ impl Summary {
     /// Numbers have all their digits; missing values are `null`.
     ///
     /// # Errors
-    /// If a number cannot be written.
+    /// Fails if a number cannot be written.
     pub fn json(&self, subject: &Subject) -> Result<serde_json::Value, serde_json::Error> {
         let cells = self.row(subject).into_iter().map(serde_json::to_value);
         let pairs = self.header().into_iter().zip(cells).map(|(name, cell)| Ok((name, cell?)));

@@ -1,7 +1,7 @@
 use super::{Quantity, SummaryKind};
 use crate::report::{Cell, MosaicRecord};
 
-/// Unit in which a quantity is given.
+/// Unit in which a summary has a column of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unit {
     /// Unit of the coordinates; columns in this unit have no suffix.
@@ -78,8 +78,8 @@ impl Unit {
     pub fn convert(self, value: Cell, quantity: Quantity, mosaic: &MosaicRecord) -> Cell {
         let (Cell::Number(number), false) = (&value, self == Self::Coordinates) else { return value };
         let um = mosaic.um_per_unit;
-        // The factor is that of a length and is squared below. Areas and densities are in mm², so
-        // theirs converts to mm.
+        // The factor is that of a length and is squared below. For areas and densities, which are
+        // in mm², it converts to mm.
         let length = match self {
             Self::Coordinates => Some(1.),
             Self::Pixels => mosaic.px_per_unit(),

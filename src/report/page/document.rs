@@ -21,7 +21,7 @@ pub struct Headline {
     pub number: String,
     /// Words below the number, which say what it counts.
     pub words: String,
-    /// True if the result is as expected; otherwise it is coloured as a warning.
+    /// `true` if the result is as expected; otherwise it is coloured as a warning.
     pub good: bool,
 }
 

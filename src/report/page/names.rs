@@ -3,12 +3,12 @@ use std::collections::HashMap;
 
 /// Characters in a name after which a line may break.
 const BREAKS: [char; 3] = ['_', '-', '.'];
-/// Length in bytes of the shortest part of a name that is replaced by an ellipsis.
+/// Length in bytes of the shortest part of a name that an ellipsis replaces on narrow screens.
 const WORTH: usize = 8;
 
 /// Names of images in the form in which a page shows them.
 ///
-/// Names are shown in full where there is room, with places where a line may break. On narrow
+/// Names are shown in full where there is room, with positions at which a line may break. On narrow
 /// screens an ellipsis replaces the parts that all names with the same beginning share. The ends
 /// are never cut off, as names usually differ there.
 pub(super) struct Names<'a> {
@@ -34,7 +34,8 @@ impl<'a> Names<'a> {
         Self { next }
     }
 
-    /// Returns a name as HTML with places where lines may break and parts that narrow screens hide.
+    /// Returns a name as HTML, with positions at which lines may break and parts that narrow
+    /// screens hide.
     pub fn show(&self, name: &str) -> Markup {
         let stretches = self.stretches(name);
         let parts = |text: &str| html! { @for part in text.split_inclusive(BREAKS) { (part) wbr; } };

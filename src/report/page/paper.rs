@@ -6,17 +6,18 @@ use crate::report::paper::{PaperResults, pair};
 use crate::report::{Document, FindingRecord, Headline, Section, TextTable, significant};
 use crate::stats::Pcf;
 
-/// Value below which the maximum of g(r) is not called a peak.
+/// Value that the maximum of a mean g(r) must reach to be called a peak.
 ///
 /// The mean of ten patterns scatters by .03.
 const NO_PEAK: f64 = 1.1;
 
-/// Returns a number with its sign, with the minus sign U+2212 in place of a hyphen.
+/// Returns a number with its sign, with the minus sign U+2212 instead of a hyphen.
 fn signed(value: f64, decimals: usize) -> String {
     format!("{value:+.decimals$}").replace('-', "−")
 }
 
-/// Returns a value and its deviation with so many decimals, with a dash for what is missing.
+/// Returns a value and its standard deviation with `decimals` decimals, with a dash for what is
+/// missing.
 fn plus_minus(value: Option<f64>, deviation: Option<f64>, decimals: usize) -> String {
     let number = |v: Option<f64>| v.map_or("–".into(), |v| format!("{v:.decimals$}"));
     format!("{} ± {}", number(value), number(deviation))
@@ -229,7 +230,8 @@ impl PaperResults {
         }
     }
 
-    /// Returns a paragraph on how many rows of Table 2 hold, by the bandwidth of the kernel.
+    /// Returns a paragraph on how many rows of Table 2 satisfy the triangle inequality, by the
+    /// bandwidth of the kernel.
     fn bandwidths_in_words(&self) -> String {
         let of = self.printed.len();
         let scan: Vec<String> =

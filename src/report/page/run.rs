@@ -98,12 +98,12 @@ fn legend(samplers: &[String]) -> Markup {
     }
 }
 
-/// Returns a number with so many significant digits, or a dash if there is none.
+/// Returns a number with `digits` significant digits, or a dash if there is no number.
 fn number(value: Option<f64>, digits: usize) -> String {
     value.map_or("–".into(), |v| significant(v, digits))
 }
 
-/// Returns a length given in px; on a page with a scale in µm, with px in brackets.
+/// Writes a length that is known in px; on a page with a scale in µm, with px in brackets.
 fn length(px: Option<f64>, um_per_px: Option<f64>, scaled: bool) -> String {
     if scaled {
         format!("{} ({})", number(px.zip(um_per_px).map(|(v, um)| v * um), 3), number(px, 3))
@@ -198,7 +198,7 @@ const LINKS: [(&str, &str); 4] = [
     ("pcf.csv", "g(r)"),
     ("metrics.json", "all numbers"),
 ];
-/// Files that follow these if there are maps.
+/// Files of every image with maps, listed after the files of every image.
 const MAP_LINKS: [(&str, &str); 3] =
     [("maps.csv", "maps"), ("profiles.csv", "profiles"), ("fourier_map.csv", "spacing from spectra")];
 

@@ -9,12 +9,12 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, GrayImage, ImageEncoder};
 use ndarray::ArrayView2;
 
-/// Share of the pixels that lie at or below black.
+/// Share of the pixels that become black: a few dark pixels must not determine the contrast.
 const BLACK: f64 = 0.005;
-/// Share of the pixels that lie below white.
+/// Share of the pixels that stay below white: a few bright pixels must not determine the contrast.
 const WHITE: f64 = 0.995;
 
-/// Number of pixels that settle a percentile; more would only cost time.
+/// Largest number of pixels from which a percentile is computed; more would only cost time.
 const SAMPLE: usize = 1 << 17;
 
 /// Returns the plane in 8 bits, its 0.5th percentile black and its 99.5th white.

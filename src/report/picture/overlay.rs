@@ -4,14 +4,16 @@ use crate::image::Plane;
 use crate::report::ReportError;
 use image::{ExtendedColorType, Rgb, RgbImage};
 
-/// Distance of neighbouring cones in output px below which rings would hide them.
+/// Distance between neighbouring cones to which a picture is enlarged, in output px; nearer rings
+/// would hide the cones.
 const CLEAR_SPACING: f64 = 16.;
-/// Largest side of an enlarged picture, px.
+/// Largest side of an enlarged picture, in px; larger pictures are not enlarged.
 const LARGEST_SIDE: usize = 4096;
 /// Width of the line of a mark, in output px.
 const LINE: f64 = 1.5;
 /// Width of the dark line beneath a mark, in output px.
 const HALO: f64 = 3.;
+/// Opacity of the dark border around a mark, chosen by eye.
 const HALO_OPACITY: f64 = 0.55;
 
 /// The meaning of a mark.
@@ -52,14 +54,14 @@ impl MarkKind {
     }
 }
 
-/// A mark on an image.
+/// Mark on an image.
 ///
-/// All lengths are in px of that image; (0, 0) is the centre of its top-left pixel.
+/// All lengths are in px of the image; (0, 0) is the centre of its top-left pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OverlayMark {
-    /// Place of the mark, to the right.
+    /// Position of the mark along x, which points to the right.
     pub x: f64,
-    /// Place of the mark, downwards.
+    /// Position of the mark along y, which points down.
     pub y: f64,
     /// Radius of a ring, or half the length of a cross.
     pub radius: f64,
@@ -67,15 +69,18 @@ pub struct OverlayMark {
     pub kind: MarkKind,
 }
 
-/// Share of the brightness that is left in a border where nothing counts.
+/// Factor by which the border strip of the image, in which no mark counts, is darkened; chosen by
+/// eye.
 const BORDER_LIGHT: f64 = 0.5;
 
-/// Draws an [`overlay`] with a border of `border` px darkened, where nothing counts.
+/// Draws an [`overlay()`] and darkens the border strip, in which no mark counts.
+///
+/// The strip is `border` px of the image wide.
 pub fn overlay_with_border(picture: &Plane, marks: &[OverlayMark], spacing: f64, border: f64) -> RgbImage {
     draw(picture, marks, spacing, border)
 }
 
-/// Draws the image in grey, with a mark on every place given.
+/// Draws the image in grey, with `marks` on it.
 ///
 /// The contrast is stretched from the 0.5th to the 99.5th percentile. The picture is enlarged by
 /// the whole number that sets cones of `spacing` px at least 16 px apart, as long as no side
@@ -101,7 +106,7 @@ fn draw(picture: &Plane, marks: &[OverlayMark], spacing: f64, border: f64) -> Rg
     }
     let size = out.dimensions();
     for mark in marks.iter().filter(|m| m.x.is_finite() && m.y.is_finite() && m.radius.is_finite()) {
-        // Pixel centres: place x of the image lies at (x + ½) factor − ½ of the enlarged one.
+        // Pixel centres: position x of the image lies at (x + ½) factor − ½ of the enlarged image.
         let centre = ((mark.x + 0.5) * factor - 0.5, (mark.y + 0.5) * factor - 0.5);
         let radius = (mark.radius * factor).max(LINE);
         let shape = mark.kind.shape();
@@ -131,7 +136,7 @@ fn blend(pixel: &mut Rgb<u8>, colour: [u8; 3], opacity: f64) {
 /// Encodes the picture as PNG, compressed for speed rather than size.
 ///
 /// # Errors
-/// Returns [`ReportError::Png`] if the picture has no pixels.
+/// Fails if the picture has no pixels.
 pub fn encode_png(picture: &RgbImage) -> Result<Vec<u8>, ReportError> {
     png(picture.as_raw(), picture.width(), picture.height(), ExtendedColorType::Rgb8)
 }

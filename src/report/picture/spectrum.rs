@@ -9,7 +9,7 @@ use crate::report::ReportError;
 use crate::stats::PowerSpectrum;
 use image::ExtendedColorType;
 
-/// Number of pixels along a side above which pictures are reduced by a whole factor.
+/// Number of pixels along a side above which pictures are reduced by an integer factor.
 const LARGEST: usize = 1024;
 
 /// The scale by which power becomes grey.
@@ -32,7 +32,7 @@ impl PowerScale {
     }
 }
 
-/// A picture of the plane of wave vectors.
+/// Picture of the plane of wave vectors.
 pub(in crate::report) struct Plane {
     /// Grey picture, as PNG.
     pub png: Vec<u8>,
@@ -46,7 +46,7 @@ pub(in crate::report) struct Plane {
 /// mean of a square of them, so that no side has more than 1024.
 ///
 /// # Errors
-/// Returns [`ReportError::Png`] if the encoder refuses the picture.
+/// Fails if the encoder refuses the picture.
 pub fn spectrum_plane(spectrum: &PowerSpectrum, scale: PowerScale) -> Result<Vec<u8>, ReportError> {
     plane(spectrum, scale).map(|plane| plane.png)
 }

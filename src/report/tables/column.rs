@@ -11,16 +11,16 @@ pub trait Row {
 /// Treatment of points whose neighbours may lie beyond the border.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EdgeRule {
-    /// No treatment, because the border does not matter.
+    /// No treatment, because the border does not affect the value.
     NotAffected,
-    /// No treatment: all points count.
+    /// No treatment, although neighbours beyond the border are missing: all points count.
     All,
     /// Restriction to points at least as far from the border as from their nearest neighbour.
     Interior,
     /// Restriction to points whose Voronoi cell is finite and has every vertex strictly inside the
     /// window (Cooper et al. 2016, <https://doi.org/10.1167/iovs.16-19072>).
     Bound,
-    /// A rule of the column's own, which its definition names.
+    /// Rule of the column's own, which the definition of the column states.
     Own,
 }
 
@@ -153,7 +153,7 @@ impl ColumnWords {
 impl<R: Row> Column<R> {
     /// Returns the name of the column for a sampler.
     ///
-    /// Hyphens of the sampler become underscores, unless the whole name is `SAMPLER`.
+    /// Hyphens of the sampler become underscores, unless the complete name is `SAMPLER`.
     pub(in crate::report) fn name_for(&self, sampler: &str) -> String {
         match self.words.name {
             "SAMPLER" => sampler.to_owned(),

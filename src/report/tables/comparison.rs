@@ -6,7 +6,7 @@ use crate::stats::{Deviation, Moments};
 /// The verdict on the mosaic of a file by simulations of one sampler.
 #[derive(Clone, Copy, Debug)]
 pub struct VerdictRow<'a> {
-    /// Path of the file, as given.
+    /// Path of the file, as set by the user.
     pub file: &'a str,
     /// Verdict on the mosaic.
     pub verdict: &'a VerdictRecord,

@@ -4,7 +4,7 @@ use crate::compare::{ReferenceCurve, SamplerVerdict};
 use crate::report::ReportError;
 use crate::stats::{Inhomogeneous, Measures, Pcf};
 
-/// One distance at which pair correlation functions are given.
+/// One distance, and the values of pair correlation functions at it: a row of the table.
 #[derive(Clone, Copy, Debug)]
 pub struct PcfRow<'a> {
     index: usize,
@@ -96,7 +96,7 @@ pub static PCF: Table<PcfRow> = Table {
 /// There are no rows if the function is not defined.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn pcf_csv(measures: &Measures, curves: &[ReferenceCurve]) -> Result<Vec<u8>, ReportError> {
     let samplers: Vec<String> = curves.iter().map(|c| c.sampler.clone()).collect();
     let varying = measures.inhomogeneous.as_ref();
@@ -108,7 +108,8 @@ pub fn pcf_csv(measures: &Measures, curves: &[ReferenceCurve]) -> Result<Vec<u8>
     PCF.csv_as(&Layout { samplers: &samplers, parts: parts.as_slice() }, rows)
 }
 
-/// One distance at which a mosaic's pair correlation function and its envelopes are given.
+/// One distance, and the values of a mosaic's pair correlation function and its envelopes at it: a
+/// row of the table.
 #[derive(Clone, Copy, Debug)]
 pub struct EnvelopeRow<'a> {
     index: usize,
@@ -157,7 +158,7 @@ pub static ENVELOPE: Table<EnvelopeRow> = Table {
 /// Returns `NAME.envelope.csv` of a mosaic; there are no rows if its function is not defined.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn envelope_csv(measures: &Measures, verdicts: &[SamplerVerdict]) -> Result<Vec<u8>, ReportError> {
     let samplers: Vec<String> = verdicts.iter().map(|v| v.sampler.clone()).collect();
     let rows = measures

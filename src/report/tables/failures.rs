@@ -4,7 +4,7 @@ use serde::Serialize;
 /// A file that could not be processed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Failure {
-    /// Path of the file, as given.
+    /// Path of the file, as set by the user.
     pub file: String,
     /// Reason of the failure, in one line.
     pub reason: String,

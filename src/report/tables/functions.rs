@@ -3,7 +3,7 @@ use super::{Row, Table, column};
 use crate::report::ReportError;
 use crate::stats::{DensityRecovery, Functions, PowerSpectrum};
 
-/// One distance at which functions are given, each under its name.
+/// One distance, and the values of functions at it, each under its name: a row of the table.
 #[derive(Clone, Copy, Debug)]
 pub struct FunctionsRow<'a> {
     index: usize,
@@ -131,7 +131,7 @@ pub static FUNCTIONS: Table<FunctionsRow> = Table {
 /// Returns `NAME.functions.csv` of a mosaic.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn functions_csv(functions: &Functions) -> Result<Vec<u8>, ReportError> {
     let series = functions.columns();
     FUNCTIONS.csv((0..functions.r.len()).map(|index| FunctionsRow { index, series: &series }))
@@ -170,7 +170,7 @@ pub static DENSITY_RECOVERY: Table<AnnulusRow> = Table {
 /// Returns `NAME.density_recovery.csv`; there are no rows without a profile.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn density_recovery_csv(profile: Option<&DensityRecovery>) -> Result<Vec<u8>, ReportError> {
     let rows = profile.into_iter().flat_map(|p| {
         let annulus = |(&r, &density)| AnnulusRow { r, density, mean_density: p.mean_density };
@@ -213,7 +213,7 @@ pub static SPECTRUM: Table<FrequencyRow> = Table {
 /// Returns `NAME.spectrum.csv` of a mosaic.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn spectrum_csv(spectrum: &PowerSpectrum) -> Result<Vec<u8>, ReportError> {
     SPECTRUM.csv((0..spectrum.power.len()).map(|index| FrequencyRow { index, spectrum }))
 }

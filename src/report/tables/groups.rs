@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 pub struct GroupMember<'a> {
     /// Record of the member's mosaic.
     pub record: Subject<'a>,
-    /// Person of whom the image is, if known.
+    /// Person whose eye the image shows, if known.
     pub person: Option<&'a str>,
 }
 
@@ -88,7 +88,7 @@ pub static GROUPS: Table<GroupRow> = Table {
 /// Returns `groups.csv`: every numeric column of a summary over the members of each group.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn groups_csv(
     summary: &Summary,
     groups: &BTreeMap<String, Vec<GroupMember>>,

@@ -84,7 +84,7 @@ pub static MAPS: Table<MapRow> = Table {
 /// Returns `NAME.maps.csv` of a mosaic.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn maps_csv(mosaic: &Mosaic, maps: &Maps) -> Result<Vec<u8>, ReportError> {
     let um_per_unit = mosaic.micrometres_per_unit();
     let row = |(&at, &local)| MapRow { at, local, um_per_unit };
@@ -149,13 +149,13 @@ pub static PROFILES: Table<DistanceRow> = Table {
 /// Returns `NAME.profiles.csv` of a mosaic.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn profiles_csv(mosaic: &Mosaic, maps: &Maps) -> Result<Vec<u8>, ReportError> {
     let um_per_unit = mosaic.micrometres_per_unit();
     PROFILES.csv(maps.profile.iter().map(|&profile| DistanceRow { profile, um_per_unit }))
 }
 
-/// The spacing at one place of the image, from the spectra of tiles.
+/// Spacing at one position of the image, from the spectra of tiles.
 #[derive(Clone, Copy, Debug)]
 pub struct FourierRow {
     at: Point,
@@ -191,7 +191,7 @@ pub static FOURIER_MAP: Table<FourierRow> = Table {
 /// Returns `fourier_map.csv` of an image; there are no rows if its spectrum has no ring.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn fourier_map_csv(map: Option<&FourierMap>, um_per_px: Option<f64>) -> Result<Vec<u8>, ReportError> {
     let rows = map.into_iter().flat_map(|map| {
         let places = map.y.iter().flat_map(|&y| map.x.iter().map(move |&x| Point::new(x, y)));

@@ -220,7 +220,7 @@ pub static PAPER_SPECTRA: Table<CurveRow> = Table {
 /// cells.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn curves_csv(table: &Table<CurveRow>, curves: &[SamplerCurve]) -> Result<Vec<u8>, ReportError> {
     let samplers: Vec<String> = curves.iter().map(|c| c.sampler.clone()).collect();
     let longest = curves.iter().map(|c| c.x).max_by_key(|x| x.len()).unwrap_or_default();
@@ -233,7 +233,7 @@ impl PaperResults {
     /// its name.
     ///
     /// # Errors
-    /// Returns [`ReportError::Csv`] if one of them cannot be written as CSV.
+    /// Fails if one of them cannot be written as CSV.
     pub fn tables(&self) -> Result<[(&'static str, Vec<u8>); 4], ReportError> {
         let distances = PAIRS.iter().zip(&self.distances).map(|(&columns, &found)| PaperDistance {
             between: columns.map(|c| TABLE_2_SAMPLERS[c]),

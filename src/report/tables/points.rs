@@ -23,7 +23,7 @@ impl Row for DetectedCone {
 /// The table of detected cones.
 ///
 /// These files are written as coordinates, by [`write_points`](crate::mosaic::io::write_points); a
-/// test holds that function to these columns.
+/// test checks that the function writes these columns.
 pub static DETECTIONS: Table<DetectedCone> = Table {
     file: "points.csv",
     commands: "run (images/NAME/points.csv), detect (NAME.csv; NAME.rejected.csv: candidates that \
@@ -141,7 +141,7 @@ pub static POINTS: Table<PointRow> = Table {
 /// Returns `NAME.points.csv` of a mosaic.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn points_csv(mosaic: &Mosaic, measures: &Measures) -> Result<Vec<u8>, ReportError> {
     let cells = mosaic.points().iter().zip(&measures.cells.cells).enumerate();
     POINTS.csv(cells.map(|(index, (&point, &cell))| PointRow { index, point, cell, measures }))

@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 /// A region of interest of a mosaic.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct RoiRow {
-    /// Path of the mosaic's file, as given.
+    /// Path of the mosaic's file, as set by the user.
     pub file: String,
     /// Name of the region.
     pub roi: String,
-    /// Box of the region, after growing to hold enough bound cells.
+    /// Box of the region, after growing until it contains enough bound cells.
     pub frame: Rectangle,
     /// Remarks on the region: `edge`, `few`, `outside`, or several.
     pub flag: String,
@@ -50,7 +50,7 @@ pub static ROIS: Table<RoiRow> = Table {
 /// Returns `rois.csv`: the columns of the regions, then those of a summary except `file`.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn rois_csv(summary: &Summary, rows: &[RoiRow]) -> Result<Vec<u8>, ReportError> {
     let layout = Layout::default();
     let names = summary.header();

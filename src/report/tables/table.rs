@@ -26,7 +26,7 @@ impl<R: Row> Table<R> {
     /// Returns these rows as a CSV file, without columns that are repeated or optional.
     ///
     /// # Errors
-    /// Returns [`ReportError::Csv`] if the rows cannot be written as CSV.
+    /// Fails if the rows cannot be written as CSV.
     pub fn csv<'a>(&self, rows: impl IntoIterator<Item = R::Of<'a>>) -> Result<Vec<u8>, ReportError> {
         self.csv_as(&Layout::default(), rows)
     }
@@ -34,7 +34,7 @@ impl<R: Row> Table<R> {
     /// Returns these rows as a CSV file with the columns of a layout.
     ///
     /// # Errors
-    /// Returns [`ReportError::Csv`] if the rows cannot be written as CSV.
+    /// Fails if the rows cannot be written as CSV.
     pub fn csv_as<'a>(
         &self,
         layout: &Layout,

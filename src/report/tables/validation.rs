@@ -2,13 +2,13 @@ use super::{Layout, Part, Row, Table, column};
 use crate::compare::{Difference, Froc, FrocPoint, GroupSummary, JudgedImage, ReliabilityBin, Score};
 use crate::report::{Cell, ReportError};
 
-/// Number of points of a curve that are written at most.
+/// Largest number of points of a curve that are written.
 const CURVE_POINTS: usize = 1000;
 
 /// The score of one image.
 #[derive(Clone, Debug)]
 pub struct ValidationRow {
-    /// Path of the file of marks, as given.
+    /// Path of the file of marks, as set by the user.
     pub file: String,
     /// Name of the image.
     pub name: String,
@@ -31,9 +31,9 @@ pub struct ValidationRow {
 pub struct VersusRow {
     /// Agreement of the other detections and the marks.
     pub score: Score,
-    /// Judgement of every one of them, if they have scores.
+    /// Judgement of every one of the other detections, if they have scores.
     pub judged: Option<JudgedImage>,
-    /// Agreement of the first detections and these, which are taken as marks.
+    /// Agreement of the first detections with the other detections, which are taken as marks.
     pub between: Score,
 }
 
@@ -138,7 +138,7 @@ pub static VALIDATION: Table<ValidationRow> = Table {
 /// Returns `validation.csv`; `two` means that two detectors or graders are compared.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn validation_csv(rows: &[ValidationRow], two: bool) -> Result<Vec<u8>, ReportError> {
     let parts: &[Part] = if two { &[Part::Versus] } else { &[] };
     VALIDATION.csv_as(&Layout { samplers: &[], parts }, rows)
@@ -228,7 +228,7 @@ pub static FROC: Table<FrocPoint> = Table {
 /// Returns `froc.csv`, thinned to 1000 thresholds.
 ///
 /// # Errors
-/// Returns [`ReportError::Csv`] if the table cannot be written as CSV.
+/// Fails if the table cannot be written as CSV.
 pub fn froc_csv(froc: &Froc) -> Result<Vec<u8>, ReportError> {
     FROC.csv(froc.thinned(CURVE_POINTS))
 }

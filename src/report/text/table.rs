@@ -31,7 +31,7 @@ fn is_number(text: &str) -> bool {
     matches!(bare.as_str(), "–" | "∞") || bare.split_whitespace().all(|part| part.parse::<f64>().is_ok())
 }
 
-/// Writes `x` with `digits` significant digits, but never cuts digits before the decimal point.
+/// Writes `x` with `digits` significant digits, and always all digits before the decimal point.
 ///
 /// At three digits 9.1537 becomes 9.15 and 61234.5 becomes 61234. Numbers beyond 10⁻⁴..10⁹ are in
 /// scientific notation; NaN is “–”.

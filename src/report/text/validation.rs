@@ -30,6 +30,7 @@ impl TextTable {
 /// 95 % intervals by name, as [`intervals`](crate::compare::intervals) names them.
 type Intervals = BTreeMap<&'static str, Interval>;
 
+/// Text of a cell without a value.
 const NONE: &str = "–";
 
 /// Writes a rate with four decimals.
