@@ -31,11 +31,11 @@ use rand::{Rng, RngExt};
 /// Öztireli and Gross (2012) and Heck et al. (2013) move points down the gradient of ∫ (g − g*)²,
 /// where g* is the function to reach. Their method takes hundreds of steps, since many points must
 /// move together to change g at large distances. Here the misses of g at all distances are removed
-/// at once. Let e(x) be the misses at the positions x, and J their Jacobian. Then x ← x − Jᵀ (J Jᵀ
-/// + μ)⁻¹ e is the shortest displacement that removes e to first order (Levenberg–Marquardt, with
-/// the damping μ). J Jᵀ has only some sixty rows, one per distance, and each is a sum over all
-/// points, so some of the points are enough to estimate it. Ten steps suffice for any n, and the
-/// time of each is linear in n.
+/// at once. Let e(x) be the misses at the positions x, and J their Jacobian. The shortest
+/// displacement that removes e to first order is x ← x − Jᵀ (J Jᵀ + μ)⁻¹ e, with the damping μ
+/// (Levenberg–Marquardt). J Jᵀ has only some sixty rows, one per distance, and each is a sum over
+/// all points, so some of the points are enough to estimate it. Ten steps suffice for any n, and
+/// the time of each is linear in n.
 ///
 /// Pairs determine g, and so the spectrum, except for waves longer than the controlled distances of
 /// pairs. If the spectrum is known, the power of these waves is controlled in the same way (the
