@@ -58,8 +58,8 @@ pub struct NearestAxes {
     /// Axis from every point to its nearest neighbour, 0–180°.
     ///
     /// `None` if there is no neighbour or the neighbour coincides with the point. If several
-    /// neighbours are equally near, the axis to one of them is given; in a perfect lattice the axes
-    /// are therefore arbitrary.
+    /// neighbours are equally near, one of them is taken; in a perfect lattice the axes are
+    /// therefore arbitrary.
     pub degrees: Vec<Option<f64>>,
     /// Number of axes from interior points. All other fields except `degrees` are computed from
     /// these axes only.
@@ -244,6 +244,7 @@ fn ellipse(cells: &Voronoi) -> Option<NeighbourEllipse> {
 struct Groups(Vec<usize>);
 
 impl Groups {
+    /// Puts each of `n` points into a set of its own.
     fn new(n: usize) -> Self {
         Self((0..n).collect())
     }

@@ -176,7 +176,7 @@ mod tests {
             assert!(bound_cells(&points, &window, &smaller) < 40);
             assert!((found.frame.width() / found.frame.height() - 2.).abs() < 1e-9);
             assert!((found.frame.x0() + found.frame.x1() - 2. * x).abs() < 1e-12);
-            // A box that holds enough cells stays as it is.
+            // A box that contains enough cells stays as it is.
             assert_eq!(grown(&points, &window, found.frame, 20).frame, found.frame);
         }
     }

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 /// Statistics of a mosaic that are single numbers, not series.
 ///
-/// `metrics.json` contains all of them, and `summary.csv` one row of columns for those that have a
-/// `metric(…)` in `report/metrics`. Lengths are in the unit of the mosaic.
+/// All of them are written to `metrics.json`; `summary.csv` has a column for each that is declared
+/// with `metric(…)` in `report/metrics`. Lengths are in the unit of the mosaic.
 ///
 /// To add a statistic, add a field here and a line in `Summary::of`; it is then part of
 /// `metrics.json`. A column of `summary.csv` also needs a `metric(…)` in `report/metrics`.

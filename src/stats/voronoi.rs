@@ -79,7 +79,8 @@ pub struct Voronoi {
 
 /// Summary of the Voronoi cells of a pattern.
 ///
-/// A cell is bound if it lies strictly inside the window ([`Cell::bound`]).
+/// A cell is bound if it lies strictly inside the window ([`Cell::bound`]). Without bound cells,
+/// `density`, `area_cv` and all values of ψ6 are `None`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VoronoiSummary {
     /// Number of all cells, which equals the number of points.
@@ -156,7 +157,7 @@ impl Voronoi {
 
 /// Computes the Voronoi cells of a pattern from its Delaunay triangulation.
 ///
-/// A cell is bound if it lies strictly inside the window ([`Cell::bound`]). On a torus the pattern
+/// A cell is bound if it lies strictly inside the window ([`Cell::bound`]). On a torus, the pattern
 /// is repeated around the window, and every cell is bound. Points that are not finite have no cell.
 /// If all points lie on a line, every cell is infinite.
 ///

@@ -57,7 +57,8 @@ impl FirstDistance {
         // ≤ b.
         let count = || vec![0usize; rows + 2];
         let (mut all, mut seen, mut observed, mut border) = (count(), count(), count(), count());
-        // Uncensored distances, counted in the first row in which b > r_{k−1} no longer holds.
+        // Uncensored distances, counted in the first row k with b ≤ r_{k−1}, from which on they
+        // drop out of the numerator of the reduced sample.
         let mut seen_ends = count();
         for (&d, &b) in distances.iter().zip(borders) {
             let (at_d, at_b) = (first_at_least(r, d), first_at_least(r, b));

@@ -2,8 +2,8 @@
 //!
 //! 1. Visit all pairs up to the largest r (for g, plus the half-width of its kernel), in parts that
 //!    may run in parallel.
-//! 2. Add each pair's weights to the first row of the table whose r is at least the pair's
-//!    distance.
+//! 2. Add the weights of each pair to the first row of a table, with one row per r, whose r is at
+//!    least the distance of the pair.
 //! 3. Sum the rows up to each r and divide by the expected number of pairs.
 
 use super::kernel_pcf::{Binned, PcfCurves};
@@ -29,7 +29,7 @@ const CHUNKED_FROM: usize = 2048;
 /// n(n−1)/A².
 ///
 /// The border correction is an exception. It counts only pairs whose first point is at least r from
-/// the border, divides by the number of such points, and takes λ = n/A.
+/// the border, and divides them by λ and by the number of such points, with λ = n/A.
 ///
 /// Sources: K of Ripley (1977), <https://doi.org/10.1111/j.2517-6161.1977.tb01615.x>; translation
 /// correction of Ohser & Stoyan (1981), <https://doi.org/10.1002/bimj.4710230602>; isotropic

@@ -90,8 +90,11 @@ struct Member {
     at: Point,
     /// Distances by which the cell extends from its point to the left, up, to the right and down.
     extent: [f64; 4],
+    /// Area of the cell, in squared units of the coordinates.
     area: f64,
+    /// Mean distance to the Delaunay neighbours.
     inter_cell: f64,
+    /// Distance to the nearest neighbour.
     nearest: f64,
     /// Modulus of ψ6, the bond-orientational order.
     psi6: f64,
@@ -189,7 +192,9 @@ fn values(
 
 /// Spatial index of the bound cells.
 struct Finder<'a> {
+    /// Bound cells, in the order of their points.
     members: &'a [Member],
+    /// Index of the points of the members.
     tree: NeighbourTree,
     window: &'a Window,
     /// Width and height of the window's bounds.
@@ -256,8 +261,8 @@ impl<'a> Finder<'a> {
             half = half.min(self.widest());
             let mut near = self.near(at, half);
             // Cells whose points are farther than `half` were not searched. A cell in the list may
-            // need a larger square than one of those, so the list is complete only for half-sides
-            // up to `half`.
+            // need a larger square than a cell that was not searched, so the list is complete only
+            // for half-sides up to `half`.
             near.retain(|&(reach, _)| reach <= half);
             if near.len() >= n {
                 let (_, &mut (least, _), _) = near.select_nth_unstable_by(n - 1, |a, b| a.0.total_cmp(&b.0));

@@ -119,8 +119,7 @@ fn found_grid(found: &Maps, mosaic: &Mosaic) -> MapGrid {
     found.grid(mosaic, |v| v.density, 90)
 }
 
-/// Returns a mosaic around a fovea of known density, seen in a window that does not have the fovea
-/// in its middle.
+/// Returns a mosaic around a fovea of known density, in a window whose middle is not the fovea.
 ///
 /// Also returns the position of the fovea, and the density as a function of the distance from it.
 fn fovea(seed: u64) -> (Mosaic, Point, impl Fn(f64) -> f64) {
@@ -139,8 +138,8 @@ fn fovea(seed: u64) -> (Mosaic, Point, impl Fn(f64) -> f64) {
     (mosaic(points, window), Point::new(349.5, 299.5), law)
 }
 
-/// Returns the mean of the density `law` over a square of side `side` about the fovea, which is
-/// what a local window of that side measures.
+/// Returns the mean of the density `law` over a square of side `side` about the fovea: the density
+/// that a local window of this side measures.
 fn over_square(law: impl Fn(f64) -> f64, side: f64) -> f64 {
     const N: i32 = 200;
     let at = |i: i32| (f64::from(i) + 0.5) / f64::from(N) * side - side / 2.;
@@ -192,7 +191,8 @@ fn profiles_follow_the_law_of_density() {
             found.profile.iter().filter(move |row| row.along == along && (30. ..130.).contains(&row.r));
         rows.map(error).collect::<Vec<_>>()
     };
-    // Measured: 2.2 % on rings, 3 % on meridians (whose windows flatten the peak).
+    // Measured: 2.2 % on rings, 3 % on meridians, where averaging over local windows flattens the
+    // peak.
     for (along, most) in [
         (Along::Ring, 0.04),
         (Along::Right, 0.05),
@@ -207,7 +207,7 @@ fn profiles_follow_the_law_of_density() {
     let spacing = 6. * (1. + 70. / 350.);
     assert!((ring.spacing.unwrap() / spacing - 1.).abs() < 0.02 && ring.share == Some(1.), "{ring:?}");
     assert!((ring.inter_cell.unwrap() / spacing - 1.).abs() < 0.05, "{ring:?}");
-    // The rings together hold every bound cell.
+    // The rings together contain every bound cell.
     let bound: usize = found.profile.iter().filter_map(|row| row.bound).sum();
     let cells = crate::stats::voronoi(mosaic.points(), mosaic.window()).cells;
     assert_eq!(bound, cells.iter().filter(|cell| cell.bound).count());

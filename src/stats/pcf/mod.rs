@@ -47,7 +47,7 @@ pub enum EdgeCorrection {
     /// window.
     ///
     /// c(r) is the area of W ∩ (W + Δ) divided by the area of W, averaged over all directions of
-    /// the shift Δ of length r, where W is the window; c(0) is 1. In a w × h rectangle, c(r) is 1 −
+    /// the shift Δ of length r, where W is the window. In a w × h rectangle, c(r) is 1 −
     /// 2r(w+h)/(πwh) + r²/(πwh). At distances beyond the shorter side, where this formula is not
     /// valid, translation weights are used instead.
     ///

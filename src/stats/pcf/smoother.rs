@@ -76,10 +76,13 @@ impl Kernel {
 ///
 /// Lengths are in the unit of the coordinates.
 pub(in crate::stats) struct Smoother {
+    /// Kernel with which distances are smoothed.
     kernel: Kernel,
+    /// Number of bins with a sum.
     bins: usize,
     /// Left edge of the first bin.
     first: f64,
+    /// Distance between the left edges of bins.
     bin_width: f64,
     /// Standard deviation of the kernel.
     bandwidth: f64,

@@ -202,8 +202,8 @@ fn independent_points_in_an_l_have_g_1_under_every_correction_but_none() {
     };
     for edge in [EdgeCorrection::SetCovariance, EdgeCorrection::Translation, EdgeCorrection::Isotropic] {
         let mean = mean_of(edge);
-        // The number of points varies between patterns, but that does not bias any correction by as
-        // much as the tolerance.
+        // The number of points varies between patterns, which biases the corrections by less than
+        // the tolerance.
         assert!(mean.iter().all(|g| (g - 1.).abs() < 0.05), "{edge:?}: {mean:.3?}");
         let far = mean[10..].iter().sum::<f64>() / 20.;
         assert!((far - 1.).abs() < 0.01, "{edge:?}: {far}");

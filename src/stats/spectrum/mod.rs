@@ -55,7 +55,8 @@ impl SpectrumOptions {
 pub struct PowerSpectrum {
     /// Frequency of each annulus, in units of √λ, the square root of the density.
     ///
-    /// The frequencies are those multiples of 1/√n, for n points, at which there are waves.
+    /// The frequencies are multiples of 1/√n, for n points; multiples at which there are no waves
+    /// are left out.
     pub frequency: Vec<f64>,
     /// Mean power of each annulus.
     pub power: Vec<f64>,

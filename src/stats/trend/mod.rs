@@ -178,6 +178,7 @@ pub fn trend(points: &[Point], window: &Window) -> Trend {
 /// `aspect` is the height of the window divided by its width. Waves are sorted by frequency
 /// (periods per length), the slowest first.
 fn noise_across(aspect: f64) -> Vec<(usize, usize)> {
+    // In a very long window the slowest waves are (1, 2) to (1, 13); (1, 1) belongs to the trend.
     let most = NOISE_ACROSS + 1;
     let mut modes: Vec<(usize, usize)> = (1..=most)
         .flat_map(|j| (1..=most).map(move |k| (j, k)))
@@ -244,8 +245,8 @@ mod tests {
                 let rate = reported(sampler, n, window, 1., runs(sampler, n));
                 println!("{} n {n}: {:.1} % false alarms", sampler.name(), 100. * rate);
                 // 1 % is expected; 4 % is 3.7 standard deviations above it. Step noise has hardly
-                // any long waves except those that the cut at the border makes, and these fall with
-                // frequency: up to 5.3 % were measured.
+                // any long waves, except waves that the cut at the border makes. Their power falls
+                // with frequency, so that trends are reported too often: up to 5.3 % were measured.
                 let most = if sampler.name() == "step" { 0.08 } else { 0.04 };
                 assert!(rate <= most, "{} at {n}: {rate}", sampler.name());
             }

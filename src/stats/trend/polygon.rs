@@ -73,6 +73,7 @@ pub(super) fn least_squares<const N: usize>(
 ) -> Option<[f64; N]> {
     // The outline rule integrates ∂F/∂u, so F is needed: the integral of each product from 0 to u.
     // Products have degree 4 in u at most, for which Gauss's rule with 3 nodes is exact.
+    // Nodes from −1 to 1, each with its weight.
     const GAUSS: [(f64, f64); 3] =
         [(-0.774_596_669_241_483_4, 5. / 9.), (0., 8. / 9.), (0.774_596_669_241_483_4, 5. / 9.)];
     let mut gram = [[0.; N]; N];

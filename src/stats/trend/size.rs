@@ -96,6 +96,7 @@ impl Size {
     /// deviate is below `value` everywhere, the result is 0.
     fn variation_at(&self, value: f64, most: f64) -> f64 {
         let (mut low, mut high) = (0., most);
+        // 60 halvings bring the range below the precision of an f64.
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
             if self.deviate(middle) > value { low = middle } else { high = middle }
