@@ -61,8 +61,8 @@ struct Temporary(PathBuf);
 impl Temporary {
     /// Creates a temporary file with a new name in the folder of `target`.
     fn beside(target: &Path) -> io::Result<(Self, File)> {
-        // makes names unique among the threads of this process; the process number does so among
-        // processes
+        /// Number of names of temporary files that this process has tried. It makes names unique
+        /// among threads, and the process number does so among processes.
         static COUNT: AtomicU64 = AtomicU64::new(0);
         loop {
             let count = COUNT.fetch_add(1, Ordering::Relaxed);

@@ -69,7 +69,7 @@ pub enum BatchError {
     NothingCropped {
         /// Path of the coordinate file.
         file: PathBuf,
-        /// Crop as it was given.
+        /// Crop as the user wrote it.
         crop: String,
     },
     /// A crop in px or µm for coordinates in the unit square.
@@ -79,7 +79,7 @@ pub enum BatchError {
     CropUnit {
         /// Path of the coordinate file.
         file: PathBuf,
-        /// Crop as it was given.
+        /// Crop as the user wrote it.
         crop: String,
     },
     /// A torus that was asked for although the window is a polygon, which has no opposite edges to

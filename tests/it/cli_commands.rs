@@ -408,6 +408,7 @@ fn published_marks_are_found_as_well_as_is_asked() {
     }
 }
 
+/// Commands whose names and help are checked.
 const COMMANDS: [&str; 9] =
     ["run", "detect", "measure", "compare", "validate", "sample", "paper", "render", "completions"];
 

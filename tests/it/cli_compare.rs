@@ -15,6 +15,7 @@ fn marks(samplers: &[(&str, &str)]) -> Place {
     place
 }
 
+/// Arguments that compare the point sets in `marks/` with two samplers.
 const COMPARE: [&str; 6] = ["compare", "marks", "--window", "unit", "--samplers", "bridson,jittered"];
 
 #[test]

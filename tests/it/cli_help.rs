@@ -3,6 +3,7 @@
 
 use std::process::Command;
 
+/// All commands of the program.
 const COMMANDS: [&str; 11] = [
     "run",
     "detect",

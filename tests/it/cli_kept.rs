@@ -10,6 +10,7 @@ fn two_images() -> Place {
     place
 }
 
+/// Arguments of a run without comparison with samplers and without output to the terminal.
 const RUN: [&str; 7] = ["run", "in", "--out", "out", "--samplers", "none", "-q"];
 
 fn run(place: &Place, more: &[&str]) -> Outcome {

@@ -21,6 +21,7 @@ fn two_files() -> Place {
     place
 }
 
+/// Arguments that measure the two files of marks.
 const MEASURE: [&str; 6] = ["measure", "in", "--window", "0,0,60,60", "--out", "out"];
 
 fn measured(place: &Place, more: &[&str]) -> common::Outcome {

@@ -3,6 +3,7 @@
 use crate::common::Place;
 use std::fs;
 
+/// Path of the weights of the program's own network for confocal images.
 const CONFOCAL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/src/detect/learned/confocal.safetensors");
 
 /// Makes a folder with an image and a copy of the program's own weights.

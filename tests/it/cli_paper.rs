@@ -29,7 +29,8 @@ fn paper_agrees_with_what_is_printed_and_stands_on_one_page() {
     assert!(!page.contains("<img") && !page.contains("<link") && !page.contains("<script"));
     assert_eq!(place.table("out/triangle.csv").len(), 20);
     assert_eq!(place.table("out/pcf.csv").len(), 200);
-    // all printed rows satisfy the triangle inequality at the default bandwidth only
+    // all printed rows satisfy the triangle inequality at the default bandwidth, but not at half or
+    // twice this bandwidth
     let holds = |width: &str| {
         let rows = place.table("out/bandwidths.csv");
         rows.iter().find(|r| r["bandwidth_in_spacings"] == width).map(|r| number(r, "rows_that_hold"))

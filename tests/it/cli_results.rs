@@ -4,6 +4,7 @@
 use crate::common::{Place, number};
 use std::fs;
 
+/// Arguments of a run without comparison with samplers.
 const RUN: [&str; 6] = ["run", "in", "--out", "out", "--samplers", "none"];
 
 fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
@@ -194,7 +195,7 @@ fn marks_from_anywhere_get_what_detections_get() {
     for file in ["figure.svg", "overlay.png", "pcf.csv", "metrics.json"] {
         assert!(place.path(&format!("by_hand/images/1/{file}")).is_file(), "{file}");
     }
-    // the cones that a run has written can be given to another run, and lead to the same numbers
+    // the cones that a run has written can be read by another run, and lead to the same numbers
     place.ok(&["run", "in", "--cones", "out/images", "--samplers", "none", "--out", "again"]);
     for column in ["n", "nn_mean_px", "ri", "density_per_px2"] {
         let of = |folder: &str| place.table(&format!("{folder}/summary.csv"))[1][column].clone();

@@ -36,6 +36,7 @@ fn failure(bytes: impl AsRef<[u8]>) -> String {
     message
 }
 
+/// Points that the files of several tests contain.
 const EXPECTED: [[f64; 2]; 2] = [[1.5, 2.25], [-3., 40.]];
 
 #[test]
@@ -109,11 +110,13 @@ fn the_origin_is_taken_off_and_upward_y_turned_round() {
     }
 }
 
+/// Project of WebPlotDigitizer 4, with two data sets.
 const PROJECT_4: &str = r#"{"version":[4,2],"axesColl":[{"name":"Image","type":"ImageAxes"}],
   "datasetColl":[
     {"name":"cones","axesName":"Image","metadataKeys":[],"data":[{"x":0.5,"y":0.5,"value":[0.5,0.5]},{"x":10.25,"y":3,"value":[1,2]}]},
     {"name":"rods","data":[{"x":7.5,"y":8.5}]}],
   "measurementColl":[]}"#;
+/// Project of WebPlotDigitizer 3, with one data set.
 const PROJECT_3: &str = r#"{"wpd":{"version":[3,8],"axesType":"ImageAxes","calibration":[],
   "dataSeries":[{"name":"Default Dataset","data":[{"x":0.5,"y":1.5,"value":[0.5,1.5]}],"metadataKeys":[]}]}}"#;
 

@@ -121,6 +121,8 @@ fn the_script_makes_the_same_fixtures_again() {
 
 #[test]
 fn every_dialect_holds_the_same_truth() {
+    /// Coordinate files, each with the image to which it belongs, its dialect, and its pixel origin
+    /// if the file does not state it.
     const DIALECTS: [(&str, &str, Dialect, Option<Origin>); 7] = [
         ("imagej/confocal_16bit.csv", "confocal_16bit", Dialect::Delimited, None),
         ("imagej/split_negative.csv", "split_negative", Dialect::Delimited, None),

@@ -9,7 +9,9 @@ use std::io::Cursor;
 use std::path::Path;
 use tiff::encoder::{Compression, TiffEncoder, colortype};
 
+/// Width of the test images, in px.
 const WIDTH: usize = 5;
+/// Height of the test images, in px.
 const HEIGHT: usize = 3;
 
 /// Returns a plane of 15 different grey values, in which a swapped row, column or byte would show.

@@ -36,6 +36,7 @@ enum Degraded {
     UnderExposed,
 }
 
+/// All ways in which images are degraded.
 const DEGRADED: [Degraded; 9] = [
     Degraded::Not,
     Degraded::Noise,

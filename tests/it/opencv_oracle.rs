@@ -130,6 +130,7 @@ struct Compared {
 /// Returns all images in `fixtures/` with the results of both programs; the list is empty without
 /// OpenCV.
 fn compared() -> &'static [Compared] {
+    // results of the script, which runs only once for all tests
     static COMPARED: LazyLock<Vec<Compared>> = LazyLock::new(|| {
         let Some(python) = python() else {
             println!("SKIPPED opencv oracle: no Python with OpenCV here, run scripts/test");

@@ -34,6 +34,7 @@ fn points(table: &Table) -> Vec<Point> {
     column(table, "x").into_iter().zip(column(table, "y")).map(|(x, y)| Point::new(x, y)).collect()
 }
 
+/// Names of the mosaics in `../shared/oracle/metrics`.
 const MOSAICS: [&str; 3] = ["m1_confocal", "m3_confocal", "m4_split"];
 
 /// Returns the oracle's window, [.5, W + .5] × [.5, H + .5]. W and H follow from the oracle's

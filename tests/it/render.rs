@@ -14,6 +14,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use strum::VariantArray;
 
+/// Cone spacing of the simulated images, in px.
 const SPACING: f64 = 12.;
 
 fn rng(seed: u64) -> ChaCha8Rng {

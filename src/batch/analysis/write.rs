@@ -8,10 +8,15 @@ use crate::batch::BatchError;
 use crate::batch::output::{OutputFolder, write_figure};
 use crate::report::{spectrum_png, tables};
 
-// names of the files, without the name of the mosaic and, for figures, without the extension
+/// Name of the table of g(r) and of the samplers' curves. This and all names below lack the name of
+/// the mosaic.
 const PCF: &str = "pcf.csv";
+/// Name of the figure of the mosaic, without extension.
 const FIGURE: &str = "figure";
+/// Names of the tables of functions of distance: G, F, J, K, L and g, and the density recovery
+/// profile.
 const FUNCTIONS: [&str; 2] = ["functions.csv", "density_recovery.csv"];
+/// Names of the power spectrum as a table and as a picture.
 const SPECTRUM: [&str; 2] = ["spectrum.csv", "spectrum.png"];
 /// Names of the table of points with their neighbours and cells: first in a shared folder, then in
 /// a folder of the mosaic's own. The names differ because `points.csv` in an image's folder already

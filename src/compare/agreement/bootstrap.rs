@@ -74,9 +74,9 @@ fn keep_finite(kept: &mut [Vec<f64>], values: Vec<Option<f64>>) {
     }
 }
 
-/// Returns the BCa interval of a statistic. `estimate` is the statistic of all clusters, `drawn`
-/// holds the statistics of the resamples, and `left_out` holds the statistics of all clusters but
-/// one.
+/// Returns the BCa interval of a statistic. `estimate` is the statistic of all clusters. `drawn`
+/// contains its values in the resamples, and `left_out` its values with each cluster left out in
+/// turn.
 fn bca(estimate: f64, drawn: &mut [f64], left_out: &[f64], normal: &Normal) -> Option<Interval> {
     drawn.sort_unstable_by(f64::total_cmp);
     let below = drawn.partition_point(|v| *v < estimate);

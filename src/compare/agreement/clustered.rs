@@ -41,8 +41,8 @@ pub struct ClusteredAgreement {
 
 /// Returns the bias and the limits of agreement of `differences` that fall into clusters.
 ///
-/// `clusters` holds, for each cluster, the indices of its differences. Returns `None` if there are
-/// no differences or one of them is not finite.
+/// Each entry of `clusters` holds the indices of the differences in one cluster. Returns `None` if
+/// there are no differences or one of them is not finite.
 ///
 /// The model gives every cluster a bias of its own and lets the true value of the measured quantity
 /// differ from image to image. The variance components come from one-way analysis of variance, the

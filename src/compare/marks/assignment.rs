@@ -4,8 +4,8 @@
 //!    and detections these are many and small.
 //! 2. Within a component, rows are added one at a time by successive shortest augmenting paths with
 //!    potentials (Jonker & Volgenant 1987, <https://doi.org/10.1007/BF02278710>, on sparse graphs):
-//!    Dijkstra's search over reduced costs finds the cheapest way to place the new row, moving
-//!    others if needed.
+//!    Dijkstra's search over reduced costs finds the cheapest way to assign the new row,
+//!    reassigning other rows if needed.
 //! 3. Every row also has a private column, which no other row can take and which stands for
 //!    “unassigned”. The private column costs more than any rearrangement of the component can save,
 //!    so a row stays unassigned only if it must.
@@ -104,7 +104,7 @@ struct Component<'a> {
     row_potential: Vec<f64>,
     /// Dual variable of each column.
     column_potential: Vec<f64>,
-    /// Column assigned to each row; `usize::MAX` before the row is placed.
+    /// Column assigned to each row; `usize::MAX` before the row is added.
     column_of: Vec<usize>,
     /// Row to which each column is assigned.
     row_of: Vec<Option<usize>>,
@@ -118,7 +118,7 @@ impl<'a> Component<'a> {
         Self {
             edges,
             real,
-            // Placing one more row can raise the cost of each other row by at most `limit`. The
+            // Assigning one more row can raise the cost of each other row by at most `limit`. The
             // smallest positive number keeps the cost above 0 if `limit` is 0.
             unassigned: (limit + f64::MIN_POSITIVE) * (rows + 1) as f64,
             row_potential: vec![0.; rows],

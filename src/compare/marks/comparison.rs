@@ -81,8 +81,8 @@ pub fn compare_scores(
         .collect()
 }
 
-/// Compares two detectors by one measure. `pairs` holds their two values per image, or `None` if
-/// one of the values is missing. Returns `None` if no image has both values.
+/// Compares two detectors by one measure. `pairs` contains their two values for each image, or
+/// `None` if one of the values is missing. Returns `None` if no image has both values.
 fn difference(
     measure: &'static str,
     pairs: &[Option<(f64, f64)>],

@@ -4,7 +4,7 @@ use crate::sample::Sampler;
 use crate::stats::{Pcf, PcfOptions, StatsError, pcf_on_one_thread};
 use rand::Rng;
 
-/// Draws about `n` points of a sampler in `window`. An error is given the name of the sampler.
+/// Draws about `n` points of a sampler in `window`. An error names the sampler.
 pub(crate) fn draw(
     sampler: &dyn Sampler,
     n: usize,
@@ -16,7 +16,7 @@ pub(crate) fn draw(
 }
 
 /// Computes the pair correlation function of a sampler's points on the calling thread only. An
-/// error is given the name of the sampler.
+/// error names the sampler.
 pub(crate) fn curve(
     sampler: &dyn Sampler,
     points: &[Point],

@@ -161,8 +161,8 @@ impl References {
         made
     }
 
-    /// Computes the curve of each sampler, or gives the reason why there is none. The patterns of
-    /// all samplers form one list of tasks, so that all cores are busy until the end.
+    /// Computes the curve of each sampler, or returns the reason why the sampler has none. The
+    /// patterns of all samplers form one list of tasks, so that all cores are busy until the end.
     pub(super) fn make(
         &self,
         samplers: Vec<&'static dyn Sampler>,
