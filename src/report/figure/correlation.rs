@@ -38,6 +38,7 @@ const BESIDE_PEAK: f64 = 0.3;
 /// The label of a flatter curve points to the curve where the labels begin.
 const FLAT: f64 = 1.15;
 
+/// Returns the colour and the dashes of the curve with this index.
 pub(super) fn style(index: usize) -> (&'static str, Option<&'static str>) {
     (COLOURS[index % COLOURS.len()], DASHES[(index + index / COLOURS.len()) % DASHES.len()])
 }
@@ -163,6 +164,7 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
     labels::draw(canvas, area, left, floor, texts(&place, beside));
 }
 
+/// Returns the points of a curve whose distance and value are both finite.
 fn finite(curve: Curve<'_>) -> impl Iterator<Item = (f64, f64)> {
     curve.r.iter().copied().zip(curve.g.iter().copied()).filter(|p| p.0.is_finite() && p.1.is_finite())
 }

@@ -36,6 +36,7 @@ pub(in crate::report) fn stretched(plane: ArrayView2<f32>) -> GrayImage {
     GrayImage::from_raw(width as u32, height as u32, pixels).unwrap_or_default()
 }
 
+/// Returns the value below which a share (0–1) of the sample lies.
 fn percentile(sample: &mut [f32], share: f64) -> f32 {
     if sample.is_empty() {
         return 0.;
