@@ -119,7 +119,8 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
     };
     let lines = lines(figure, mosaic);
     let x = (0., axis_end(finite(mosaic).map(|p| p.0).fold(0., f64::max)));
-    // A sampler's spike (few points, r beyond the window) must not flatten the mosaic's own curve.
+    // The curve of a sampler has spikes if there are few points or r extends beyond the window;
+    // they must not flatten the curve of the mosaic.
     let tallest = finite(mosaic).map(|p| p.1).fold(SPIKE_FLOOR, f64::max) * SPIKE_FACTOR;
     let peak_of = |line: &Line| line.peak(x.0, x.1, tallest);
     let peak = lines.iter().filter_map(peak_of).map(|p| p.1).fold(1., f64::max);

@@ -152,7 +152,7 @@ mod tests {
         OverlayMark { x, y, radius: 1.5, kind }
     }
 
-    /// Returns the mean place of the pixels that are not grey, in px of the original.
+    /// Returns the mean position of the pixels that are not grey, in px of the original.
     fn coloured_centre(out: &RgbImage, factor: f64) -> (f64, f64) {
         let coloured: Vec<_> = out
             .enumerate_pixels()
