@@ -80,7 +80,7 @@ enum Command {
     Completions(completions::Completions),
 }
 
-/// Outcome of a command that did not fail as a whole.
+/// Outcome of a command that did not end with an error.
 enum Done {
     /// Everything that was asked for is done.
     Completely,
@@ -221,8 +221,8 @@ fn complain(text: &str) {
 
 /// Returns a text as one line without control characters.
 ///
-/// Texts contain file names, which may hold line breaks and escape sequences that would otherwise
-/// reach the terminal.
+/// Texts contain file names, which may contain line breaks and escape sequences that would
+/// otherwise reach the terminal.
 fn one_line(text: &str) -> String {
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     words.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()

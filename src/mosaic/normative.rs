@@ -186,6 +186,8 @@ impl Meridian {
         self.into()
     }
 
+    /// Returns pairs of eccentricity (mm of retina) and cones per mm², in rising order of
+    /// eccentricity.
     const fn densities(self) -> &'static [(f64, f64)] {
         match self {
             Self::Nasal => NASAL,

@@ -21,6 +21,7 @@ pub struct ScaleError {
     value: f64,
 }
 
+/// Returns `value` if it is a positive number; errors call it `quantity`.
 fn positive(quantity: &'static str, value: f64) -> Result<f64, ScaleError> {
     if value.is_finite() && value > 0. { Ok(value) } else { Err(ScaleError { quantity, value }) }
 }

@@ -92,6 +92,7 @@ fn failed(format: FigureFormat, reason: impl fmt::Display) -> ReportError {
     ReportError::Convert { format, reason: reason.to_string() }
 }
 
+/// Parses an SVG for drawing, with the fonts that its characters need.
 fn tree(svg: &str, format: FigureFormat) -> Result<Tree, ReportError> {
     static OWN_FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| Arc::new(own_fonts()));
     let fontdb = if svg.chars().all(is_covered) {
@@ -106,6 +107,7 @@ fn tree(svg: &str, format: FigureFormat) -> Result<Tree, ReportError> {
     Tree::from_str(svg, &options).map_err(|e| failed(format, e))
 }
 
+/// Returns a font database with the fonts of the crate only.
 fn own_fonts() -> Database {
     let mut fonts = Database::new();
     for font in FONTS {

@@ -31,6 +31,7 @@ pub struct PaperResults {
     pub seed: u64,
 }
 
+/// Returns the names of two samplers of Table 2, by the indices of their columns.
 pub(super) fn pair(columns: [usize; 2]) -> String {
     columns.map(|c| TABLE_2_SAMPLERS[c]).join(" – ")
 }

@@ -35,6 +35,7 @@ impl Separator {
             .map_or(Self::Blanks, |(separator, _)| separator)
     }
 
+    /// Returns whether a comma inside a cell is read as a decimal comma.
     const fn allows_decimal_comma(self) -> bool {
         matches!(self, Self::Semicolon | Self::Tab)
     }
@@ -168,6 +169,7 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// Reads a cell as a number, with a decimal point or, where it is allowed, a decimal comma.
     fn parse(&self, cell: &str) -> Option<f64> {
         if self.separator.allows_decimal_comma() && cell.contains(',') && !cell.contains('.') {
             cell.replacen(',', ".", 1).parse().ok()

@@ -420,6 +420,7 @@ pub(super) fn listed<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> Strin
     list.join(", ")
 }
 
+/// Replaces characters that would disturb a terminal by `·`.
 fn printable(text: &str) -> String {
     // Beside control characters, some marks reorder or hide text on a terminal.
     let invisible = |c: char| {

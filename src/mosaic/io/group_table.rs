@@ -11,6 +11,7 @@ use std::path::Path;
 #[derive(Clone, Debug)]
 pub struct GroupTable {
     file: String,
+    /// Beginning of the names of images, and the group of these images.
     entries: Vec<(String, String)>,
 }
 
@@ -41,6 +42,7 @@ impl GroupTable {
     }
 }
 
+/// Returns the rows of a table of groups, without its header and without repeated rows.
 fn entries(bytes: &[u8]) -> Result<Vec<(String, String)>, Located> {
     const EXPECTED: &str = "rows of name,group";
     let text = text::decode(bytes)?;

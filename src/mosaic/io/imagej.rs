@@ -139,6 +139,7 @@ impl Fields<'_> {
     }
 }
 
+/// Describes the kind of a ROI for an error; `kind` is the byte at offset 6.
 fn kind_name(kind: u8, composite: bool) -> String {
     const KINDS: [&str; 10] = [
         "a polygon",

@@ -121,6 +121,7 @@ struct Meanings {
     meridian: Option<usize>,
 }
 
+/// Returns the names of the columns after the identifier, and the rows of a manifest.
 fn parse(bytes: &[u8]) -> Result<(Vec<String>, Vec<ManifestRow>), Located> {
     const EXPECTED: &str = "a header identifier,COLUMN,… and one row per image";
     let text = text::decode(bytes)?;
@@ -173,6 +174,7 @@ fn parse(bytes: &[u8]) -> Result<(Vec<String>, Vec<ManifestRow>), Located> {
 }
 
 impl Meanings {
+    /// Reads one row below the header.
     fn row(&self, table: &Table, row: &Row, identifier: &str) -> Result<ManifestRow, Located> {
         let cell = |k: Option<usize>| k.filter(|&k| row.cells.get(k).is_some_and(|c| !c.is_empty()));
         let distance = |k: Option<usize>, name: &'static str| -> Result<Option<f64>, Located> {

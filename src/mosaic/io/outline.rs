@@ -43,6 +43,7 @@ pub fn read_outline(path: &Path, options: &ReadOptions) -> Result<OutlineFile, R
     read().map_err(|located| located.in_file(&name))
 }
 
+/// Recognises the dialect of a file of corners and reads the corners as the file states them.
 fn raw(name: &str, bytes: &[u8]) -> Result<RawFile, Located> {
     match bytes {
         [b'I', b'o', b'u', b't', ..] => imagej::read_roi(name, bytes, imagej::Wanted::Outline),

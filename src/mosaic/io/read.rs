@@ -148,6 +148,7 @@ pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, ReadFault> {
     Ok(bytes)
 }
 
+/// Recognises the dialect of a file of points and reads the points as the file states them.
 fn raw(name: &str, bytes: &[u8]) -> Result<RawFile, Located> {
     match bytes {
         [b'I', b'o', b'u', b't', ..] => imagej::read_roi(name, bytes, imagej::Wanted::Points),

@@ -155,6 +155,8 @@ struct Columns {
 }
 
 impl Columns {
+    /// Finds the columns of boxes in a header; edges are preferred to sides, and columns in px to
+    /// other units.
     fn named_in(header: &Row) -> Result<Self, Located> {
         let names: Vec<Name> = header.cells.iter().map(|cell| Name::parse(cell)).collect();
         let find = |stem: &str, unit: Unit| names.iter().position(|n| n.stem == stem && n.unit == unit);
@@ -181,6 +183,7 @@ impl Columns {
     }
 }
 
+/// Returns the unit that the header names, and the boxes in the order of the table.
 fn entries(bytes: &[u8], options: &ReadOptions) -> Result<(Option<LengthUnit>, Vec<Entry>), Located> {
     const ROWS: &str = "a header and rows of boxes";
     let text = text::decode(bytes)?;

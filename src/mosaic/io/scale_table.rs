@@ -117,6 +117,7 @@ impl ScaleTable {
     }
 }
 
+/// Returns the identifiers and scales in the order of the table.
 fn entries(bytes: &[u8], um_per_degree: f64) -> Result<Vec<Entry>, Located> {
     let text = text::decode(bytes)?;
     let table =
@@ -152,6 +153,7 @@ fn entries(bytes: &[u8], um_per_degree: f64) -> Result<Vec<Entry>, Located> {
 }
 
 impl Quantity {
+    /// Chooses the columns in a table without a header by the number of cells in a row.
     fn by_count(row: &Row) -> Result<Self, Located> {
         match row.cells.len() {
             2 => Ok(Self::MicrometresPerPixel(1)),
@@ -160,6 +162,7 @@ impl Quantity {
         }
     }
 
+    /// Finds the columns by their names in a header.
     fn named_in(header: &Row) -> Result<Self, Located> {
         let find = |name: &str| {
             header.cells.iter().skip(1).position(|c| c.eq_ignore_ascii_case(name)).map(|i| i + 1)
@@ -173,6 +176,7 @@ impl Quantity {
         }
     }
 
+    /// Returns the error for a row from which the columns cannot be told.
     fn unclear(row: &Row) -> Located {
         let fault = ReadFault::Header {
             expected: "identifier,um_per_px or identifier,axial_length_mm,pixels_per_degree",
@@ -181,6 +185,7 @@ impl Quantity {
         Located::line(row.line, fault)
     }
 
+    /// Reads the scale in one row.
     fn read(self, table: &Table, row: &Row, um_per_degree: f64) -> Result<Scale, Located> {
         let scale = match self {
             Self::MicrometresPerPixel(column) => {

@@ -30,6 +30,7 @@ pub(super) fn content_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
+/// Decodes UTF-8 or, if the bytes are not valid UTF-8, Latin-1.
 fn utf8_or_latin1(bytes: &[u8]) -> String {
     match std::str::from_utf8(bytes) {
         Ok(text) => text.to_owned(),
@@ -37,6 +38,8 @@ fn utf8_or_latin1(bytes: &[u8]) -> String {
     }
 }
 
+/// Decodes UTF-16, or returns `None` if the bytes are not valid; `unit` sets the order of the two
+/// bytes.
 fn utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Option<String> {
     let (pairs, rest) = bytes.as_chunks::<2>();
     if !rest.is_empty() {
@@ -45,6 +48,7 @@ fn utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Option<String> {
     char::decode_utf16(pairs.iter().map(|&pair| unit(pair))).collect::<Result<_, _>>().ok()
 }
 
+/// Returns the error for a file that is not text, with its first eight bytes.
 fn binary(bytes: &[u8]) -> ReadFault {
     let start: Vec<String> = bytes.iter().take(8).map(|b| format!("{b:02x}")).collect();
     ReadFault::NotCoordinates { found: format!("binary data that begins with bytes {}", start.join(" ")) }

@@ -74,6 +74,7 @@ pub fn format_plain_points(points: &[Point]) -> String {
     text
 }
 
+/// Checks that all numbers are finite and that there is one score per point.
 fn check(path: &Path, points: &[Point], scores: Option<&[f64]>) -> Result<(), WriteError> {
     if let Some(scores) = scores.filter(|s| s.len() != points.len()) {
         let (points, scores) = (points.len(), scores.len());

@@ -55,6 +55,7 @@ pub(super) enum Style {
 }
 
 impl Style {
+    /// Returns the size of the font in canvas units.
     const fn size(self) -> u32 {
         match self {
             Self::Title | Self::Axis => 10,
@@ -127,11 +128,14 @@ pub(super) fn fit(text: &str, style: Style, width: f64) -> String {
 /// kuva draws axes and vector elements. It has no element for pictures, so these lie beneath as
 /// embedded PNG.
 pub(super) struct Canvas {
+    /// Everything else on the page, drawn above the pictures.
     scene: Scene,
+    /// SVG elements of the pictures, in the order in which they are drawn.
     pictures: String,
 }
 
 impl Canvas {
+    /// Makes an empty page of `height` canvas units.
     pub(super) fn new(height: f64) -> Self {
         Self { scene: Scene::new(PAGE_WIDTH, height).with_background(None), pictures: String::new() }
     }
@@ -166,6 +170,8 @@ impl Canvas {
         self.polyline(vec![from, to], colour, width, None);
     }
 
+    /// Draws a line through `points`; `dash` is a dash pattern of SVG, and `None` draws a solid
+    /// line.
     pub(super) fn polyline(&mut self, points: Vec<(f64, f64)>, colour: &str, width: f64, dash: Option<&str>) {
         self.scene.add(Primitive::PolyLine {
             points,
@@ -192,6 +198,7 @@ impl Canvas {
         })));
     }
 
+    /// Draws a filled rectangle with a thin white border, which separates neighbouring bars.
     pub(super) fn bar(&mut self, area: Area, colour: &str) {
         self.scene.add(Primitive::Rect {
             x: area.x,
@@ -205,6 +212,7 @@ impl Canvas {
         });
     }
 
+    /// Draws the outline of a rectangle in the colour of frames.
     pub(super) fn frame(&mut self, area: Area) {
         self.scene.add(Primitive::Rect {
             x: area.x,
@@ -363,15 +371,18 @@ fn plain(text: &str) -> String {
     allowed(text).replace('$', "\\$")
 }
 
+/// Replaces the characters that XML forbids.
 fn allowed(text: &str) -> String {
     let forbidden = |c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
     text.chars().map(|c| if forbidden(c) { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }
 
+/// Returns text that XML reads literally.
 fn escaped(text: &str) -> String {
     allowed(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
+/// Breaks a text at blanks into lines of at most `width` canvas units, as far as its words allow.
 fn wrap(text: &str, style: Style, width: f64) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {

@@ -38,6 +38,7 @@ const BESIDE_PEAK: f64 = 0.3;
 /// The label of a flatter curve points to the curve where the labels begin.
 const FLAT: f64 = 1.15;
 
+/// Returns the colour and the dashes of the curve with this index.
 pub(super) fn style(index: usize) -> (&'static str, Option<&'static str>) {
     (COLOURS[index % COLOURS.len()], DASHES[(index + index / COLOURS.len()) % DASHES.len()])
 }
@@ -118,7 +119,8 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
     };
     let lines = lines(figure, mosaic);
     let x = (0., axis_end(finite(mosaic).map(|p| p.0).fold(0., f64::max)));
-    // A sampler's spike (few points, r beyond the window) must not flatten the mosaic's own curve.
+    // The curve of a sampler has spikes if there are few points or r extends beyond the window;
+    // they must not flatten the curve of the mosaic.
     let tallest = finite(mosaic).map(|p| p.1).fold(SPIKE_FLOOR, f64::max) * SPIKE_FACTOR;
     let peak_of = |line: &Line| line.peak(x.0, x.1, tallest);
     let peak = lines.iter().filter_map(peak_of).map(|p| p.1).fold(1., f64::max);
@@ -163,6 +165,7 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, figure: &MosaicFigure) {
     labels::draw(canvas, area, left, floor, texts(&place, beside));
 }
 
+/// Returns the points of a curve whose distance and value are both finite.
 fn finite(curve: Curve<'_>) -> impl Iterator<Item = (f64, f64)> {
     curve.r.iter().copied().zip(curve.g.iter().copied()).filter(|p| p.0.is_finite() && p.1.is_finite())
 }

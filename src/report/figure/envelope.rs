@@ -112,6 +112,8 @@ fn key(canvas: &mut Canvas, baseline: f64) {
     }
 }
 
+/// Draws one panel: the envelope, the mean and, in another colour where it leaves the envelope, the
+/// mosaic.
 fn draw(canvas: &mut Canvas, area: Area, ranges: Ranges, mosaic: Curve, panel: &EnvelopePanel) {
     let step = round_above(ranges.y.1 / 4.);
     let place = canvas.axes(area, ranges, ("r / hexagonal spacing", "g(r)"), step);

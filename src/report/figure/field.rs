@@ -42,14 +42,17 @@ const SCALE_BAR_SHARE: f64 = 0.4;
 pub(super) struct Projection {
     area: Area,
     bounds: Rectangle,
+    /// Canvas units per unit of the coordinates.
     pub(super) scale: f64,
 }
 
 impl Projection {
+    /// Makes the map that takes `bounds` to `area`, which must have the same ratio of sides.
     pub(super) fn new(area: Area, bounds: Rectangle) -> Self {
         Self { area, bounds, scale: area.width / bounds.width() }
     }
 
+    /// Returns the position of a point on the page.
     pub(super) fn place(&self, p: Point) -> (f64, f64) {
         (
             self.area.x + (p.x - self.bounds.x0()) * self.scale,
@@ -105,6 +108,7 @@ fn pixels(from: f64, to: f64, size: usize) -> std::ops::Range<usize> {
     first..last
 }
 
+/// Returns the picture, reduced if its side or its area exceeds the limit.
 fn reduced(grey: GrayImage) -> GrayImage {
     let (width, height) = (f64::from(grey.width()), f64::from(grey.height()));
     let factor = (LARGEST_SIDE / width.max(height)).min((LARGEST_AREA / (width * height)).sqrt());
@@ -148,6 +152,7 @@ pub(super) fn draw_outline(canvas: &mut Canvas, projection: &Projection, window:
     }
 }
 
+/// Draws points as an embedded picture; `dots` and `radius` are in canvas units.
 fn draw_dot_picture(
     canvas: &mut Canvas,
     area: Area,

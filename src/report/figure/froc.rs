@@ -18,10 +18,11 @@ const LINE: f64 = 11.;
 const SWATCH: f64 = 15.;
 /// Half the width of a cross, in canvas units.
 const CROSS: f64 = 3.2;
-/// Extent of the axes, as a multiple of the false alarms and missing rates at the dot.
+/// Extent of the axes, as a multiple of the false alarms at the dot, and of what its rates lack to
+/// 1.
 ///
-/// An axis of a rate ends at 1 and shows this multiple of 1 − rate; the axis of false alarms begins
-/// at 0.
+/// The dot is the threshold with the highest mean Dice. An axis of a rate ends at 1; the axis of
+/// false alarms begins at 0.
 const SHOWN: f64 = 4.;
 /// Smallest extent of an axis of a rate, so that a nearly perfect detector still has a readable
 /// axis.
@@ -78,8 +79,10 @@ fn shown(missing: f64) -> f64 {
     1. - ((span / step).ceil() * step).min(1.)
 }
 
-/// Quantity along an axis: its value `of` a threshold, and its value for the detections as `given`,
-/// without a change of the threshold.
+/// Quantity along an axis.
+///
+/// `of` takes it at a threshold of the score; `given` takes it from the scores of the detections
+/// themselves, without a change of the threshold.
 #[derive(Clone, Copy)]
 struct Value {
     of: fn(&FrocPoint) -> f64,
@@ -101,6 +104,7 @@ struct Plot<'a> {
 }
 
 impl Plot<'_> {
+    /// Draws the curve, the dot and the cross of every detector on common axes.
     fn draw(&self, canvas: &mut Canvas, area: Area, ranges: Ranges, labels: (&str, &str)) {
         let place = canvas.axes(area, ranges, labels, round_above((ranges.y.1 - ranges.y.0) / 5.));
         let inside = |p: &(f64, f64)| {

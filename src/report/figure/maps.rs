@@ -60,6 +60,7 @@ struct Panel {
     value: fn(&LocalValues) -> Option<f64>,
 }
 
+/// Returns the six maps with the units in which they are shown.
 fn panels(mosaic: &Mosaic) -> [Panel; 6] {
     let (factor, unit) = shown_unit(mosaic.micrometres_per_unit(), mosaic.unit());
     let density = match (mosaic.micrometres_per_unit(), unit) {
@@ -93,6 +94,7 @@ struct Layout {
 }
 
 impl Layout {
+    /// Arranges fields whose width over height is `aspect`.
     fn of(aspect: f64) -> Self {
         let columns = if aspect <= WIDE {
             3
@@ -107,6 +109,7 @@ impl Layout {
         Self { columns, cell, width: height * aspect, height, bar: height.max(LEAST_HEIGHT) }
     }
 
+    /// Returns the area of field `k`, counted from 0 in rows from the top left.
     fn field(&self, k: usize) -> Area {
         let (row, column) = (k / self.columns, k % self.columns);
         Area {
@@ -199,6 +202,7 @@ fn range(grid: &MapGrid) -> Option<(f64, f64)> {
     if high - low >= least { Some((low, high)) } else { Some((low - least, high + least)) }
 }
 
+/// Returns red, green and blue at a share (0–1) of the colour map.
 fn colour(share: f64) -> [u8; 3] {
     let (red, green, blue) = COLOURS.map_rgb(share.clamp(0., 1.)).unwrap_or((128, 128, 128));
     [red, green, blue]
@@ -253,11 +257,13 @@ fn draw_bar(canvas: &mut Canvas, bar: Area, range: (f64, f64), factor: f64) -> R
     Ok(())
 }
 
+/// Draws a black line on a wider white one, so that it is seen on every colour of a map.
 fn with_halo(canvas: &mut Canvas, line: &[(f64, f64)], width: f64) {
     canvas.polyline(line.to_vec(), HALO, width + 1.3, None);
     canvas.polyline(line.to_vec(), INK, width, None);
 }
 
+/// Draws a plus sign, the mark of the peak density.
 fn draw_peak(canvas: &mut Canvas, (x, y): (f64, f64)) {
     let arms = [[(x - MARK, y), (x + MARK, y)], [(x, y - MARK), (x, y + MARK)]];
     for (colour, width) in [(HALO, 2.8), (INK, 1.2)] {
@@ -265,6 +271,7 @@ fn draw_peak(canvas: &mut Canvas, (x, y): (f64, f64)) {
     }
 }
 
+/// Draws a circle, the mark of the cone density centroid.
 fn draw_centroid(canvas: &mut Canvas, (x, y): (f64, f64)) {
     let corner = |k: i32| {
         let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / 32.).sin_cos();

@@ -104,6 +104,7 @@ pub struct MosaicFigure<'a> {
 }
 
 impl MosaicFigure<'_> {
+    /// Checks that histogram and curves have matching lengths.
     fn validate(&self) -> Result<(), ReportError> {
         let (edges, counts) = (self.histogram_edges, self.histogram_counts);
         let matching = edges.len() == counts.len() + 1 || (edges.is_empty() && counts.is_empty());

@@ -23,6 +23,7 @@ struct Gaussian {
 }
 
 impl Gaussian {
+    /// Returns the height of the curve at distance `x`.
     fn at(&self, x: f64) -> f64 {
         let z = (x - self.mean) / self.sd;
         self.scale / (self.sd * (2. * std::f64::consts::PI).sqrt()) * (-z * z / 2.).exp()

@@ -40,6 +40,7 @@ pub fn reliability_figure(figure: &ReliabilityFigure) -> String {
     canvas.into_svg(figure.title, DESCRIPTION)
 }
 
+/// Draws the share of hits against the score, bin by bin.
 fn diagram(canvas: &mut Canvas, area: Area, reliability: &Reliability) {
     let unit = (0., 1.);
     let place =
@@ -76,6 +77,7 @@ fn diagram(canvas: &mut Canvas, area: Area, reliability: &Reliability) {
     }
 }
 
+/// Draws the observed against the expected false alarms, one dot per image.
 fn alarms(canvas: &mut Canvas, area: Area, alarms: &[(f64, f64)]) {
     let most = alarms.iter().flat_map(|a| [a.0, a.1]).filter(|v| v.is_finite()).fold(1., f64::max) * 1.06;
     let ranges = Ranges { x: (0., most), y: (0., most) };

@@ -84,6 +84,7 @@ pub fn samplers_figure(title: &str, panels: &[SamplerPanel]) -> Result<String, R
     Ok(canvas.into_svg(title, DESCRIPTION))
 }
 
+/// Draws one curve per sampler on common axes, with a legend; `of` takes the curve from a panel.
 fn curves<'a>(
     canvas: &mut Canvas,
     area: Area,

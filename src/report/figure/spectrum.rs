@@ -45,6 +45,7 @@ pub fn spectrum_figure(spectrum: &PowerSpectrum, scale: PowerScale) -> Result<St
     Ok(canvas.into_svg("Power spectrum", DESCRIPTION))
 }
 
+/// Draws the bar of grey values with the powers that they stand for.
 fn draw_bar(canvas: &mut Canvas, bar: Area, scale: PowerScale) -> Result<(), ReportError> {
     let greys: Vec<u8> = (0..STEPS).rev().flat_map(|k| [(k * 255 / (STEPS - 1)) as u8; 2]).collect();
     canvas.picture(&png(&greys, 2, STEPS, ExtendedColorType::L8)?, bar, bar);

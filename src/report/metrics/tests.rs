@@ -15,7 +15,7 @@ use rand::{RngExt, SeedableRng};
 use serde_json::Value;
 use std::collections::{BTreeMap, HashSet};
 
-/// Columns in the unit of the image or without a unit, with the place of their value in
+/// Columns in the unit of the image or without a unit, with the location of their value in
 /// `metrics.json`.
 const COLUMNS: [(&str, &str); 77] = [
     ("width_px", "/width_px"),
@@ -154,7 +154,7 @@ fn record() -> ImageRecord {
     let mut json = serde_json::to_value(&record).unwrap();
     numbered(&mut json, &mut 1000);
     let mut record: ImageRecord = serde_json::from_value(json).unwrap();
-    // A place for which an expected density is known.
+    // A location for which an expected density is known.
     record.mosaic.place = Some(RetinalPlace { eccentricity_mm: 2., meridian: Some(Meridian::Nasal) });
     record
 }

@@ -198,7 +198,7 @@ const LINKS: [(&str, &str); 4] = [
     ("pcf.csv", "g(r)"),
     ("metrics.json", "all numbers"),
 ];
-/// Files of every image with maps, listed after the files of every image.
+/// Files of an image with maps, whose links follow those of `LINKS`.
 const MAP_LINKS: [(&str, &str); 3] =
     [("maps.csv", "maps"), ("profiles.csv", "profiles"), ("fourier_map.csv", "spacing from spectra")];
 

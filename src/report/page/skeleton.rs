@@ -5,7 +5,7 @@ use sha2::{Digest, Sha256};
 
 /// Style sheet of all pages, for light and dark screens, wide and narrow screens, and paper.
 ///
-/// A wide table scrolls inside its own box while its first column stays in place.
+/// A wide table scrolls inside its own box while its first column stays visible.
 const STYLE: &str = "
 :root { color-scheme: light dark; --line: #8884; --soft: #8882; --warn: light-dark(#a03c00, #f2a65a); }
 * { box-sizing: border-box; }

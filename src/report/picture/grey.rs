@@ -14,7 +14,9 @@ const BLACK: f64 = 0.005;
 /// Share of the pixels that stay below white: a few bright pixels must not determine the contrast.
 const WHITE: f64 = 0.995;
 
-/// Largest number of pixels from which a percentile is computed; more would only cost time.
+/// Approximate number of pixels from which a percentile is computed; more would only cost time.
+///
+/// Up to twice as many are used, because every n-th pixel is taken, with n odd.
 const SAMPLE: usize = 1 << 17;
 
 /// Returns the plane in 8 bits, its 0.5th percentile black and its 99.5th white.
@@ -36,6 +38,7 @@ pub(in crate::report) fn stretched(plane: ArrayView2<f32>) -> GrayImage {
     GrayImage::from_raw(width as u32, height as u32, pixels).unwrap_or_default()
 }
 
+/// Returns the value below which a share (0–1) of the sample lies.
 fn percentile(sample: &mut [f32], share: f64) -> f32 {
     if sample.is_empty() {
         return 0.;

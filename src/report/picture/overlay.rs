@@ -89,6 +89,7 @@ pub fn overlay(picture: &Plane, marks: &[OverlayMark], spacing: f64) -> RgbImage
     draw(picture, marks, spacing, 0.)
 }
 
+/// Draws an overlay; a `border` of 0 darkens nothing.
 fn draw(picture: &Plane, marks: &[OverlayMark], spacing: f64, border: f64) -> RgbImage {
     let (height, width) = picture.dim();
     let factor = enlargement(width, height, spacing);
@@ -120,12 +121,14 @@ fn draw(picture: &Plane, marks: &[OverlayMark], spacing: f64, border: f64) -> Rg
     out
 }
 
+/// Returns the integer factor by which a picture is enlarged, at least 1.
 fn enlargement(width: usize, height: usize, spacing: f64) -> u32 {
     let wanted = if spacing.is_finite() && spacing > 0. { (CLEAR_SPACING / spacing).ceil() } else { 1. };
     let allowed = LARGEST_SIDE / width.max(height).max(1);
     (wanted.min(allowed as f64) as u32).max(1)
 }
 
+/// Mixes a colour into a pixel.
 fn blend(pixel: &mut Rgb<u8>, colour: [u8; 3], opacity: f64) {
     for (under, over) in pixel.0.iter_mut().zip(colour) {
         let mixed = f64::from(*under) * (1. - opacity) + f64::from(over) * opacity;
@@ -149,7 +152,7 @@ mod tests {
         OverlayMark { x, y, radius: 1.5, kind }
     }
 
-    /// Returns the mean place of the pixels that are not grey, in px of the original.
+    /// Returns the mean position of the pixels that are not grey, in px of the original.
     fn coloured_centre(out: &RgbImage, factor: f64) -> (f64, f64) {
         let coloured: Vec<_> = out
             .enumerate_pixels()

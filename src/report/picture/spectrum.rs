@@ -23,6 +23,7 @@ pub enum PowerScale {
 }
 
 impl PowerScale {
+    /// Returns the grey value of a power, where independent points have power 1.
     fn grey(self, power: f64) -> u8 {
         let share = match self {
             Self::Linear => power / 3.,

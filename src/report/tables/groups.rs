@@ -20,7 +20,9 @@ pub struct GroupRow<'a> {
     images: usize,
     column: String,
     unit: &'static str,
+    /// Mean and standard deviation over the images of the group.
     over_images: Moments,
+    /// Mean over the persons in the group, some of whom have several images.
     over_subjects: SubjectMean,
 }
 
@@ -96,6 +98,7 @@ pub fn groups_csv(
     GROUPS.csv(groups.iter().flat_map(|(group, members)| rows(summary, group, members)))
 }
 
+/// Returns one row per column of numbers.
 fn rows<'a>(summary: &Summary, group: &'a str, members: &[GroupMember]) -> Vec<GroupRow<'a>> {
     let records: Vec<Subject> = members.iter().map(|m| m.record).collect();
     let row = |(column, unit, values): (String, &'static str, Vec<Option<f64>>)| {

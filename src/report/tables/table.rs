@@ -7,7 +7,7 @@ pub struct Table<R: Row + 'static> {
     pub file: &'static str,
     /// Commands that write the file.
     pub commands: &'static str,
-    /// Description of a row, and of what holds for all columns.
+    /// Description of a row, and remarks that apply to all columns.
     pub about: &'static str,
     /// Columns in their order.
     pub columns: &'static [Column<R>],
@@ -92,7 +92,7 @@ pub struct TableWords {
     pub file: &'static str,
     /// Commands that write the file.
     pub commands: &'static str,
-    /// Description of a row, and of what holds for all columns.
+    /// Description of a row, and remarks that apply to all columns.
     pub about: &'static str,
     /// Columns without their values.
     pub columns: Vec<ColumnWords>,

@@ -41,6 +41,7 @@ impl Row for ValidationRow {
     type Of<'a> = &'a Self;
 }
 
+/// Returns a value of the score of the other detections; missing if there are none.
 fn versus(row: &ValidationRow, value: fn(&Score) -> f64) -> Cell {
     row.versus.as_ref().map(|v| value(&v.score)).into()
 }

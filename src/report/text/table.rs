@@ -26,6 +26,7 @@ fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }
 
+/// Returns whether a cell is flush right, as numbers are.
 fn is_number(text: &str) -> bool {
     let bare = text.trim().trim_end_matches(['%', ' ']).replace(['−', '±'], "");
     matches!(bare.as_str(), "–" | "∞") || bare.split_whitespace().all(|part| part.parse::<f64>().is_ok())

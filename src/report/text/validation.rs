@@ -38,10 +38,12 @@ fn rate(value: f64) -> String {
     format!("{value:.4}")
 }
 
+/// Writes a number with three significant digits.
 fn three(value: f64) -> String {
     significant(value, 3)
 }
 
+/// Writes an interval as its two ends, or a dash if there is none.
 fn between(interval: Option<Interval>, number: fn(f64) -> String) -> String {
     interval.map_or(NONE.into(), |[low, high]| format!("{} to {}", number(low), number(high)))
 }

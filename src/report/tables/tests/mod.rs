@@ -1,4 +1,4 @@
-//! Tests that hold every column of every table to the value of the API that it names.
+//! Tests that check every column of every table against the value of the API that it names.
 //!
 //! The columns of a table differ in these rows, so that exchanging the values of any two cannot
 //! pass.
@@ -14,7 +14,7 @@ use crate::report::Cell;
 /// A column name and its expected cells, one per row.
 type Expected<'a> = (&'a str, Vec<Cell>);
 
-/// Tables that were held to the API, by file and commands.
+/// Tables that were checked against the API, by file and commands.
 #[derive(Default)]
 struct Held(Vec<(&'static str, &'static str)>);
 

@@ -28,7 +28,7 @@ pub fn mosaic() -> (Mosaic, Measures) {
     (mosaic, measures)
 }
 
-/// Holds the tables of points and of detected cones to the API.
+/// Checks the columns of the tables of points and of detected cones against the API.
 pub fn points_and_cones(held: &mut Held) {
     let (mosaic, m) = mosaic();
     let cell = |value: fn(&crate::stats::Cell) -> Cell| m.cells.cells.iter().map(value).collect::<Vec<_>>();
@@ -89,7 +89,7 @@ pub fn verdict(pcf: &Pcf, sampler: &str, by: f64) -> SamplerVerdict {
     }
 }
 
-/// Holds the tables of functions of distance to the API.
+/// Checks the columns of the tables of functions of distance against the API.
 pub fn functions_of_distance(held: &mut Held) {
     let (mosaic, m) = mosaic();
     let pcf = m.pcf.as_ref().unwrap();
@@ -160,7 +160,7 @@ pub fn functions_of_distance(held: &mut Held) {
     );
 }
 
-/// Holds the tables of maps and profiles to the API.
+/// Checks the columns of the tables of maps and profiles against the API.
 pub fn maps_and_profiles(held: &mut Held) {
     let (mosaic, m) = mosaic();
     let options = MapOptions { window: LocalWindow::Cells(20), ..MapOptions::default() };
@@ -208,7 +208,7 @@ pub fn maps_and_profiles(held: &mut Held) {
     );
 }
 
-/// Holds the table of spacings from tiles to the API.
+/// Checks the columns of the table of spacings from tiles against the API.
 pub fn spectra_of_tiles(held: &mut Held) {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/images/confocal_dense.png");
     let image = crate::image::read(std::path::Path::new(file)).unwrap();

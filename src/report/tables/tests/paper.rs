@@ -30,7 +30,7 @@ fn results() -> PaperResults {
     }
 }
 
-/// Holds the tables of the paper to the API.
+/// Checks the columns of the tables of the paper against the API.
 pub fn tables(held: &mut Held) {
     let results = results();
     let made = &results.rows[0];

@@ -20,7 +20,7 @@ fn record() -> CoordinatesRecord {
     CoordinatesRecord { file: "in/a.csv".into(), name: "a".into(), outside: 3, mosaic, warnings }
 }
 
-/// Holds the tables of records to the API.
+/// Checks the columns of the tables of records against the API.
 pub fn records(held: &mut Held) {
     let record = record();
     let nearest = record.mosaic.stats.nearest;
@@ -132,7 +132,7 @@ fn landmarks(held: &mut Held) {
     held.row(&LANDMARKS, LANDMARKS.csv([&found]).unwrap(), expected);
 }
 
-/// Holds the tables of regions, groups and failures to the API.
+/// Checks the columns of the tables of regions, groups and failures against the API.
 pub fn regions_groups_and_failures(held: &mut Held) {
     let summary = |metrics: &str| Summary::new(SummaryKind::Coordinates, &metrics.parse().unwrap(), &[], &[]);
     let record = record();

@@ -24,7 +24,7 @@ fn score(rates: Rates, detections_inside: usize) -> Score {
     }
 }
 
-/// Holds the table of scores to the API.
+/// Checks the columns of the table of scores against the API.
 pub fn validation(held: &mut Held) {
     let first = Rates::new(80, 14, 18);
     let second = Rates::new(70, 24, 8);
@@ -114,7 +114,7 @@ pub fn validation(held: &mut Held) {
     held.row(&SUBJECT_GROUPS, SUBJECT_GROUPS.csv([&group]).unwrap(), expected);
 }
 
-/// Holds the tables of curves over the score to the API.
+/// Checks the columns of the tables of curves over the score against the API.
 pub fn curves_of_scores(held: &mut Held) {
     let point = FrocPoint {
         threshold: 0.5,
@@ -179,7 +179,7 @@ pub fn curves_of_scores(held: &mut Held) {
     held.row(&COMPARISON, COMPARISON.csv([&difference]).unwrap(), expected);
 }
 
-/// Holds the tables of agreement to the API.
+/// Checks the columns of the tables of agreement against the API.
 pub fn agreement(held: &mut Held) {
     let found = agreement_of_clusters(&[1., 2., 6.], &[vec![0, 1], vec![2]]).unwrap();
     let plain = found.agreement;
