@@ -58,8 +58,8 @@ pub struct Run {
     /// image        the whole image
     /// WxH          a rectangle in the middle of the image, in px, or in µm
     ///              with the suffix um, such as 55x55um
-    /// X0,Y0,X1,Y1  left, upper, right and lower edge, in px, or in µm with
-    ///              the suffix um
+    /// X0,Y0,X1,Y1  left, upper, right and lower edge, in px, or all in µm
+    ///              with the suffix um at the end, such as 0,0,55,55um
     /// FILE         a file of the corners of one or more polygons: CSV with
     ///              columns x,y in px or x_um,y_um in µm, a WebPlotDigitizer
     ///              project or CSV file, or an ImageJ ROI

@@ -51,8 +51,8 @@ pub struct Validate {
     detections_origin: Origin,
     /// Rule that pairs marks with detections where several are near
     ///
-    /// nearest  every mark claims its nearest detection, and of several
-    ///          claims the nearest is granted (Cunefare et al. 2017)
+    /// nearest  every mark claims its nearest detection; if several marks
+    ///          claim the same one, the closest gets it (Cunefare et al. 2017)
     /// optimal  as many pairs as possible and, among those, the pairs of
     ///          least total distance (Hungarian assignment)
     #[arg(long, verbatim_doc_comment, value_name = "A", default_value = "nearest", value_parser = PossibleValuesParser::new(Assignment::VARIANTS), help_heading = "Scoring")]
@@ -62,10 +62,11 @@ pub struct Validate {
     /// The default is that of Cunefare et al. (2017).
     #[arg(long, value_name = "PX", default_value_t = 7., help_heading = "Scoring")]
     border: f64,
-    /// Largest distance between a mark and its detection (above 0)
+    /// Largest distance between a mark and its detection, in neighbour distances (above 0)
     ///
-    /// A fraction of the median nearest-neighbour distance of the marks of the image. The default
-    /// is that of Cunefare et al. (2017).
+    /// The unit is the median nearest-neighbour distance of the marks of the image. The default is
+    /// that of Cunefare et al. (2017). It is generous: unrelated marks of the same regularity reach
+    /// a Dice of .8 to .9 by it, and below .45 with 0.4.
     #[arg(long, value_name = "F", default_value_t = 0.75, help_heading = "Scoring")]
     reach: f64,
     /// Rule that tells which images are of one subject

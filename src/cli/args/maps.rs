@@ -15,10 +15,10 @@ pub struct MapArgs {
     /// the centroid (cone density centroid, CDC), the isodensity area and profiles.
     #[arg(long)]
     maps: bool,
-    /// Number of bound cells that each window grows to contain (3–100000) [default: 100]
+    /// Number of bound cells at which each local window stops growing (3–100000) [default: 100]
     ///
-    /// A window that extends beyond the mosaic before it contains N bound cells is flagged “edge”,
-    /// and no landmark is taken from it.
+    /// A local window that extends beyond the mosaic before it contains N bound cells is flagged
+    /// “edge”, and no landmark is taken from it.
     #[arg(long, value_name = "N", requires = "maps", conflicts_with = "map_side")]
     map_cells: Option<usize>,
     /// Side of the windows, instead of a number of cells

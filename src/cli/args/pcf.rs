@@ -8,7 +8,9 @@ use strum::VariantNames;
 ///
 /// Distances are in hexagonal spacings of the mosaic, √(2/(√3 density)).
 #[derive(Args)]
-#[command(next_help_heading = "Pair correlation function (s: hexagonal spacing)")]
+#[command(
+    next_help_heading = "Pair correlation function (hexagonal spacing: that of a triangular lattice of the same density)"
+)]
 pub struct PcfArgs {
     /// Edge correction, for neighbours hidden beyond the border of the window
     ///
@@ -23,7 +25,7 @@ pub struct PcfArgs {
     /// none            no correction: g(r) falls with r
     #[arg(long, verbatim_doc_comment, value_name = "E", default_value = "set-covariance", value_parser = PossibleValuesParser::new(EdgeCorrection::VARIANTS))]
     edge: String,
-    /// Shape of the smoothing kernel
+    /// Shape of the kernel that smooths g(r)
     ///
     /// The numbers of Lanaro et al. (2020) were made with a Gaussian.
     #[arg(long, value_name = "K", default_value = "gaussian", value_parser = PossibleValuesParser::new(Kernel::VARIANTS))]
@@ -38,10 +40,10 @@ pub struct PcfArgs {
     r_min: f64,
     /// End of the last bin, in hexagonal spacings (at most 50) [default: 2.5]
     ///
-    /// With --functions this option sets the last distance of those functions instead, in the unit
-    /// of the coordinates; the bins of g(r) then end at 2.5 hexagonal spacings. [default with
-    /// --functions: a quarter of the shorter side of the window, at most the radius within which
-    /// 1000 points are expected]
+    /// Without --functions: the end of the bins of g(r), in hexagonal spacings. With --functions:
+    /// the last distance of G, F, J, K, L and g, in the unit of the coordinates [default: a quarter
+    /// of the shorter side of the window, at most the radius within which 1000 points are
+    /// expected]; the bins of g(r) then always end at 2.5 hexagonal spacings.
     #[arg(long, value_name = "S")]
     pub r_max: Option<f64>,
     /// Number of bins between --r-min and --r-max (1–2000)

@@ -38,13 +38,13 @@ pub struct PlanArgs {
     pcf: PcfArgs,
     /// Also write the power spectrum of the points, as a table and as a picture
     ///
-    /// The picture is linear (--spectrum; white is 3 times the power of independent points) or in
-    /// dB (--spectrum=db; from −20 to +10 dB).
+    /// The picture is linear (--spectrum; white in it is 3 times the power of independent points)
+    /// or in dB (--spectrum=db; from −20 to +10 dB).
     #[arg(long, value_name = "SCALE", num_args = 0..=1, require_equals = true, default_missing_value = "linear", value_parser = ["linear", "db"], help_heading = "Power spectrum")]
     spectrum: Option<String>,
     /// Highest frequency of the spectrum, in units of √density (0.1–20)
     ///
-    /// √density is √n cycles per side for n points in the unit square.
+    /// In a unit square with n points the unit is √n cycles per side.
     #[arg(long, value_name = "F", default_value_t = SpectrumOptions::default().max_frequency, requires = "spectrum", help_heading = "Power spectrum")]
     max_frequency: f64,
     /// Also write functions of distance and a table of the points

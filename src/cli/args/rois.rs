@@ -26,7 +26,7 @@ pub struct RoiArgs {
     /// In the unit of the coordinates, or in µm with the suffix um.
     #[arg(long, value_name = "STEP", requires = "roi_side", conflicts_with = "rois")]
     roi_step: Option<Length>,
-    /// Number of bound cells that each region grows to contain (1–100000)
+    /// Number of bound cells at which each region stops growing (1–100000)
     ///
     /// Regions grow about their centre and keep their proportions. A region that reaches the border
     /// of the window before it contains N bound cells is flagged “few”. [default: regions do not

@@ -38,14 +38,15 @@ pub struct ScaleArgs {
     um_per_degree: Option<f64>,
     /// Axial length of the eye in mm, to compute the micrometres per degree
     ///
-    /// The rule of the Metricks package: 291 µm per degree × length / 24 mm.
+    /// µm per degree = 291 × length / 24 mm, so 24 mm gives 291 (without this option: 288). This is
+    /// the rule of the Metricks package.
     #[arg(long, value_name = "MM", requires = "scale")]
     axial_length: Option<f64>,
     /// Linear shrinkage of post-mortem tissue, as a fraction of its living length (0–0.9)
     ///
-    /// 0.1 means that 10 µm of living retina are 9 µm on the slide. Results in micrometres are then
-    /// those of the living retina: lengths are divided by 1 − F, densities multiplied by (1 − F)².
-    /// [default: no shrinkage]
+    /// 0.1 means that 10 µm of living retina are 9 µm on the slide. The scale is that of the slide.
+    /// Results in micrometres are then those of the living retina: lengths are divided by 1 − F,
+    /// densities multiplied by (1 − F)². [default: no shrinkage]
     #[arg(long, value_name = "F")]
     shrinkage: Option<f64>,
 }

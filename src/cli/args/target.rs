@@ -8,11 +8,11 @@ use serde_json::json;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Options for points that shall have the pair correlation function or spectrum in a file.
+/// Options for points that should have the pair correlation function or spectrum in a file.
 #[derive(Args)]
 #[command(next_help_heading = "Points with a given pair correlation function or spectrum (instead of NAME)")]
 pub struct TargetArgs {
-    /// CSV file of a pair correlation function that the points shall have
+    /// CSV file of a pair correlation function that the points should have
     ///
     /// Columns: r, in hexagonal spacings and up to 1 at least, and g, as in NAME.pcf.csv of
     /// `measure`. Exactly n points are drawn and moved until their g(r) fits this one. Beyond the
@@ -20,7 +20,7 @@ pub struct TargetArgs {
     /// printed and, with --out, written to NAME.fit.json beside the points.
     #[arg(long, value_name = "FILE", conflicts_with = "name")]
     target_pcf: Option<PathBuf>,
-    /// CSV file of a radially averaged power spectrum that the points shall have
+    /// CSV file of a radially averaged power spectrum that the points should have
     ///
     /// Columns: frequency, in units of √n, and power (1 for independent points), as in
     /// NAME.spectrum.csv of `measure --spectrum`. Beyond the last frequency the power is taken to

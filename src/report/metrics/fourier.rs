@@ -52,7 +52,7 @@ pub(super) const FOURIER: &[Metric] = &[
                 the image, over all directions. No cones are detected for it; empty if there is no \
                 ring.",
         )
-        .source("Cooper, Aguirre & Morgan 2019, with another background and fit")
+        .source("After Cooper, Aguirre & Morgan 2019, but with a different background model and fit")
         .only(Part::Images)
         .of(|s| s.image().and_then(|r| r.fourier?.all).map(|f| f.spacing).into()),
     ),
@@ -66,7 +66,7 @@ pub(super) const FOURIER: &[Metric] = &[
                 the image, over waves within 45° of the y axis. No cones are detected for it; empty \
                 if there is no ring.",
         )
-        .source("Cooper, Aguirre & Morgan 2019, with another background and fit")
+        .source("After Cooper, Aguirre & Morgan 2019, but with a different background model and fit")
         .only(Part::Images)
         .of(|s| s.image().and_then(|r| r.fourier?.row).map(|f| f.spacing).into()),
     ),
@@ -80,7 +80,7 @@ pub(super) const FOURIER: &[Metric] = &[
                 the image, over waves within 45° of the x axis. No cones are detected for it; empty \
                 if there is no ring.",
         )
-        .source("Cooper, Aguirre & Morgan 2019, with another background and fit")
+        .source("After Cooper, Aguirre & Morgan 2019, but with a different background model and fit")
         .only(Part::Images)
         .of(|s| s.image().and_then(|r| r.fourier?.cell).map(|f| f.spacing).into()),
     ),
@@ -90,11 +90,11 @@ pub(super) const FOURIER: &[Metric] = &[
         column(
             "fourier_confidence",
             "0–1",
-            "Share of the variance of the spectrum that the ring explains, minus what a ring of \
-                three standard deviations of noise would explain: 0 for noise. The variance is that \
-                of the spectral profile over all directions about its smooth background.",
+            "How clearly the ring stands out: share of the variance of the spectral profile (over all \
+                directions, smooth background removed) that the ring explains, minus the share that \
+                noise of three standard deviations would explain. 0 means noise.",
         )
-        .source("Cooper, Aguirre & Morgan 2019, with another background and fit")
+        .source("After Cooper, Aguirre & Morgan 2019, but with a different background model and fit")
         .only(Part::Images)
         .of(|s| s.image().and_then(|r| r.fourier?.all).map(|f| f.confidence).into()),
     ),

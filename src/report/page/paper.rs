@@ -252,7 +252,7 @@ impl PaperResults {
         });
         let broken: Vec<usize> = (0..self.tightest.len()).filter(|&k| self.tightest[k].room < 0.).collect();
         let after = if broken.is_empty() {
-            "All rows satisfy the inequalities: the printed distances are compatible with our distances between the samplers.".to_owned()
+            "All rows satisfy the inequalities: the printed distances are compatible with the recomputed distances between the samplers.".to_owned()
         } else {
             format!(
                 "{} of {} rows violate an inequality; the negative room says by how much.",
@@ -261,10 +261,11 @@ impl PaperResults {
             )
         };
         Section {
-            heading: "All rows of Table 2, with our distances between the samplers".into(),
+            heading: "All rows of Table 2, with recomputed distances between the samplers".into(),
             before: vec![
-                "Printed distances from each mosaic to the samplers, and the room left in the tightest of the triangle inequalities \
-                 with our distances between the samplers. Negative room means that the inequality is violated."
+                "Printed distances from each mosaic to the samplers, and how far they are from violating a triangle inequality \
+                 with the distances between the samplers that this program computes. Negative room means that the inequality \
+                 is violated."
                     .into(),
             ],
             table: Some(TextTable {

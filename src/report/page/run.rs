@@ -79,12 +79,14 @@ fn warned(records: &[ImageRecord], names: &Names) -> Markup {
 fn legend(samplers: &[String]) -> Markup {
     html! {
         p {
-            "The images that most need to be checked by a person come first. Spacing (density): spacing of a hexagonal lattice with the "
+            "Images are sorted by the expected error rate plus the doubt about modality and spacing, so those that most need to be "
+            "checked come first. Spacing (density): spacing of a hexagonal lattice with the "
             "density of the mosaic. Spacing (ring): spacing measured in the power spectrum of the image before any cone was detected. "
             "NN: distance to the nearest neighbour, mean ± standard deviation. RI: regularity index, the ratio of this mean to this "
             "standard deviation, for all points and for the interior points, whose nearest neighbour cannot lie beyond the border. "
             "Expected errors: expected number of false alarms and misses, computed from the scores of the cones and of the rejected "
-            "candidates; in brackets, as a percentage of the cones."
+            "candidates; in brackets, as a percentage of the cones. They are valid only for images like those that the program was "
+            "developed on."
         }
         @if !samplers.is_empty() {
             p {
@@ -92,7 +94,7 @@ fn legend(samplers: &[String]) -> Markup {
                 "(mean over several patterns with about as many points in a window of about the same shape). 0 means identical curves; the "
                 "smaller the value, the more the mosaic is arranged like the points of that sampler. Lanaro et al. (2020) call two curves "
                 "alike below about 0.1. By chance alone, two patterns from the same process differ by about 0.15 if they have 100 points, "
-                "0.08 if they have 300 and 0.05 if they have 1000."
+                "0.08 if they have 300 and 0.05 if they have 1000. The closest sampler need not be alike: a verdict tests that."
             }
         }
     }

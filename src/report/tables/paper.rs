@@ -29,7 +29,8 @@ pub static PAPER_TABLE_1: Table<MadeRow> = Table {
             .of(|r| r.printed.mean.into()),
         column("mean", "unit", "Mean over patterns of the mean nearest-neighbour distance.")
             .of(|r| r.mean.mean.into()),
-        column("mean_sd", "unit", "Standard deviation of that mean over patterns.").of(|r| r.mean.sd.into()),
+        column("mean_sd", "unit", "Standard deviation, over patterns, of the mean distance.")
+            .of(|r| r.mean.sd.into()),
         column(
             "sd_printed",
             "unit",
@@ -38,11 +39,16 @@ pub static PAPER_TABLE_1: Table<MadeRow> = Table {
         .of(|r| r.printed.sd.into()),
         column("sd", "unit", "Mean over patterns of the standard deviation (n) of the distances.")
             .of(|r| r.sd.mean.into()),
-        column("sd_sd", "unit", "Standard deviation of that standard deviation over patterns.")
-            .of(|r| r.sd.sd.into()),
+        column(
+            "sd_sd",
+            "unit",
+            "Standard deviation, over patterns, of the standard deviation of the distances.",
+        )
+        .of(|r| r.sd.sd.into()),
         column("ri_printed", "ratio", "Regularity index, as printed.").of(|r| r.printed.ri.into()),
         column("ri", "ratio", "Mean over patterns of the regularity index.").of(|r| r.ri.mean.into()),
-        column("ri_sd", "ratio", "Standard deviation of that index over patterns.").of(|r| r.ri.sd.into()),
+        column("ri_sd", "ratio", "Standard deviation, over patterns, of the regularity index.")
+            .of(|r| r.ri.sd.into()),
         column("deviations", "ratio", "ri_printed − ri, in units of ri_sd.").of(|r| r.deviations().into()),
         column("agrees", "yes or no", "yes if deviations is between −2 and 2.").of(|r| yes(r.agrees())),
         column(
@@ -92,8 +98,12 @@ pub static PAPER_TABLE_2: Table<PaperDistance> = Table {
                                                      rows printed in Table 2.",
         )
         .of(|d| d.allowed[0].into()),
-        column("most_allowed_by_table_2", "ratio", "Greatest distance that is compatible with them.")
-            .of(|d| d.allowed[1].into()),
+        column(
+            "most_allowed_by_table_2",
+            "ratio",
+            "Largest distance that is compatible with all rows printed in Table 2.",
+        )
+        .of(|d| d.allowed[1].into()),
     ],
 };
 

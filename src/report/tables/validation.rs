@@ -97,7 +97,7 @@ pub static VALIDATION: Table<ValidationRow> = Table {
         column(
             "expected_false_alarms",
             "count",
-            "False alarms to be expected by the scores: sum of 1 − score over the detections that \
+            "Number of false alarms expected from the scores: sum of 1 − score over the detections that \
              are counted; empty unless all of these have scores between 0 and 1.",
         )
         .of(|r| r.expected_false_alarms.into()),
