@@ -27,7 +27,8 @@ const ABRUPT: f64 = 0.5;
 const POROUS_RUNS: usize = 4;
 /// Largest mean length, in px, of the runs of a porous region.
 ///
-/// Cones up to 40 px apart interrupt the ground between them more often than that.
+/// Where cones are at most 40 px apart, they cut the ground between them into runs that are shorter
+/// on average.
 const POROUS_LENGTH: usize = 64;
 
 /// Smallest upright rectangle of an image that contains everything that was imaged, in px.

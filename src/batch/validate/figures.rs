@@ -5,8 +5,10 @@ use crate::compare::{Agreement, Froc, Interval, Score, Summary};
 use crate::report::{AgreementLine, AgreementPanel, FrocLine, agreement_figure, froc_figure};
 use std::collections::BTreeMap;
 
-/// Returns a score whose number of detections is the number of marks of `score`. In a comparison of
-/// detections with marks, this score stands for the marks.
+/// Returns a copy of `score` in which the marks are counted as if they were the detections.
+///
+/// The agreement figure compares the detections of two scores; with this copy as the second score,
+/// it compares detections with marks.
 pub(super) const fn marks_as_detections(score: &Score) -> Score {
     Score { detections_inside: score.marks_inside, ..*score }
 }

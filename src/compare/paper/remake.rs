@@ -121,8 +121,8 @@ impl MadeRow {
     }
 
     /// Returns whether a single pattern of `n` points could have the printed mean nearest-neighbour
-    /// distance: the number of points that the distance implies lies within two standard deviations
-    /// of `n`.
+    /// distance: the number of points that the distance implies differs from `n` by at most two of
+    /// its standard deviations. `false` for fewer than two patterns.
     pub fn mean_agrees(&self) -> bool {
         let off = |(points, sd): (f64, f64)| (points - self.n as f64).abs() <= USUAL * sd;
         self.points_by_mean_distance().is_some_and(off)

@@ -32,7 +32,8 @@ pub(in crate::detect) fn response(image: &Plane, spacing: f64, _clarity: f64) ->
     (normalise(&blobs(image, spacing), CONTRAST * spacing), CRITERION)
 }
 
-/// Returns the response of the filter before it is divided by its local root mean square.
+/// Returns the negative Laplacian of the smoothed image: the response of the filter before it is
+/// divided by its local root mean square.
 pub(in crate::detect) fn blobs(image: &Plane, spacing: f64) -> Plane {
     negative_laplacian(&gaussian(image, SIGMA * spacing))
 }

@@ -158,10 +158,10 @@ impl Slopes {
 }
 
 /// Distribution of grey values around their local mean, in local standard deviations.
-/// Third standardised moment, with its sign chosen as if cones were bright.
 struct Greys {
-    /// Fourth standardised moment, which is at least 1.
+    /// Third standardised moment, with its sign switched if cones are dark, as if they were bright.
     skewness: f64,
+    /// Fourth standardised moment, which is at least 1.
     kurtosis: f64,
     /// Interquartile range, divided by the range from the 5 % to the 95 % quantile.
     ///

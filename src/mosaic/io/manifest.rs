@@ -111,7 +111,7 @@ impl Manifest {
     }
 }
 
-/// Indices, from 0, of the columns whose names have a meaning.
+/// Indices, from 0, of the columns with names that the program recognises.
 struct Meanings {
     /// Column of the eccentricity in mm of retina.
     millimetres: Option<usize>,

@@ -24,8 +24,8 @@ pub(super) const LEFT_EDGE: f64 = 2.;
 const PLOT_HEIGHT: f64 = 160.;
 /// Largest height of a field beside the plots, in canvas units.
 const TALLEST: f64 = 200.;
-/// Share of the width of both plots that the histogram gets; the pair correlation function has more
-/// to show.
+/// Share of the combined width of the two plots that the histogram gets; the pair correlation
+/// function has more to show.
 const HISTOGRAM_SHARE: f64 = 0.4;
 /// Width over height of a field above which fields are stacked beside the plots.
 const WIDE: f64 = 1.7;

@@ -23,11 +23,12 @@ const TRIALS: usize = 100_000;
 ///
 /// **Published**: the rule, and that d_min ~ N(μ, σ).
 ///
-/// **Chosen here**: d_min is in hexagonal spacings of n cells, so that one value serves any
-/// density. It is drawn anew for each position tried, not once per cell; values that are negative
-/// or beyond four standard deviations are drawn again. Distances are those of the torus. Values
-/// fitted to mosaics were not at hand: μ = .7 is near the largest distance with which random
-/// placement finds room for n cells, .777, and σ is a tenth of μ.
+/// **Chosen here**: d_min is in hexagonal spacings, that is, in units of the distance between
+/// neighbours that the n cells would have in a perfect triangular lattice, so that one value serves
+/// any density. It is drawn anew for each position tried, not once per cell; values that are
+/// negative or beyond four standard deviations are drawn again. Distances are those of the torus.
+/// Values fitted to mosaics were not at hand. With a fixed d_min above .777, random placement finds
+/// no room for n cells; μ = .7 is somewhat below that, and σ is a tenth of μ.
 ///
 /// **Eccentricity**: no dependence was published with the rule. Curcio and Sloan (1992) found the
 /// least distance between human cones constant, 6–8 µm, across the peripheral retina, while the

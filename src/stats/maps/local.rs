@@ -22,7 +22,8 @@ const WIDER: f64 = 1.4;
 /// inside. So small a share is only rounding error.
 const ROUNDING: f64 = 1e-9;
 
-/// State of the local window around a cone: complete, beyond the border, or missing.
+/// State of the local window around a cone: entirely inside the window of the mosaic, extending
+/// beyond it, or missing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LocalFlag {
     /// The local window lies entirely inside the window of the mosaic.
@@ -64,7 +65,8 @@ pub struct LocalValues {
     /// The number exceeds the requested one if several cells enter the growing window at the same
     /// size.
     pub bound: usize,
-    /// State of the local window: complete, beyond the border, or missing.
+    /// State of the local window: entirely inside the window of the mosaic, extending beyond it, or
+    /// missing.
     pub flag: LocalFlag,
     /// Density: the number of bound cells divided by their total area, per squared unit of the
     /// coordinates.
