@@ -75,8 +75,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .iter()
             .map(|curve| l_infinity(&g, &curve.pcf))
             .collect::<Result<_, _>>()?;
-        let ri = measures.summary.nearest.ri.unwrap_or(f64::NAN);
-        println!("{:<14}  {ri:<5.2}  {:<13.2}  {:.2}", source.name(), distances[0], distances[1]);
+        // a lattice has no regularity index: all nearest-neighbour distances are equal
+        let ri = measures.summary.nearest.ri.map_or("–".to_owned(), |ri| format!("{ri:.2}"));
+        println!("{:<14}  {ri:<5}  {:<13.2}  {:.2}", source.name(), distances[0], distances[1]);
     }
     Ok(())
 }

@@ -109,7 +109,8 @@ pub(super) fn analyse(
             _ => ["lie", "are", "they are cones"],
         };
         warnings.push(format!(
-            "{} {lie} outside the window and {are} left out of every number ({} inside): enlarge the window if {they}",
+            "{} {lie} outside the window and {are} left out of every number ({} inside): enlarge the window if {they}, \
+             otherwise check the file, its origin and its unit",
             counted(specimen.outside, "point"),
             mosaic.len()
         ));

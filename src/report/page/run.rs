@@ -94,7 +94,7 @@ fn legend(samplers: &[String]) -> Markup {
                 "(mean over several patterns with about as many points in a window of about the same shape). 0 means identical curves; the "
                 "smaller the value, the more the mosaic is arranged like the points of that sampler. Lanaro et al. (2020) call two curves "
                 "alike below about 0.1. By chance alone, two patterns from the same process differ by about 0.15 if they have 100 points, "
-                "0.08 if they have 300 and 0.05 if they have 1000. The closest sampler need not be alike: a verdict tests that."
+                "0.08 if they have 300 and 0.05 if they have 1000. The closest sampler need not be alike: run with a verdict to test that."
             }
         }
     }
