@@ -4,6 +4,7 @@
 //!
 //! This is `conemosaic run` in its simplest form: image → cones → mosaic → numbers → comparison
 //! with a sampler. An image that fails is reported and does not stop the others.
+//! `conemosaic::batch::run_files` does the whole job, with tables, figures and a page.
 
 use conemosaic::batch::{Input, image_files};
 use conemosaic::compare::{References, l_infinity};

@@ -1,5 +1,7 @@
 //! Scores the detector against marks that were set by hand.
 //!
+//! `conemosaic::batch::validate_files` does the whole job, with groups, intervals, curves and a page.
+//!
 //!     cargo run --release --example validate_marks -- IMAGES MARKS [ORIGIN]
 //!
 //! Each image NAME.png or NAME.tif in the folder IMAGES needs a file NAME.csv or NAME_coords.csv in

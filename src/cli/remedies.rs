@@ -51,7 +51,8 @@ mod tests {
     use super::*;
     use conemosaic::batch::BatchError;
     use std::fs;
-    use std::path::{Path, PathBuf};
+    use std::path::Path;
+    use walkdir::WalkDir;
 
     #[test]
     fn an_error_names_the_options_that_help() {
@@ -68,24 +69,18 @@ mod tests {
     #[test]
     fn every_neutral_phrase_still_stands_in_the_library() {
         let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-        let mut library = String::new();
-        for file in rust_files(&source) {
-            if !file.starts_with(source.join("cli")) {
-                library.push_str(&fs::read_to_string(file).unwrap());
-            }
-        }
+        let library: String = WalkDir::new(&source)
+            .into_iter()
+            .map(|entry| entry.unwrap().into_path())
+            .filter(|path| path.extension().is_some_and(|e| e == "rs"))
+            .filter(|path| !path.starts_with(source.join("cli")))
+            .map(|path| fs::read_to_string(path).unwrap())
+            .collect();
         // a string that goes on after a backslash at the end of a line has no break there
         let parts = library.split("\\\n").enumerate();
         let library: String = parts.map(|(i, part)| if i == 0 { part } else { part.trim_start() }).collect();
         let gone: Vec<&str> =
             PHRASES.iter().map(|(neutral, _)| *neutral).filter(|p| !library.contains(p)).collect();
         assert_eq!(gone, [""; 0], "reworded in the library: reword them here too");
-    }
-
-    fn rust_files(folder: &Path) -> Vec<PathBuf> {
-        let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-        let (folders, files): (Vec<_>, Vec<_>) = entries.partition(|path| path.is_dir());
-        let rust = files.into_iter().filter(|path| path.extension().is_some_and(|e| e == "rs"));
-        rust.chain(folders.iter().flat_map(|folder| rust_files(folder))).collect()
     }
 }

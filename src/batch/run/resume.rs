@@ -28,8 +28,8 @@ struct Kept {
 }
 
 /// Returns a hash of everything on which the results of an image depend, except the image itself.
-/// It covers the program with all its weights, the plan, the scale, the window, the labels, and
-/// either the options of the detector or the file of cones.
+/// The hash covers the program with all its weights, the plan, the scale, the window, the labels,
+/// and either the options of the detector or the file of cones.
 pub(super) fn fingerprint(
     plan: &Plan,
     scale: Option<Scale>,

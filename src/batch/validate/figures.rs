@@ -16,7 +16,7 @@ pub(super) const fn marks_as_detections(score: &Score) -> Score {
 /// Draws Bland–Altman plots of count and density.
 ///
 /// `pairs` contains two scores per image, the first and the second; differences are first − second.
-/// Their names in the labels come in the opposite order: second, then first.
+/// Labels name the two in the opposite order: second, then first.
 pub(super) fn agreement(
     title: &str,
     (second, first): (&str, &str),

@@ -14,9 +14,9 @@ pub struct CoordinateArgs {
     origin: Option<Origin>,
     /// Height of the image, for text files whose y axis points up
     ///
-    /// In the unit of the file; in px it is the number of pixel rows. WebPlotDigitizer's XY axes
-    /// point up. In WebPlotDigitizer projects and ImageJ regions y always points down, so they are
-    /// read as they are. [default: y points down]
+    /// The unit is that of the file; in px, the height is the number of pixel rows.
+    /// WebPlotDigitizer's XY axes point up. In WebPlotDigitizer projects and ImageJ regions y
+    /// always points down, so they are read as they are. [default: y points down]
     #[arg(long, value_name = "HEIGHT", help_heading = "Coordinates")]
     flip_y: Option<f64>,
     /// Read only the dataset (WebPlotDigitizer) or region (ImageJ) of this name [default: all]

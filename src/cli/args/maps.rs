@@ -23,7 +23,7 @@ pub struct MapArgs {
     map_cells: Option<usize>,
     /// Side of the windows, instead of a number of cells
     ///
-    /// In the unit of the coordinates, or in µm with the suffix um, such as 37.5um.
+    /// The unit is that of the coordinates, or µm with the suffix um, such as 37.5um.
     #[arg(long, value_name = "SIDE", requires = "maps")]
     map_side: Option<Length>,
     /// Density of the isodensity contour, as a share of the peak density (0.01–0.99)
@@ -34,7 +34,7 @@ pub struct MapArgs {
     isodensity: f64,
     /// Distance between the rows of the profiles [default: two hexagonal spacings]
     ///
-    /// In the unit of the coordinates, or in µm with the suffix um.
+    /// The unit is that of the coordinates, or µm with the suffix um.
     #[arg(long, value_name = "STEP", requires = "maps")]
     profile_step: Option<Length>,
 }

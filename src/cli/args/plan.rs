@@ -29,7 +29,7 @@ pub struct PlanArgs {
     /// sample      divided by n − 1
     /// population  divided by n, as in the tables of Lanaro et al. (2020)
     ///
-    /// It also enters the regularity index, mean over standard deviation.
+    /// The regularity index, mean over standard deviation, depends on it too.
     #[arg(long, verbatim_doc_comment, help_heading = None, value_name = "SD", default_value = "sample", value_parser = PossibleValuesParser::new(Deviation::VARIANTS))]
     sd: String,
     #[command(flatten)]
@@ -44,7 +44,7 @@ pub struct PlanArgs {
     spectrum: Option<String>,
     /// Highest frequency of the spectrum, in units of √density (0.1–20)
     ///
-    /// In a unit square with n points the unit is √n cycles per side.
+    /// The unit is √n cycles per side for n points in a unit square.
     #[arg(long, value_name = "F", default_value_t = SpectrumOptions::default().max_frequency, requires = "spectrum", help_heading = "Power spectrum")]
     max_frequency: f64,
     /// Also write functions of distance and a table of the points
@@ -63,7 +63,7 @@ pub struct PlanArgs {
     functions: bool,
     /// Distance between the rows of these functions [default: 1/128 of the last distance]
     ///
-    /// In the unit of the coordinates. --r-max sets the last distance.
+    /// The unit is that of the coordinates. --r-max sets the last distance.
     #[arg(long, value_name = "STEP", requires = "functions", help_heading = "Functions of distance")]
     r_step: Option<f64>,
     #[command(flatten)]

@@ -18,12 +18,12 @@ pub struct RoiArgs {
     rois: Option<PathBuf>,
     /// Side of square regions laid in rows over the window, instead of --rois
     ///
-    /// In the unit of the coordinates, or in µm with the suffix um, such as 40um.
+    /// The unit is that of the coordinates, or µm with the suffix um, such as 40um.
     #[arg(long, value_name = "SIDE", group = "roi_source")]
     roi_side: Option<Length>,
     /// Distance from one square to the next [default: their side, so that they tile the window]
     ///
-    /// In the unit of the coordinates, or in µm with the suffix um.
+    /// The unit is that of the coordinates, or µm with the suffix um.
     #[arg(long, value_name = "STEP", requires = "roi_side", conflicts_with = "rois")]
     roi_step: Option<Length>,
     /// Number of bound cells at which each region stops growing (1–100000)
