@@ -1,6 +1,7 @@
 //! Scores the detector against marks that were set by hand.
 //!
-//! `conemosaic::batch::validate_files` does the whole job, with groups, intervals, curves and a page.
+//! `conemosaic::batch::validate_files` does the whole job, with groups, intervals, curves and a
+//! page.
 //!
 //!     cargo run --release --example validate_marks -- IMAGES MARKS [ORIGIN]
 //!
