@@ -31,6 +31,8 @@ const PHRASES: &[(&str, &str)] = &[
         "state it with --origin (marks) or --detections-origin (detections)",
     ),
     ("group them by subject", "give --group-by or --group-table"),
+    ("give a narrower border", "give a smaller --border"),
+    ("read them with y flipped", "give --flip-y"),
     ("give the modality", "give --modality"),
     ("give the spacing if you know it", "give --spacing if you know it"),
 ];

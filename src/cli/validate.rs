@@ -220,10 +220,11 @@ impl Validate {
                         rates.fn_.to_string(),
                         rates.fp.to_string(),
                         format!("{:.4}", rates.dice),
+                        format!("{:.4}", r.score.strict.dice),
                     ]
                 })
                 .collect();
-            text.push_str(&table(&["lowest Dice", "misses", "false alarms", "Dice"], &worst));
+            text.push_str(&table(&["lowest Dice", "misses", "false alarms", "Dice", "strict"], &worst));
             let pooled = &analysis.summary.pooled;
             text.push_str(&format!(
                 "\n\n{}; {} hits, {} misses, {} false alarms; assignment: {}\n{}\n",

@@ -1,7 +1,8 @@
 use super::{ValidationOptions, ValidationRow};
 use crate::compare::{
     Difference, Froc, GroupSummary, Interval, JudgedImage, MeanOverGroups, Reliability, Score, Summary,
-    Verdict, by_group, clusters, compare_scores, froc, intervals, mean_over_groups, reliability, summarise,
+    Turned, Verdict, by_group, clusters, compare_scores, froc, intervals, mean_over_groups, reliability,
+    summarise,
 };
 use crate::report::{
     TextTable, accuracy_table, agreement_table, comparison_table, group_table, threshold_table,
@@ -132,6 +133,8 @@ impl Analysis {
                  state the origin of the marks or of the detections"
             ));
         }
+        notes.extend(turned_over(rows));
+        notes.extend(swallowed(rows));
         if self.groups.is_empty() {
             notes.push(
                 "intervals treat images as independent, and are too narrow if a subject has several \
@@ -190,6 +193,44 @@ impl Analysis {
         }
         tables
     }
+}
+
+/// Returns a note for every way in which the marks of images look turned over.
+fn turned_over(rows: &[ValidationRow]) -> Vec<String> {
+    let mut notes = Vec::new();
+    for way in Turned::ALL {
+        let of = |r: &&ValidationRow| r.turned.is_some_and(|(w, _)| w == way);
+        let these: Vec<&ValidationRow> = rows.iter().filter(of).collect();
+        let Some(first) = these.first() else { continue };
+        let n = these.len() as f64;
+        let now = these.iter().map(|r| r.score.strict.dice).sum::<f64>() / n;
+        let right = these.iter().filter_map(|r| r.turned).map(|(_, dice)| dice).sum::<f64>() / n;
+        notes.push(format!(
+            "the marks of {} of {} images ({}{}) look turned over, as if {}: their strict Dice coefficient is \
+             {now:.2} as given and would be {right:.2} otherwise, so check the columns and the origin of the \
+             marks and {}",
+            these.len(),
+            rows.len(),
+            first.name,
+            if these.len() > 1 { ", …" } else { "" },
+            way.words(),
+            way.remedy(),
+        ));
+    }
+    notes
+}
+
+/// Returns a note if images have marks or detections, but none of one kind inside the border.
+fn swallowed(rows: &[ValidationRow]) -> Option<String> {
+    let none = |r: &&ValidationRow| r.score.n_marks > 0 && r.score.marks_inside == 0;
+    let n = rows.iter().filter(none).count();
+    (n > 0).then(|| {
+        format!(
+            "in {n} of {} images all marks lie in the border that is not counted, so their rates mean \
+             nothing: give a narrower border",
+            rows.len()
+        )
+    })
 }
 
 /// Returns the scores of all hits and false alarms, each with a flag that is `true` for a hit.

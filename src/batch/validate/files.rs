@@ -146,6 +146,7 @@ fn page(
                 name: r.name.clone(),
                 cells: vec![
                     four(rates.dice),
+                    four(r.score.strict.dice),
                     rates.fn_.to_string(),
                     rates.fp.to_string(),
                     r.expected_false_alarms.map_or("–".into(), |v| significant(v, 2)),
@@ -182,6 +183,7 @@ fn page(
         files,
         header: &[
             "Dice",
+            "Dice, strict",
             "misses",
             "false alarms",
             "false alarms expected",

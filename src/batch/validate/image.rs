@@ -6,7 +6,7 @@ use crate::batch::detect::{detect_in, read_image};
 use crate::batch::input::image_name;
 use crate::batch::output::OutputFolder;
 use crate::batch::{BatchError, Input};
-use crate::compare::{JudgedImage, MatchOptions, Matching, Score, judge, validate};
+use crate::compare::{JudgedImage, MatchOptions, Matching, Score, judge, turned, validate};
 use crate::detect::Detection;
 use crate::geometry::Point;
 use crate::image::Plane;
@@ -57,6 +57,19 @@ pub(super) fn score(input: &Input, pairs: &Pairs, out: &OutputFolder) -> Result<
 
     let found = find(input, &options.detected, pairs, image.as_ref())?;
     let (score, matching, judged) = against.marks(&marks, &found)?;
+    let all = score.n_marks + score.n_detections;
+    if all > 0 && score.marks_inside + score.detections_inside == 0 {
+        return Err(BatchError::Pairing {
+            file: input.path.clone(),
+            problem: format!(
+                "nothing to score: all {} marks and {} detections lie in the border of {} px that is not \
+                 counted, or outside the image of {} × {} px: give a narrower border, or check size and \
+                 coordinates",
+                score.n_marks, score.n_detections, options.matching.border, size.0, size.1
+            ),
+        });
+    }
+    let turned = turned(&marks, &found.points, size, &options.matching, score.strict.dice)?;
     if let (true, Some(image)) = (options.overlays, &image) {
         let marked = drawn(&marks, &found.points, &matching, &score);
         let picture = overlay_with_border(image, &marked, spacing_of(&score), options.matching.border);
@@ -73,7 +86,16 @@ pub(super) fn score(input: &Input, pairs: &Pairs, out: &OutputFolder) -> Result<
     };
     let expected_false_alarms = found.scores.as_ref().and_then(|scores| expected(scores, &matching));
     let file = input.path.display().to_string();
-    Ok(ValidationRow { file, name: input.name.clone(), group, score, judged, expected_false_alarms, versus })
+    Ok(ValidationRow {
+        file,
+        name: input.name.clone(),
+        group,
+        score,
+        judged,
+        expected_false_alarms,
+        turned,
+        versus,
+    })
 }
 
 /// Settings for scoring the detections of one image: its size in px, its scale and the options of

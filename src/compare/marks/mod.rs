@@ -8,6 +8,7 @@ mod groups;
 mod matching;
 mod reliability;
 mod summary;
+mod turned;
 mod validation;
 
 pub use comparison::{Difference, compare_scores};
@@ -16,4 +17,5 @@ pub use groups::{GroupSummary, MeanOverGroups, by_group, mean_over_groups};
 pub use matching::{Assignment, MatchError, MatchOptions, Matching, Pair, match_points};
 pub use reliability::{Reliability, ReliabilityBin, reliability};
 pub use summary::{Summary, intervals, summarise};
-pub use validation::{Rates, Score, validate};
+pub use turned::{Turned, turned};
+pub use validation::{Rates, STRICT_REACH, Score, validate};

@@ -20,6 +20,12 @@ pub struct Summary {
     pub precision: f64,
     /// Mean of the images' Dice coefficients (F1).
     pub dice: f64,
+    /// Mean of the images' sensitivities at the strict reach, [`STRICT_REACH`](super::STRICT_REACH).
+    pub sensitivity_strict: f64,
+    /// Mean of the images' false discovery rates at the strict reach.
+    pub fdr_strict: f64,
+    /// Mean of the images' Dice coefficients (F1) at the strict reach.
+    pub dice_strict: f64,
     /// Mean of the images' localisation errors in px, over images with at least one hit; `None` if
     /// there are no such images.
     pub localisation_px: Option<f64>,
@@ -36,6 +42,8 @@ pub struct Summary {
     /// Rates of all images taken together: hits, misses and false alarms are added up over the
     /// images first.
     pub pooled: Rates,
+    /// Rates of all images taken together at the strict reach.
+    pub pooled_strict: Rates,
     /// Bias and limits of agreement of the counts in cones per image. The difference of an image is
     /// its number of detections minus its number of marks, both outside the border strip.
     pub count: Option<Agreement>,
@@ -51,18 +59,25 @@ pub fn summarise(scores: &[Score]) -> Option<Summary> {
     let values = |value: &dyn Fn(&Score) -> Option<f64>| scores.iter().filter_map(value).collect::<Vec<_>>();
     let mean = |value: &dyn Fn(&Score) -> Option<f64>| crate::numeric::mean(&values(value));
     let offset = |axis: usize| mean(&|s| s.offset_px.map(|o| o[axis]));
-    let total = |count: fn(&Rates) -> usize| scores.iter().map(|s| count(&s.rates)).sum();
+    let total = |rates: fn(&Score) -> &Rates| {
+        let sum = |count: fn(&Rates) -> usize| scores.iter().map(|s| count(rates(s))).sum();
+        Rates::new(sum(|r| r.tp), sum(|r| r.fn_), sum(|r| r.fp))
+    };
     Some(Summary {
         images: scores.len(),
         sensitivity: mean(&|s| Some(s.rates.sensitivity))?,
         fdr: mean(&|s| Some(s.rates.fdr))?,
         precision: mean(&|s| Some(s.rates.precision))?,
         dice: mean(&|s| Some(s.rates.dice))?,
+        sensitivity_strict: mean(&|s| Some(s.strict.sensitivity))?,
+        fdr_strict: mean(&|s| Some(s.strict.fdr))?,
+        dice_strict: mean(&|s| Some(s.strict.dice))?,
         localisation_px: mean(&|s| s.localisation_px),
         localisation_um: mean(&Score::localisation_um),
         localisation_s: mean(&|s| s.localisation_s),
         offset_px: offset(0).zip(offset(1)).map(|(x, y)| [x, y]),
-        pooled: Rates::new(total(|r| r.tp), total(|r| r.fn_), total(|r| r.fp)),
+        pooled: total(|s| &s.rates),
+        pooled_strict: total(|s| &s.strict),
         count: agreement(&values(&|s| Some(s.detections_inside as f64 - s.marks_inside as f64))),
         density_percent: agreement(&values(&|s| {
             percent_of_mean(s.detections_inside as f64, s.marks_inside as f64)
@@ -85,6 +100,9 @@ const VALUES: &[(&str, Value)] = &[
     ("fdr", |s| Some(s.fdr)),
     ("precision", |s| Some(s.precision)),
     ("dice", |s| Some(s.dice)),
+    ("sensitivity_strict", |s| Some(s.sensitivity_strict)),
+    ("fdr_strict", |s| Some(s.fdr_strict)),
+    ("dice_strict", |s| Some(s.dice_strict)),
     ("localisation_px", |s| s.localisation_px),
     ("localisation_um", |s| s.localisation_um),
     ("localisation_s", |s| s.localisation_s),
@@ -92,6 +110,9 @@ const VALUES: &[(&str, Value)] = &[
     ("pooled.fdr", |s| Some(s.pooled.fdr)),
     ("pooled.precision", |s| Some(s.pooled.precision)),
     ("pooled.dice", |s| Some(s.pooled.dice)),
+    ("pooled_strict.sensitivity", |s| Some(s.pooled_strict.sensitivity)),
+    ("pooled_strict.fdr", |s| Some(s.pooled_strict.fdr)),
+    ("pooled_strict.dice", |s| Some(s.pooled_strict.dice)),
     ("count.bias", |s| Some(s.count?.bias)),
     ("count.lower_limit", |s| Some(s.count?.limits?[0])),
     ("count.upper_limit", |s| Some(s.count?.limits?[1])),

@@ -41,12 +41,23 @@ impl Rates {
     }
 }
 
+/// Largest distance in a pair at the strict reach, as a fraction of the median nearest-neighbour
+/// distance of the marks.
+///
+/// The published reach of 0.75 covers most of the image: marks that are wrong, namely those of an
+/// image with x and y exchanged, score a mean Dice coefficient of 0.868 (confocal) and 0.800 (split
+/// detector) against the right ones. At the strict reach they score 0.433 and 0.360, and good
+/// detections lose little.
+pub const STRICT_REACH: f64 = 0.4;
+
 /// Agreement of the detections in one image with hand marks.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Score {
     /// Hits, misses, false alarms and their rates.
     #[serde(flatten)]
     pub rates: Rates,
+    /// Hits, misses, false alarms and their rates at the strict reach, [`STRICT_REACH`].
+    pub strict: Rates,
     /// Localisation error: median distance, in px, between mark and detection over all pairs
     /// outside the border strip of the image; `None` without such pairs.
     pub localisation_px: Option<f64>,
@@ -90,6 +101,20 @@ impl Score {
     pub fn area_mm2(&self) -> Option<f64> {
         self.um_per_px.map(|um| self.area_px * um * um * 1e-6)
     }
+}
+
+/// Returns the rates with another largest distance in a pair, `fraction` of the median
+/// nearest-neighbour distance of the marks.
+pub(super) fn at_reach(
+    fraction: f64,
+    marks: &[Point],
+    detections: &[Point],
+    (width, height): (usize, usize),
+    options: &MatchOptions,
+) -> Result<Rates, MatchError> {
+    let options = MatchOptions { fraction, ..*options };
+    let m = match_points(marks, detections, width, height, &options)?;
+    Ok(Rates::new(m.true_positives(), m.false_negatives(), m.false_positives()))
 }
 
 /// Pairs the detections in one image of `width` × `height` px with hand marks, and returns the
@@ -137,6 +162,7 @@ pub fn validate(
 
     let score = Score {
         rates: Rates::new(matching.true_positives(), matching.false_negatives(), matching.false_positives()),
+        strict: at_reach(STRICT_REACH, marks, detections, (width, height), options)?,
         localisation_px,
         localisation_s: localisation_px.zip(spacing).map(|(d, s)| d / s),
         offset_px,

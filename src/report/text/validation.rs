@@ -51,16 +51,22 @@ fn between(interval: Option<Interval>, number: fn(f64) -> String) -> String {
 /// Returns the table of sensitivity, false discovery rate, precision, Dice and localisation error.
 pub fn accuracy_table(summary: &Summary, intervals: &Intervals) -> TextTable {
     let interval = |name: &str| intervals.get(name).copied();
-    let (mean, pooled) = (summary, &summary.pooled);
+    let (mean, pooled, strict) = (summary, &summary.pooled, &summary.pooled_strict);
     let mut rows: Vec<Vec<String>> = [
         ("sensitivity (recall)", "sensitivity", mean.sensitivity, pooled.sensitivity),
         ("FDR (false discovery rate)", "fdr", mean.fdr, pooled.fdr),
         ("precision (1 − FDR)", "precision", mean.precision, pooled.precision),
         ("Dice (= F1)", "dice", mean.dice, pooled.dice),
+        ("sensitivity, strict (0.4)", "sensitivity_strict", mean.sensitivity_strict, strict.sensitivity),
+        ("FDR, strict (0.4)", "fdr_strict", mean.fdr_strict, strict.fdr),
+        ("Dice, strict (0.4)", "dice_strict", mean.dice_strict, strict.dice),
     ]
     .into_iter()
     .map(|(label, name, mean, pooled)| {
-        let of_pooled = interval(&format!("pooled.{name}"));
+        let of_pooled = match name.strip_suffix("_strict") {
+            Some(name) => interval(&format!("pooled_strict.{name}")),
+            None => interval(&format!("pooled.{name}")),
+        };
         vec![
             label.to_owned(),
             rate(mean),

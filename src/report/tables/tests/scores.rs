@@ -9,6 +9,7 @@ use crate::report::{Cell, ValidationRow, VersusRow};
 fn score(rates: Rates, detections_inside: usize) -> Score {
     Score {
         rates,
+        strict: Rates::new(60, 34, 38),
         localisation_px: Some(1.5),
         localisation_s: Some(0.15),
         offset_px: Some([0.25, -0.125]),
@@ -36,6 +37,7 @@ pub fn validation(held: &mut Held) {
         score: score(first, 98),
         judged: None,
         expected_false_alarms: Some(12.5),
+        turned: None,
         versus: Some(VersusRow { score: score(second, 76), judged: None, between: score(between, 77) }),
     };
     let expected: Vec<(&str, Cell)> = vec![
