@@ -13,7 +13,7 @@ import tempfile
 import numpy as np
 from PIL import Image
 
-PROGRAM = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'target', 'release', 'conemosaic')
+PROGRAM = os.environ.get('CONEMOSAIC') or os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'target', 'release', 'conemosaic')
 
 OUTLINED = ('--spacing 7..20 --diameter 0.55..0.95 --size-scatter 0.03..0.15 --outline 0..3 --shading 0..0.5 --contrast 0.08..0.3 '
             '--texture 0.05..0.3 --noise 0.005..0.05 --width 280 --height 280 --gradient 1..2 --drift 0..0.3')

@@ -31,6 +31,7 @@ mod error;
 mod input;
 mod measure;
 mod output;
+mod pairs;
 mod paper;
 mod run;
 mod validate;
@@ -43,6 +44,7 @@ pub use error::BatchError;
 pub use input::{GroupBy, Input, Labels, ScaleSource, coordinate_files, image_files};
 pub use measure::{CoordinatesOptions, CoordinatesOutcome, compare_files, measure_files};
 pub use output::{Ending, Failure, Leftovers, Progress, Silent};
+pub use pairs::ChannelPatterns;
 pub use paper::remake_paper;
 pub use run::{ConeSource, GivenCones, RunOptions, RunOutcome, run_files};
 pub use validate::{

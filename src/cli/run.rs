@@ -3,7 +3,8 @@ use super::{Done, ending_words, short_table, warnings_table};
 use anyhow::{Result, bail};
 use clap::Args;
 use conemosaic::batch::{
-    ConeSource, Crop, GivenCones, ImageWindow, RunOptions, RunOutcome, image_files, run_files,
+    ChannelPatterns, ConeSource, Crop, GivenCones, ImageWindow, RunOptions, RunOutcome, image_files,
+    run_files,
 };
 use conemosaic::compare::VerdictOptions;
 use conemosaic::mosaic::io::ReadOptions;
@@ -74,6 +75,21 @@ pub struct Run {
     /// 55x55um.
     #[arg(long, help_heading = None, value_name = "RECT", allow_hyphen_values = true)]
     crop: Option<Crop>,
+    /// Images of the same field by two channels, whose cones are compared
+    ///
+    /// Each channel is a modality and a pattern of the file name with one *,
+    /// such as confocal=confocal_*,split=split_det_*. Images that match the two
+    /// and share what the * stands for are a pair. A column “pair” of --manifest
+    /// says the same: rows with the same text there. Writes pairs.csv and
+    /// pairs/NAME.csv.
+    #[arg(
+        long,
+        verbatim_doc_comment,
+        help_heading = "Detection",
+        value_name = "PATTERNS",
+        conflicts_with = "modality"
+    )]
+    pair: Option<ChannelPatterns>,
     /// Compute everything anew instead of keeping finished results of an earlier run
     #[arg(long, help_heading = None)]
     fresh: bool,
@@ -111,6 +127,7 @@ impl Run {
             cones,
             window: self.window.clone(),
             crop: self.crop,
+            pairs: self.pair.clone(),
             fresh: self.fresh,
             replace_corrections: self.replace_corrections,
             command: std::env::args().collect(),
@@ -187,6 +204,15 @@ impl Run {
             text.push_str(&warnings_table(warned, "summary.csv"));
             text.push_str("\n\n");
         }
+        for pair in &outcome.pairs {
+            let ([one, other], [a, b]) = (&pair.modalities, pair.shares);
+            text.push_str(&format!(
+                "pair {}: {} cones in both, {} in {one} alone, {} in {other} alone (shares {a:.3}, {b:.3}; F1 {:.3})\n",
+                pair.name, pair.both, pair.alone[0], pair.alone[1], pair.f1
+            ));
+            pair.warnings.iter().for_each(|warning| text.push_str(&format!("  note: {warning}\n")));
+        }
+        outcome.remarks.iter().for_each(|remark| text.push_str(&format!("note: {remark}\n")));
         let cones: usize = outcome.records.iter().map(|r| r.mosaic.n).sum();
         text.push_str(&format!("{} in {}", counted(cones, "cone"), counted(outcome.records.len(), "image")));
         if outcome.reused > 0 {
@@ -196,6 +222,9 @@ impl Run {
         text.push_str(&format!("\nTable:   {out}/summary.csv\nPage:    {out}/index.html"));
         if !outcome.records.is_empty() {
             text.push_str(&format!("\nFigures: {out}/images/NAME/figure.svg"));
+        }
+        if !outcome.pairs.is_empty() {
+            text.push_str(&format!("\nPairs:   {out}/pairs.csv"));
         }
         if self.plan.maps_asked() {
             text.push_str(&format!("\nMaps:    {out}/landmarks.csv"));

@@ -34,7 +34,7 @@ pub use agreement::{
 };
 pub use marks::{
     Assignment, Difference, Froc, FrocPoint, GroupSummary, Judged, JudgedImage, MatchError, MatchOptions,
-    Matching, MeanOverGroups, Pair, Rates, Reliability, ReliabilityBin, STRICT_REACH, Score, Summary, Turned,
+    LARGEST_SHIFT, Matching, Registration, register, MeanOverGroups, Pair, Rates, Reliability, ReliabilityBin, STRICT_REACH, Score, Summary, Turned,
     Verdict, by_group, compare_scores, froc, intervals, judge, match_points, mean_over_groups, reliability,
     summarise, turned, validate,
 };

@@ -219,6 +219,9 @@ impl ConesFrom {
     }
 }
 
+/// Need of an image that was decided otherwise than those beside it: more than any other.
+const ODD: f64 = 10.;
+
 /// Returns the indices of the records, sorted by how much a person should look at them, most first.
 ///
 /// The measure is the expected errors per cone, plus the doubt about modality and spacing. Records
@@ -229,7 +232,7 @@ pub fn by_need(records: &[ImageRecord]) -> Vec<usize> {
     // need.
     let need = |k: &usize| {
         records[*k].detection.as_ref().map_or(0., |found| {
-            found.expected_error_rate() + 1. - found.spacing_confidence * found.modality_confidence
+            if records[*k].odd_one_out { ODD } else { 0. } + found.expected_error_rate() + 1. - found.spacing_confidence * found.modality_confidence
         })
     };
     order.sort_by(|a, b| need(b).total_cmp(&need(a)));
@@ -265,6 +268,9 @@ pub struct ImageRecord {
     pub mosaic: MosaicRecord,
     /// Warnings that a reader of these numbers needs.
     pub warnings: Vec<String>,
+    /// `true` if the modality was decided otherwise than that of the images beside it.
+    #[serde(skip)]
+    pub odd_one_out: bool,
 }
 
 /// Coordinates measured without an image: a row of `measure`'s `summary.csv`.

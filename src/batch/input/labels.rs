@@ -1,5 +1,6 @@
 use crate::batch::output::OutputFolder;
 use crate::batch::{BatchError, Grouping};
+use crate::image::Modality;
 use crate::mosaic::io::Manifest;
 use crate::mosaic::{MICROMETRES_PER_DEGREE, RetinalPlace, Scale};
 use crate::report::tables::{GROUPS, GroupMember, groups_csv};
@@ -131,6 +132,44 @@ impl Labels {
                 )),
             },
         })
+    }
+
+    /// Returns the text in a column of the manifest for an image; `None` if there is none. The case
+    /// of the column's name does not matter.
+    fn cell(&self, path: &Path, column: &str) -> Option<&str> {
+        let manifest = self.manifest.as_ref()?;
+        let k = manifest.columns().iter().position(|c| c.eq_ignore_ascii_case(column))?;
+        let row = manifest.row_of(&path.file_name()?.to_string_lossy()).ok()??;
+        row.labels.get(k).map(|text| text.trim()).filter(|text| !text.is_empty())
+    }
+
+    /// Returns the modality that the column `modality` of the manifest states for an image; `None` if
+    /// it states none, or “auto”.
+    ///
+    /// # Errors
+    /// Fails if the cell names no modality.
+    pub(in crate::batch) fn modality_of(&self, path: &Path) -> Result<Option<Modality>, BatchError> {
+        let Some(text) = self.cell(path, "modality").filter(|t| !t.eq_ignore_ascii_case("auto")) else {
+            return Ok(None);
+        };
+        text.to_lowercase().parse().map(Some).map_err(|_| BatchError::Pairing {
+            file: path.to_owned(),
+            problem: format!(
+                "the column “modality” of the manifest says “{text}”: expected confocal, split, histology, \
+                 auto or nothing (give a column with other words another name)"
+            ),
+        })
+    }
+
+    /// Returns the identifier of the pair of channels to which the column `pair` of the manifest
+    /// assigns an image; `None` if it assigns none.
+    pub(in crate::batch) fn pair_of(&self, path: &Path) -> Option<String> {
+        self.cell(path, "pair").map(str::to_owned)
+    }
+
+    /// Returns whether the manifest has a column `pair`.
+    pub(in crate::batch) fn has_pairs(&self) -> bool {
+        self.columns().iter().any(|c| c.eq_ignore_ascii_case("pair"))
     }
 
     /// Checks, before any work is done, that the manifest has all columns to group by.

@@ -13,6 +13,7 @@ use crate::mosaic::io::{ReadOptions, format_points, read_from};
 use crate::mosaic::{LengthUnit, Scale};
 use crate::report::{ConesFrom, counted};
 use sha2::{Digest, Sha256};
+use std::borrow::Cow;
 use std::fs;
 use std::path::Path;
 
@@ -54,7 +55,7 @@ impl Cones {
 /// Origin of an image's cones, with everything that is needed to read or detect them.
 pub(super) enum Origin<'a> {
     /// The cones are to be detected with these options.
-    Detector(&'a DetectOptions),
+    Detector(Cow<'a, DetectOptions>),
     /// The cones are to be read from this file: its content and its path.
     Given(Vec<u8>, &'a Path),
     /// The cones are those of this `points.csv`, which a person has corrected: its content.
@@ -67,7 +68,7 @@ impl Origin<'_> {
     pub fn identify(&self, digest: &mut Sha256) -> Result<(), BatchError> {
         match self {
             Self::Detector(options) => {
-                digest.update(serde_json::to_vec(options)?);
+                digest.update(serde_json::to_vec(&**options)?);
                 weights().iter().for_each(|file| digest.update(file));
             }
             Self::Given(bytes, _) => {
@@ -105,7 +106,7 @@ impl Job<'_> {
             };
         }
         match &self.options.cones {
-            ConeSource::Detector(options) => Ok(Origin::Detector(options)),
+            ConeSource::Detector(options) => Ok(Origin::Detector(self.detector_for(input, options)?)),
             ConeSource::Given(given) => {
                 let path = given.file_of(input)?;
                 let bytes = fs::read(path)
@@ -113,6 +114,32 @@ impl Job<'_> {
                 Ok(Origin::Given(bytes, path))
             }
         }
+    }
+
+    /// Returns the options with which the cones of an image are detected. The channel to which its
+    /// name belongs overrules the modality; the manifest states it where it is to be decided.
+    fn detector_for<'a>(
+        &self,
+        input: &Input,
+        options: &'a DetectOptions,
+    ) -> Result<Cow<'a, DetectOptions>, BatchError> {
+        let channel = self.options.pairs.as_ref().and_then(|patterns| patterns.of(&input.path));
+        let stated = match (channel, options.modality) {
+            (Some((modality, _)), _) => Some(modality),
+            (None, Some(_)) => None,
+            (None, None) => self.options.plan.labels.modality_of(&input.path)?,
+        };
+        Ok(match stated {
+            Some(modality) => Cow::Owned(DetectOptions { modality: Some(modality), ..options.clone() }),
+            None => Cow::Borrowed(options),
+        })
+    }
+
+    /// Returns whether a person has stated the modality of an image.
+    pub(super) fn modality_given(&self, path: &Path) -> bool {
+        let named = self.options.pairs.as_ref().is_some_and(|patterns| patterns.of(path).is_some());
+        let for_all = matches!(&self.options.cones, ConeSource::Detector(o) if o.modality.is_some());
+        named || for_all || matches!(self.options.plan.labels.modality_of(path), Ok(Some(_)))
     }
 
     /// Returns whether the `points.csv` of an image contains a person's corrections: it was changed
@@ -139,7 +166,7 @@ impl Job<'_> {
         // the beginning of what the program would write: that is no correction. A file that ends
         // with a complete row but without a line break was saved by an editor.
         if let (false, ConeSource::Detector(options)) = (bytes.ends_with(b"\n"), &self.options.cones) {
-            let found = detect_in(input, image, options)?;
+            let found = detect_in(input, image, &*self.detector_for(input, options)?)?;
             let scale = self.options.plan.scales.scale_of(&input.path, image.ncols())?;
             let written = formatted(&found.cones, scale);
             if written.strip_prefix(&*bytes).is_some_and(|rest| !rest.starts_with(b"\n")) {
@@ -194,7 +221,7 @@ pub(super) fn cones_of(
 
 /// Returns only the first two columns of a file of detections, x and y in px. A person who adds a
 /// row need not fill in the score or the position in µm. Any other file is returned unchanged.
-fn without_scores(bytes: &[u8]) -> Vec<u8> {
+pub(super) fn without_scores(bytes: &[u8]) -> Vec<u8> {
     match std::str::from_utf8(bytes) {
         Ok(text) if text.starts_with("x_px,y_px,") => {
             let centre = |line: &str| line.split(',').take(2).collect::<Vec<_>>().join(",") + "\n";

@@ -116,5 +116,6 @@ fn record_of(
         fourier: analysis.fourier,
         mosaic: analysis.record.clone(),
         warnings: analysis.warnings.clone(),
+        odd_one_out: false,
     }
 }

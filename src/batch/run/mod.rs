@@ -5,6 +5,7 @@ mod cones;
 mod done;
 mod given;
 mod image;
+mod pairs;
 mod record;
 mod resume;
 
@@ -14,10 +15,10 @@ pub use given::GivenCones;
 use super::analysis::{Plan, write_landmarks, write_rois, write_verdicts};
 use super::output::{Ending, OutputFolder, ResultFolder, Worked, for_each, write_failures};
 use super::window::ImageWindows;
-use super::{BatchError, Crop, Failure, ImageWindow, Input, Progress};
+use super::{BatchError, ChannelPatterns, Crop, Failure, ImageWindow, Input, Progress};
 use crate::compare::References;
 use crate::detect::DetectOptions;
-use crate::report::tables::RoiRow;
+use crate::report::tables::{ChannelPair, RoiRow};
 use crate::report::{ImageRecord, LandmarkRecord, Subject, SummaryKind, page};
 use done::Done;
 use image::one_image;
@@ -42,6 +43,9 @@ pub struct RunOptions {
     pub window: ImageWindow,
     /// A rectangle to which the window of each image is cut. `None` if the entire window counts.
     pub crop: Option<Crop>,
+    /// Names of the images of two channels of the same field, which are compared; `None` if the names
+    /// say nothing. Its modality overrules that of the manifest and of the image.
+    pub pairs: Option<ChannelPatterns>,
     /// `true` to compute everything anew. `false` to keep the results of an earlier run for every
     /// image if neither the image nor the options nor the program have changed.
     pub fresh: bool,
@@ -61,6 +65,7 @@ impl Default for RunOptions {
             cones: ConeSource::Detector(DetectOptions::default()),
             window: ImageWindow::default(),
             crop: None,
+            pairs: None,
             fresh: false,
             replace_corrections: false,
             command: Vec::new(),
@@ -75,6 +80,10 @@ pub struct RunOutcome {
     pub records: Vec<ImageRecord>,
     /// Images without results, each with the reason.
     pub failures: Vec<Failure>,
+    /// Pairs of images of the same field; empty unless asked for.
+    pub pairs: Vec<ChannelPair>,
+    /// Remarks on images without a partner, each a sentence.
+    pub remarks: Vec<String>,
     /// Number of images for which the results of an earlier run were kept.
     pub reused: usize,
     /// End of the run: complete, or stopped early.
@@ -118,11 +127,14 @@ pub fn run_files(
     let images = out.folder(IMAGES)?;
     images.sweep();
     let job = Job { options, windows, references: options.plan.references(), out, images };
-    let worked = for_each(inputs, progress, |input| {
+    let mut worked = for_each(inputs, progress, |input| {
         one_image(input, &job).or_else(|error| job.keep_earlier(input, error, progress))
     });
+    pairs::warn_of_odd_ones(&mut worked.done, |path| job.modality_given(path));
+    let (pairs, remarks) = job.write_pairs(&worked.done)?;
     job.write_tables(&worked, started)?;
-    job.finish(inputs, worked)
+    let outcome = job.finish(inputs, worked)?;
+    Ok(RunOutcome { pairs, remarks, ..outcome })
 }
 
 /// Fails if an input image lies in the folder `images`, whose content results will replace.
@@ -196,7 +208,8 @@ impl Job<'_> {
         ending.leftovers.foreign.extend(foreign);
         let reused = worked.done.iter().filter(|d| d.seconds.is_none()).count();
         let records = worked.done.into_iter().map(|d| d.record).collect();
-        Ok(RunOutcome { records, failures: worked.failures, reused, ending })
+        let (pairs, remarks) = (Vec::new(), Vec::new());
+        Ok(RunOutcome { records, failures: worked.failures, pairs, remarks, reused, ending })
     }
 
     /// Returns the folders in `images/` that belong to no image of the run and in which the program

@@ -74,7 +74,7 @@ pub fn turned(
     // three standard deviations of the difference of two such shares, at most √(½/n) each
     let n = marks.len().min(detections.len()).max(1) as f64;
     let mut least = dice + CLEAR.max(3. * (0.5 / n).sqrt());
-    for way in Turned::ALL.into_iter().filter(|_| least < 1.) {
+    for way in Turned::ALL {
         let right: Vec<Point> = marks.iter().map(|&p| way.undo(p, size)).collect();
         let dice = at_reach(STRICT_REACH, &right, detections, size, options)?.dice;
         if dice > least {

@@ -23,6 +23,7 @@ mod functions;
 mod groups;
 mod landmarks;
 mod maps;
+mod pairs;
 mod paper;
 mod points;
 mod rois;
@@ -45,6 +46,7 @@ pub use landmarks::LANDMARKS;
 pub use maps::{
     DistanceRow, FOURIER_MAP, FourierRow, MAPS, MapRow, PROFILES, fourier_map_csv, maps_csv, profiles_csv,
 };
+pub use pairs::{ChannelPair, PAIRED_CONES, PAIRS, PairedCone};
 pub use paper::{
     BandwidthRow, CurveRow, PAPER_BANDWIDTHS, PAPER_PCF, PAPER_SPECTRA, PAPER_TABLE_1, PAPER_TABLE_2,
     PAPER_TRIANGLE, PaperDistance, SamplerCurve, TriangleRow, curves_csv,
@@ -59,7 +61,7 @@ pub use validation::{
 };
 
 /// All tables, in the order in which a user meets them.
-pub static TABLES: [&dyn Described; 32] = [
+pub static TABLES: [&dyn Described; 34] = [
     &DETECTIONS,
     &PCF,
     &POINTS,
@@ -82,6 +84,8 @@ pub static TABLES: [&dyn Described; 32] = [
     &SUBJECT_GROUPS,
     &FROC,
     &RELIABILITY,
+    &PAIRS,
+    &PAIRED_CONES,
     &COMPARISON,
     &AGREEMENT,
     &DIFFERENCES,
