@@ -46,7 +46,8 @@ impl ChannelPatterns {
     /// Returns the modality of an image and what the `*` stands for in its name; `None` if it
     /// matches neither pattern. Of two patterns that match, the longer one counts.
     pub fn of(&self, path: &Path) -> Option<(Modality, String)> {
-        let [name, stem] = [path.file_name(), path.file_stem()].map(|n| n.unwrap_or_default().to_string_lossy());
+        let [name, stem] =
+            [path.file_name(), path.file_stem()].map(|n| n.unwrap_or_default().to_string_lossy());
         let matched = |(modality, before, after): &(Modality, String, String)| {
             let rest = |name: &str| Some(name.strip_prefix(&**before)?.strip_suffix(&**after)?.to_owned());
             let rest = rest(&stem).or_else(|| rest(&name))?;
@@ -70,7 +71,8 @@ mod tests {
         assert_eq!(of("avg_0070.tif"), None);
         let both: ChannelPatterns = "confocal=*,split=*_split".parse().unwrap();
         assert_eq!(both.of(Path::new("a_split.png")), Some((Modality::Split, "a".into())));
-        for wrong in ["confocal=a*", "confocal=a*,confocal=b*", "confocal=a,split=b*", "x=a*,split=b*", "a,b"] {
+        for wrong in ["confocal=a*", "confocal=a*,confocal=b*", "confocal=a,split=b*", "x=a*,split=b*", "a,b"]
+        {
             assert!(wrong.parse::<ChannelPatterns>().is_err(), "{wrong}");
         }
     }

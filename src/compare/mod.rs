@@ -33,10 +33,10 @@ pub use agreement::{
     agreement_of_clusters, bootstrap, clusters, intraclass, least_p, mean_over_subjects, sign_flip_test,
 };
 pub use marks::{
-    Assignment, Difference, Froc, FrocPoint, GroupSummary, Judged, JudgedImage, MatchError, MatchOptions,
-    LARGEST_SHIFT, Matching, Registration, register, MeanOverGroups, Pair, Rates, Reliability, ReliabilityBin, STRICT_REACH, Score, Summary, Turned,
-    Verdict, by_group, compare_scores, froc, intervals, judge, match_points, mean_over_groups, reliability,
-    summarise, turned, validate,
+    Assignment, Difference, Froc, FrocPoint, GroupSummary, Judged, JudgedImage, LARGEST_SHIFT, MatchError,
+    MatchOptions, Matching, MeanOverGroups, Pair, Rates, Registration, Reliability, ReliabilityBin,
+    STRICT_REACH, Score, Summary, Turned, Verdict, by_group, compare_scores, froc, intervals, judge,
+    match_points, mean_over_groups, register, reliability, summarise, turned, validate,
 };
 #[doc(hidden)]
 pub use samplers::make_table;

@@ -232,7 +232,8 @@ pub fn by_need(records: &[ImageRecord]) -> Vec<usize> {
     // need.
     let need = |k: &usize| {
         records[*k].detection.as_ref().map_or(0., |found| {
-            if records[*k].odd_one_out { ODD } else { 0. } + found.expected_error_rate() + 1. - found.spacing_confidence * found.modality_confidence
+            let odd = if records[*k].odd_one_out { ODD } else { 0. };
+            odd + found.expected_error_rate() + 1. - found.spacing_confidence * found.modality_confidence
         })
     };
     order.sort_by(|a, b| need(b).total_cmp(&need(a)));

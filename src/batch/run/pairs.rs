@@ -1,8 +1,8 @@
 //! Comparison of the images of a run with each other: pairs of channels of the same field, and the
 //! image that was decided otherwise than the images beside it.
 
+use super::Job;
 use super::done::{Done, POINTS};
-use super::{IMAGES, Job};
 use crate::batch::BatchError;
 use crate::compare::{Registration, register};
 use crate::geometry::Point;
@@ -49,7 +49,11 @@ impl Job<'_> {
                 [(one, a), (other, b)] if one != other => pairs.push((name, [*a, *b])),
                 several => remarks.push(format!(
                     "“{name}” is no pair: expected two images of different modality, found {}",
-                    several.iter().map(|(m, k)| format!("{} ({m})", done[*k].record.name)).collect::<Vec<_>>().join(", ")
+                    several
+                        .iter()
+                        .map(|(m, k)| format!("{} ({m})", done[*k].record.name))
+                        .collect::<Vec<_>>()
+                        .join(", ")
                 )),
             }
         }
@@ -159,7 +163,12 @@ fn points_of(cones: &[Vec<Point>; 2], found: &Registration, modalities: &[String
     for &(a, b) in &found.pairs {
         (partner[a], seen[b]) = (true, "both");
     }
-    let cone = |p: Point, seen_in: &str, counted: bool| PairedCone { x: p.x, y: p.y, seen_in: seen_in.into(), counted };
+    let cone = |p: Point, seen_in: &str, counted: bool| PairedCone {
+        x: p.x,
+        y: p.y,
+        seen_in: seen_in.into(),
+        counted,
+    };
     let [x, y] = found.shift;
     let alone = (0..partner.len()).filter(|&a| !partner[a]).map(|a| {
         let p = cones[0][a];

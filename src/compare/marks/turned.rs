@@ -26,13 +26,13 @@ impl Turned {
     /// All ways, in the order in which they are tried.
     pub const ALL: [Self; 4] = [Self::Transposed, Self::UpsideDown, Self::Mirrored, Self::HalfTurn];
 
-    /// Describes the coordinates of the marks, to follow “their”.
+    /// Describes the coordinates of the marks, to follow “as if”.
     pub const fn words(self) -> &'static str {
         match self {
-            Self::Transposed => "x and y are exchanged",
-            Self::UpsideDown => "y counts from the lower edge",
-            Self::Mirrored => "x counts from the right edge",
-            Self::HalfTurn => "x and y count from the right and lower edges",
+            Self::Transposed => "x and y were exchanged",
+            Self::UpsideDown => "y counted from the lower edge",
+            Self::Mirrored => "x counted from the right edge",
+            Self::HalfTurn => "x and y counted from the right and lower edges",
         }
     }
 

@@ -131,6 +131,7 @@ fn record() -> ImageRecord {
         width_px: 1,
         height_px: 1,
         cones_from: ConesFrom::Corrected,
+        odd_one_out: false,
         outside: 0,
         detection: Some(DetectionRecord {
             detector: Detector::Learned,

@@ -56,12 +56,16 @@ pub static PAIRS: Table<ChannelPair> = Table {
         column("both", "count", "Number of cones that both images have.").of(|p| p.both.into()),
         column("alone_1", "count", "Number of cones in image_1 alone.").of(|p| p.alone[0].into()),
         column("alone_2", "count", "Number of cones in image_2 alone.").of(|p| p.alone[1].into()),
-        column("share_1", "0–1", "Share of image_1's cones that image_2 has too. Rods taken for cones lower it.")
-            .of(|p| p.shares[0].into()),
+        column(
+            "share_1",
+            "0–1",
+            "Share of image_1's cones that image_2 has too. Rods taken for cones lower it.",
+        )
+        .of(|p| p.shares[0].into()),
         column("share_2", "0–1", "Share of image_2's cones that image_1 has too.").of(|p| p.shares[1].into()),
         column("f1", "0–1", "Agreement: harmonic mean of share_1 and share_2.").of(|p| p.f1.into()),
         column("warnings", "text", "What must be known about these numbers.")
-            .of(|p| p.warnings.join("; ").into()),
+            .of(|p| p.warnings.join("; ").as_str().into()),
     ],
 };
 
