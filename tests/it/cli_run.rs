@@ -291,3 +291,36 @@ fn the_summary_says_how_sure_the_modality_is() {
     assert!(found.iter().all(|c| *c > 1. / 3. && *c < 1.), "{found:?}");
     assert_eq!(confidences(&["--modality", "confocal"]), [1., 1.]);
 }
+
+#[test]
+fn two_channels_of_a_field_are_compared() {
+    let place = Place::new();
+    let jitter = |i: usize, k: usize| (i * i * k % 19) as f64 / 5. - 1.9;
+    let points: Vec<(f64, f64)> = (0..196)
+        .map(|i| ((i % 14 * 10 + 8) as f64 + jitter(i, 7), (i / 14 * 10 + 8) as f64 + jitter(i, 5)))
+        .collect();
+    let csv = |skip: usize, dx: f64, dy: f64| {
+        let rows = points.iter().enumerate().filter(|(k, _)| *k != skip);
+        rows.fold("x,y\n".to_owned(), |text, (_, (x, y))| text + &format!("{},{}\n", x + dx, y + dy))
+    };
+    for (name, skip, shift) in [("confocal_1", 105, 3.), ("split_1", 76, 0.)] {
+        place.image_of(&format!("images/{name}.png"), 150, 150, 1);
+        place.write(&format!("cones/{name}.csv"), csv(skip, shift, shift / 2.));
+    }
+    place.write("m.csv", "id,pair,modality\nconfocal_1,one,confocal\nsplit_1,one,Split\n");
+    let run = ["run", "images", "--cones", "cones", "--samplers", "uniform", "--out"];
+    for (out, how) in [("a", ["--pair", "confocal=confocal_*,split=split_*"]), ("b", ["--manifest", "m.csv"])]
+    {
+        place.ok(&[&run[..], &[out], &how[..]].concat());
+        let row = place.table(&format!("{out}/pairs.csv")).remove(0);
+        assert_eq!([&*row["image_1"], &*row["image_2"]], ["confocal_1", "split_1"]);
+        assert_eq!([&*row["alone_1"], &*row["alone_2"], &*row["warnings"]], ["1", "1", ""]);
+        assert!((row["shift_x_px"].parse::<f64>().unwrap() + 3.).abs() < 1e-9, "{row:?}");
+        let cones = place.table(&format!("{out}/pairs/{}.csv", row["name"]));
+        let seen = |word: &str| cones.iter().filter(|c| c["seen_in"] == word).count();
+        assert_eq!([seen("both"), seen("confocal"), seen("split")], [194, 1, 1]);
+    }
+    assert!(
+        place.refused(&[&run[..], &["c", "--pair", "confocal=a*"]].concat()).contains("names one channel")
+    );
+}
