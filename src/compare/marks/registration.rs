@@ -60,6 +60,7 @@ pub fn register(
     let limit = reach(second, first, &options)?;
     let margin = limit / STRICT_REACH;
     let tree = NeighbourTree::in_plane(second).map_err(|_| MatchError::TooMany(second.len()))?;
+    // the tree gives squared distances
     let counts = |p: Point| {
         let within = |v: f64, side: usize| v > margin && v < side as f64 - 1. - margin;
         within(p.x, width) && within(p.y, height)
@@ -67,7 +68,8 @@ pub fn register(
     let moved = |[x, y]: [f64; 2]| first.iter().map(move |p| Point::new(p.x + x, p.y + y));
     let met = |shift: [f64; 2]| -> usize {
         let nearest = |p: Point| tree.nearest(p, NonZero::<usize>::MIN).next();
-        let near = moved(shift).filter(|&p| counts(p)).filter_map(nearest).filter(|(_, d)| *d <= limit);
+        let near =
+            moved(shift).filter(|&p| counts(p)).filter_map(nearest).filter(|(_, d)| *d <= limit * limit);
         near.map(|(k, _)| k).collect::<HashSet<_>>().len()
     };
     let steps = || -LARGEST_SHIFT..=LARGEST_SHIFT;
@@ -79,7 +81,7 @@ pub fn register(
     let pair_up = |shift: [f64; 2]| -> Vec<(usize, usize)> {
         let mut candidates: Vec<(f64, usize, usize)> = Vec::new();
         for (k, p) in moved(shift).enumerate() {
-            let near = tree.nearest(p, CANDIDATES).filter(|(_, d)| *d <= limit);
+            let near = tree.nearest(p, CANDIDATES).filter(|(_, d)| *d <= limit * limit);
             candidates.extend(near.map(|(other, d)| (d, k, other)));
         }
         candidates.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
