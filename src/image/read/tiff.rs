@@ -60,12 +60,14 @@ fn open(bytes: &[u8]) -> Result<Source<'_>, TiffError> {
 
 /// Returns the number of pages in the file, without smaller versions and masks of another page.
 ///
-/// A page that cannot be parsed counts, too.
+/// A page that cannot be parsed counts, too, unless it has no size: some instruments leave out the
+/// offset of the next directory, and what is read in its place points nowhere.
 fn count_pages(decoder: &mut Source) -> usize {
     let mut pages = 1;
     while decoder.more_images() {
         if decoder.next_image().is_err() {
-            return pages + 1;
+            let sized = [Tag::ImageWidth, Tag::ImageLength].map(|t| tag::<u32>(decoder, t).is_some());
+            return pages + usize::from(sized == [true; 2]);
         }
         let kind = tag::<u32>(decoder, Tag::NewSubfileType).unwrap_or(0);
         pages += usize::from(kind & NOT_AN_IMAGE == 0);
