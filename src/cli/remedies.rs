@@ -31,6 +31,7 @@ const PHRASES: &[(&str, &str)] = &[
         "state it with --origin (marks) or --detections-origin (detections)",
     ),
     ("group them by subject", "give --group-by or --group-table"),
+    ("choose the whole image as the window", "give --window image"),
     ("give the modality", "give --modality"),
     ("give the spacing if you know it", "give --spacing if you know it"),
 ];

@@ -63,8 +63,7 @@ pub(super) fn leave_out(mask: &mut [bool], plane: &Plane) -> bool {
     }
     // the last block of a row or column ends at the border and may overlap the one before it
     let at = |k: usize, side: usize| (k * BLOCK).min(side - BLOCK);
-    let (rows, columns) =
-        (rows + usize::from(height % BLOCK > 0), columns + usize::from(width % BLOCK > 0));
+    let (rows, columns) = (rows + usize::from(height % BLOCK > 0), columns + usize::from(width % BLOCK > 0));
     let blocks: Vec<Block> = (0..rows * columns)
         .map(|k| block_of(plane, at(k / columns, height), at(k % columns, width)))
         .collect();
@@ -111,13 +110,13 @@ fn continue_to_pixels(
     (blocks, columns): (&[Block], usize),
 ) {
     let height = mask.len() / width;
-    let range = |(low, high): (f32, f32), k: &usize| {
-        (low.min(blocks[*k].range.0), high.max(blocks[*k].range.1))
-    };
+    let range =
+        |(low, high): (f32, f32), k: &usize| (low.min(blocks[*k].range.0), high.max(blocks[*k].range.1));
     let (low, high) = margin.iter().fold((f32::INFINITY, f32::NEG_INFINITY), range);
     let mut near = vec![false; mask.len()];
     for &k in margin {
-        let (top, left) = ((k / columns * BLOCK).min(height - BLOCK), (k % columns * BLOCK).min(width - BLOCK));
+        let (top, left) =
+            ((k / columns * BLOCK).min(height - BLOCK), (k % columns * BLOCK).min(width - BLOCK));
         for y in top.saturating_sub(2 * BLOCK)..(top + 3 * BLOCK).min(height) {
             near[y * width + left.saturating_sub(2 * BLOCK)..y * width + (left + 3 * BLOCK).min(width)]
                 .fill(true);
