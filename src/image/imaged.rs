@@ -42,6 +42,8 @@ const VALUES: usize = 8;
 ///
 /// Such rectangles are scale bars and labels.
 const RECTANGLE: usize = 64;
+/// Half the side, in px, of the square that must fit into a constant region wherever it counts.
+const LEAK: usize = 2;
 /// Shortest side, in px, of such a rectangle.
 const RECTANGLE_SIDE: usize = 3;
 
@@ -187,11 +189,25 @@ fn leave_out(mask: &mut [bool], plane: &Plane, value: f32) -> bool {
         large(region) && !region.is_porous() && (abrupt || vast)
     };
     let mut any = false;
+    // a pixel of the picture beside a margin may have its value by chance; black keeps such pixels,
+    // as registration leaves them
+    let mut ragged = vec![false; if value == 0. { 0 } else { plane.len() }];
     for k in 0..regions.runs.len() {
         let (run, root) = (regions.runs[k], regions.root(k));
         if is_hole(&shapes[root]) {
-            mask[run.row * width + run.first..run.row * width + run.end].fill(false);
-            any = true;
+            let pixels = run.row * width + run.first..run.row * width + run.end;
+            if value == 0. || shapes[root].is_rectangle() {
+                mask[pixels].fill(false);
+                any = true;
+            } else {
+                ragged[pixels].fill(true);
+            }
+        }
+    }
+    if ragged.contains(&true) {
+        for (imaged, broad) in mask.iter_mut().zip(quiet::opened(&ragged, width, LEAK)) {
+            any |= broad;
+            *imaged &= !broad;
         }
     }
     any
@@ -393,6 +409,34 @@ mod tests {
         let black = fading(40.).iter().filter(|v| **v == 0.).count();
         assert!(black > 300, "{black}");
         assert_eq!(imaged_mask(&fading(40.)), None);
+    }
+
+    #[test]
+    fn margins_of_constants_and_noise_and_boxes_are_empty() {
+        let noise = |y: usize, x: usize| {
+            let mut v = (y * 7919 + x).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+            v = (v ^ (v >> 31)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+            (v >> 40) % 3
+        };
+        let cones = |y: usize, x: usize| 0.5 + 0.4 * ((x as f32 * 0.8).sin() * (y as f32 * 0.8).sin());
+        let framed = |margin: &dyn Fn(usize, usize) -> f32| {
+            Plane::from_shape_fn((200, 200), |(y, x)| {
+                if (50..150).contains(&x) && (50..150).contains(&y) { cones(y, x) } else { margin(y, x) }
+            })
+        };
+        let part = ImagedPart { top: 50, left: 50, height: 100, width: 100 };
+        for value in [0., 1. / 255., 0.25, 1.] {
+            assert_eq!(imaged_part(&framed(&|_, _| value)), part, "{value}");
+        }
+        let plane = framed(&|y, x| noise(y, x) as f32 / 255.);
+        assert_eq!(imaged_part(&plane), part);
+        assert!((furniture_share(&plane) - 0.5).abs() < 0.1, "two thirds of 75 % are not black");
+        let boxed = Plane::from_shape_fn((100, 100), |(y, x)| {
+            if (10..20).contains(&y) && (30..60).contains(&x) { 1. } else { cones(y, x) }
+        });
+        assert_eq!(imaged_mask(&boxed).unwrap().iter().filter(|v| !**v).count(), 300);
+        let clipped = Plane::from_shape_fn((200, 200), |(y, x)| (2. * cones(y, x)).min(1.));
+        assert_eq!(imaged_mask(&clipped), None);
     }
 
     #[test]

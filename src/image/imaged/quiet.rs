@@ -157,7 +157,7 @@ fn components(mask: &[bool], width: usize) -> Vec<Vec<usize>> {
 }
 
 /// Returns a mask opened by a square of side 2 · `reach` + 1; beyond its border it is continued.
-fn opened(mask: &[bool], width: usize, reach: usize) -> Vec<bool> {
+pub(super) fn opened(mask: &[bool], width: usize, reach: usize) -> Vec<bool> {
     let eroded = spread(mask, width, reach, false);
     spread(&eroded, width, reach, true)
 }
