@@ -34,6 +34,9 @@ const POROUS_RUNS: usize = 4;
 /// on average.
 const POROUS_LENGTH: usize = 64;
 
+/// Smallest share of the image that other values must fill beside a constant one.
+const PICTURE: f64 = 0.02;
+
 /// Shortest run, in px, of one value that makes the value a candidate for page furniture.
 const LONG_RUN: usize = 8;
 /// Largest number of values, other than black, whose regions are looked at.
@@ -182,6 +185,10 @@ fn leave_out(mask: &mut [bool], plane: &Plane, value: f32) -> bool {
     all_imaged.extend(
         plane.iter().zip(&*mask).filter(|(v, m)| **m && **v != value).map(|(v, _)| (*v - value).abs()),
     );
+    // without it nothing would be left: the picture itself has this value, as a drawn mask has
+    if value != 0. && (all_imaged.count as f64) < PICTURE * plane.len() as f64 {
+        return false;
+    }
     let small = SMALL * plane.len() as f64;
     let is_hole = |region: &Region| {
         let abrupt = region.rim.count > 0 && region.rim.value() >= ABRUPT * all_imaged.value();
