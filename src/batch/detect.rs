@@ -1,5 +1,6 @@
 use super::analysis::CONFIDENT;
 use super::output::{Ending, ResultFolder, Standing, for_each, write_failures};
+use super::window::Cut;
 use super::{BatchError, Failure, Input, Progress, ScaleSource};
 use crate::detect::{DetectOptions, Detection, Detections, detect};
 use crate::geometry::Point;
@@ -110,6 +111,20 @@ pub(super) fn detect_in(
     options: &DetectOptions,
 ) -> Result<Detections, BatchError> {
     detect(image, options).map_err(|source| BatchError::Detect { file: input.path.clone(), source })
+}
+
+/// Detects cones in the part of an image that its window leaves, in px of the whole image, so that
+/// nothing outside the window has a say.
+pub(super) fn detect_within(
+    input: &Input,
+    image: &Plane,
+    cut: Option<&Cut>,
+    options: &DetectOptions,
+) -> Result<Detections, BatchError> {
+    let Some(cut) = cut else { return detect_in(input, image, options) };
+    let mut found = detect_in(input, &cut.part, options)?;
+    found.move_by(cut.left, cut.top);
+    Ok(found)
 }
 
 /// Returns the content of a CSV file of detections: columns x_px, y_px and score, and also x_um and

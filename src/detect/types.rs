@@ -67,7 +67,7 @@ impl Detections {
     }
 
     /// Shifts all positions by `left` px in x and by `top` px in y.
-    pub(super) fn move_by(&mut self, left: usize, top: usize) {
+    pub(crate) fn move_by(&mut self, left: usize, top: usize) {
         for d in self.cones.iter_mut().chain(&mut self.rejected) {
             d.centre = Point::new(d.centre.x + left as f64, d.centre.y + top as f64);
         }

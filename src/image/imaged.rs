@@ -1,10 +1,13 @@
-//! Mask of the pixels that were imaged, without black margins and gaps of montages.
+//! Mask of the pixels that were imaged, without margins, gaps of montages and page furniture.
 //!
-//! 1. Runs of exactly black pixels are joined to 4-connected regions in one pass over the rows.
+//! 1. Runs of pixels of one value are joined to 4-connected regions in one pass over the rows.
 //! 2. A region counts as not imaged if it is large enough, is not porous like the ground between
 //!    bright cones, and, unless it is very large, ends abruptly.
 
+mod quiet;
+
 use super::Plane;
+use std::collections::BTreeMap;
 
 /// Smallest size of a black region that can count as not imaged, as a fraction of the image.
 ///
@@ -30,6 +33,22 @@ const POROUS_RUNS: usize = 4;
 /// Where cones are at most 40 px apart, they cut the ground between them into runs that are shorter
 /// on average.
 const POROUS_LENGTH: usize = 64;
+
+/// Smallest share of the image that other values must fill beside a constant one.
+const PICTURE: f64 = 0.02;
+
+/// Shortest run, in px, of one value that makes the value a candidate for page furniture.
+const LONG_RUN: usize = 8;
+/// Largest number of values, other than black, whose regions are looked at.
+const VALUES: usize = 8;
+/// Smallest area, in px, of an upright rectangle that counts as not imaged whatever its share.
+///
+/// Such rectangles are scale bars and labels.
+const RECTANGLE: usize = 64;
+/// Half the side, in px, of the square that must fit into a constant region wherever it counts.
+const LEAK: usize = 2;
+/// Shortest side, in px, of such a rectangle.
+const RECTANGLE_SIDE: usize = 3;
 
 /// Smallest upright rectangle of an image that contains everything that was imaged, in px.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,58 +88,136 @@ pub(super) fn part_of(mask: &[bool], width: usize) -> Option<ImagedPart> {
 
 /// Returns a mask, row by row, that is `true` for pixels that were imaged, or `None` if all were.
 ///
-/// Regions that are exactly black, 4-connected and at least 0.5 % of the image count as not imaged:
-/// montages and registered averages leave such margins, and such gaps between tiles. Two kinds of
-/// black regions count as imaged nevertheless: porous regions (the dark ground between bright
-/// cones), and regions below 5 % of the image into which the picture fades. Labelling takes one
-/// pass over the pixels, the mask one byte per pixel.
+/// Three kinds of pixels count as not imaged: constant regions (margins, gaps of montages, labels
+/// and bars), quiet margins of noise without structure, and the letters and lines that these
+/// surround. A constant region is 4-connected and at least 0.5 % of the image or an upright
+/// rectangle. Regions count as imaged nevertheless if they are porous (the dark ground between
+/// bright cones) or if the picture fades into them; exactly black regions from 5 % of the image on
+/// may fade. Labelling takes one pass over the pixels per value, the mask one byte per pixel.
 pub fn imaged_mask(plane: &Plane) -> Option<Vec<bool>> {
-    let width = plane.ncols();
-    let least = SMALLEST * plane.len() as f64;
-    // the commonest case, an image without margin, needs no labelling
+    let mut mask = vec![true; plane.len()];
+    let black = black_is_suspicious(plane) && leave_out(&mut mask, plane, 0.);
+    let mut furniture = false;
+    for value in long_constants(plane) {
+        furniture |= leave_out(&mut mask, plane, value);
+    }
+    furniture |= quiet::leave_out(&mut mask, plane);
+    if furniture {
+        quiet::leave_out_islands(&mut mask, plane.ncols());
+    }
+    ((black || furniture) && mask.contains(&true)).then_some(mask)
+}
+
+/// Returns the share (0–1) of the image that was not imaged and is not exactly black.
+pub fn furniture_share(plane: &Plane) -> f64 {
+    let Some(mask) = imaged_mask(plane) else { return 0. };
+    let left_out = plane.iter().zip(mask).filter(|(v, imaged)| !imaged && **v != 0.).count();
+    left_out as f64 / plane.len() as f64
+}
+
+/// Returns whether enough pixels are exactly black for a region that was not imaged.
+fn black_is_suspicious(plane: &Plane) -> bool {
     let black = match plane.as_slice() {
         Some(values) => values.iter().map(|&v| usize::from(v == 0.)).sum::<usize>(),
         None => plane.iter().filter(|&&v| v == 0.).count(),
     };
-    if black == 0 || (black as f64) < least {
-        return None;
+    black > 0 && black as f64 >= SMALLEST * plane.len() as f64
+}
+
+/// Returns the values other than black that fill long runs of a row, the commonest first.
+fn long_constants(plane: &Plane) -> Vec<f32> {
+    let mut lengths: BTreeMap<u32, usize> = BTreeMap::new();
+    for row in plane.rows() {
+        let (mut value, mut length) = (0f32, 0usize);
+        let mut note = |value: f32, length: usize| {
+            if length >= LONG_RUN && value != 0. && value.is_finite() {
+                *lengths.entry(value.to_bits()).or_default() += length;
+            }
+        };
+        for &v in row {
+            if v == value {
+                length += 1;
+            } else {
+                note(value, length);
+                (value, length) = (v, 1);
+            }
+        }
+        note(value, length);
     }
+    let mut common: Vec<(usize, u32)> =
+        lengths.into_iter().filter(|(_, n)| *n >= RECTANGLE).map(|(bits, n)| (n, bits)).collect();
+    common.sort_unstable_by(|a, b| b.cmp(a));
+    common.truncate(VALUES);
+    common.into_iter().map(|(_, bits)| f32::from_bits(bits)).collect()
+}
+
+/// Removes regions of the constant `value` from the mask if they were not imaged, and returns
+/// whether there are any.
+fn leave_out(mask: &mut [bool], plane: &Plane, value: f32) -> bool {
+    let width = plane.ncols();
+    let least = SMALLEST * plane.len() as f64;
     let mut regions = Regions::default();
     for row in plane.rows() {
-        regions.add_row(row.iter().map(|&v| v == 0.));
+        regions.add_row(row.iter().map(|&v| v == value));
     }
     let mut shapes = vec![Region::default(); regions.runs.len()];
     for k in 0..regions.runs.len() {
         let (run, root) = (regions.runs[k], regions.root(k));
         let region = &mut shapes[root];
+        if region.runs == 0 {
+            (region.left, region.right) = (run.first, run.end);
+        }
         region.rows += usize::from(region.runs == 0 || region.last_row != run.row);
         region.last_row = run.row;
         region.size += run.end - run.first;
         region.runs += 1;
+        (region.left, region.right) = (region.left.min(run.first), region.right.max(run.end));
     }
+    let large = |region: &Region| region.size as f64 >= least || region.is_rectangle();
     for k in 0..regions.runs.len() {
         let (run, root) = (regions.runs[k], regions.root(k));
-        if shapes[root].size as f64 >= least {
-            shapes[root].rim.extend(run.neighbours(plane).filter(|&v| v != 0.));
+        if large(&shapes[root]) {
+            let away = run.neighbours(plane).filter(|&v| v != value).map(|v| (v - value).abs());
+            shapes[root].rim.extend(away);
         }
     }
     let mut all_imaged = Mean::default();
-    all_imaged.extend(plane.iter().copied().filter(|&v| v != 0.));
+    all_imaged.extend(
+        plane.iter().zip(&*mask).filter(|(v, m)| **m && **v != value).map(|(v, _)| (*v - value).abs()),
+    );
+    // without it nothing would be left: the picture itself has this value, as a drawn mask has
+    if value != 0. && (all_imaged.count as f64) < PICTURE * plane.len() as f64 {
+        return false;
+    }
     let small = SMALL * plane.len() as f64;
     let is_hole = |region: &Region| {
-        let abrupt = region.rim.value() >= ABRUPT * all_imaged.value();
-        region.size as f64 >= least && !region.is_porous() && (abrupt || region.size as f64 >= small)
+        let abrupt = region.rim.count > 0 && region.rim.value() >= ABRUPT * all_imaged.value();
+        let vast = value == 0. && region.size as f64 >= small;
+        large(region) && !region.is_porous() && (abrupt || vast)
     };
-    let mut mask = vec![true; plane.len()];
-    let mut all = true;
+    let mut any = false;
+    // a pixel of the picture beside a margin may have its value by chance; black keeps such pixels,
+    // as registration leaves them
+    let mut ragged = vec![false; if value == 0. { 0 } else { plane.len() }];
     for k in 0..regions.runs.len() {
         let (run, root) = (regions.runs[k], regions.root(k));
         if is_hole(&shapes[root]) {
-            mask[run.row * width + run.first..run.row * width + run.end].fill(false);
-            all = false;
+            let pixels = run.row * width + run.first..run.row * width + run.end;
+            if value == 0. || shapes[root].is_rectangle() {
+                mask[pixels].fill(false);
+                any = true;
+            } else {
+                ragged[pixels].fill(true);
+            }
         }
     }
-    (!all).then_some(mask)
+    if ragged.contains(&true) {
+        for (imaged, broad) in mask.iter_mut().zip(quiet::opened(&ragged, width, LEAK)) {
+            any |= broad;
+            *imaged &= !broad;
+        }
+    }
+    any
 }
 
 #[derive(Clone, Copy, Default)]
@@ -172,11 +269,21 @@ struct Region {
     rows: usize,
     /// Last row in which the region has a run.
     last_row: usize,
-    /// Mean of the pixels around the region that are not black.
+    /// First column of the region.
+    left: usize,
+    /// Column after the last one of the region.
+    right: usize,
+    /// Mean distance, in grey values, of the pixels around the region from its value.
     rim: Mean,
 }
 
 impl Region {
+    /// Returns whether the region is an upright rectangle without holes, large enough for a label.
+    fn is_rectangle(&self) -> bool {
+        let (width, height) = (self.right - self.left, self.rows);
+        self.size >= RECTANGLE && width.min(height) >= RECTANGLE_SIDE && self.size == width * height
+    }
+
     /// Returns whether other pixels keep interrupting the region, so that it has many short runs
     /// per row.
     fn is_porous(&self) -> bool {
@@ -309,6 +416,34 @@ mod tests {
         let black = fading(40.).iter().filter(|v| **v == 0.).count();
         assert!(black > 300, "{black}");
         assert_eq!(imaged_mask(&fading(40.)), None);
+    }
+
+    #[test]
+    fn margins_of_constants_and_noise_and_boxes_are_empty() {
+        let noise = |y: usize, x: usize| {
+            let mut v = (y * 7919 + x).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+            v = (v ^ (v >> 31)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+            (v >> 40) % 3
+        };
+        let cones = |y: usize, x: usize| 0.5 + 0.4 * ((x as f32 * 0.8).sin() * (y as f32 * 0.8).sin());
+        let framed = |margin: &dyn Fn(usize, usize) -> f32| {
+            Plane::from_shape_fn((200, 200), |(y, x)| {
+                if (50..150).contains(&x) && (50..150).contains(&y) { cones(y, x) } else { margin(y, x) }
+            })
+        };
+        let part = ImagedPart { top: 50, left: 50, height: 100, width: 100 };
+        for value in [0., 1. / 255., 0.25, 1.] {
+            assert_eq!(imaged_part(&framed(&|_, _| value)), part, "{value}");
+        }
+        let plane = framed(&|y, x| noise(y, x) as f32 / 255.);
+        assert_eq!(imaged_part(&plane), part);
+        assert!((furniture_share(&plane) - 0.5).abs() < 0.1, "two thirds of 75 % are not black");
+        let boxed = Plane::from_shape_fn((100, 100), |(y, x)| {
+            if (10..20).contains(&y) && (30..60).contains(&x) { 1. } else { cones(y, x) }
+        });
+        assert_eq!(imaged_mask(&boxed).unwrap().iter().filter(|v| !**v).count(), 300);
+        let clipped = Plane::from_shape_fn((200, 200), |(y, x)| (2. * cones(y, x)).min(1.));
+        assert_eq!(imaged_mask(&clipped), None);
     }
 
     #[test]

@@ -41,7 +41,7 @@ pub use format::{FORMATS, Format, extensions, extensions_in_words, formats_in_wo
 pub(crate) use fourier::signed_frequency;
 pub use fourier::{Spectrum, fast_length};
 pub use gaussian::gaussian;
-pub use imaged::{ImagedPart, imaged_mask, imaged_part};
+pub use imaged::{ImagedPart, furniture_share, imaged_mask, imaged_part};
 pub use modality::{Modality, Polarity};
 pub use outline::imaged_area;
 pub use pad::{block_means, crop, mirror, reflect_pad};

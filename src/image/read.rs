@@ -50,7 +50,9 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ImageError> {
 ///   by 2ᵇ⁻¹ − 1 and lie in [−1, 1]. Floating-point values stay as they are.
 /// - Colour becomes its luma by Rec. 601, .299 R + .587 G + .114 B, as in MATLAB, OpenCV and
 ///   Pillow; equal R, G and B keep their value exactly. Palettes are looked up first. Gamma and
-///   colour profiles are ignored.
+///   colour profiles are ignored. A colour-coded picture, in which two channels each dominate
+///   at least 1 % of the pixels (cones drawn in red, green and blue), becomes the largest channel
+///   instead, so that all colours are equally bright.
 /// - Transparent pixels were not imaged and become black: grey is multiplied by alpha, unless the
 ///   file says that this was done already.
 /// - TIFF may have strips or tiles, any byte order, and be a BigTIFF; it may be uncompressed or

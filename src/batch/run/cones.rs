@@ -3,7 +3,7 @@
 
 use super::done::{POINTS, earlier_cones};
 use super::{GivenCones, IMAGES, Job};
-use crate::batch::detect::{describe, detect_in, formatted};
+use crate::batch::detect::{describe, detect_within, formatted};
 use crate::batch::output::Standing;
 use crate::batch::{BatchError, Input};
 use crate::detect::{DetectOptions, Detections, weights};
@@ -94,10 +94,15 @@ impl Job<'_> {
     /// # Errors
     /// Fails if a correction would be lost because the run starts anew or reads its cones from
     /// files, or if the file of cones is missing or cannot be read.
-    pub(super) fn origin(&self, input: &Input, image: &Plane) -> Result<Origin<'_>, BatchError> {
+    pub(super) fn origin(
+        &self,
+        input: &Input,
+        image: &Plane,
+        window: &Window,
+    ) -> Result<Origin<'_>, BatchError> {
         let corrected = match self.options.replace_corrections {
             true => None,
-            false => self.correction(input, image)?,
+            false => self.correction(input, image, window)?,
         };
         if let Some(bytes) = corrected {
             return match self.options.cones {
@@ -156,7 +161,12 @@ impl Job<'_> {
 
     /// Returns the content of the `points.csv` of an image if a person has corrected it; `None`
     /// otherwise.
-    fn correction(&self, input: &Input, image: &Plane) -> Result<Option<Vec<u8>>, BatchError> {
+    fn correction(
+        &self,
+        input: &Input,
+        image: &Plane,
+        window: &Window,
+    ) -> Result<Option<Vec<u8>>, BatchError> {
         if !self.is_corrected(input) {
             return Ok(None);
         }
@@ -166,7 +176,9 @@ impl Job<'_> {
         // the beginning of what the program would write: that is no correction. A file that ends
         // with a complete row but without a line break was saved by an editor.
         if let (false, ConeSource::Detector(options)) = (bytes.ends_with(b"\n"), &self.options.cones) {
-            let found = detect_in(input, image, &*self.detector_for(input, options)?)?;
+            let cut = self.windows.cut(image, window);
+            let mut found = detect_within(input, image, cut.as_ref(), &*self.detector_for(input, options)?)?;
+            found.cones.retain(|d| window.contains(d.centre));
             let scale = self.options.plan.scales.scale_of(&input.path, image.ncols())?;
             let written = formatted(&found.cones, scale);
             if written.strip_prefix(&*bytes).is_some_and(|rest| !rest.starts_with(b"\n")) {
@@ -192,7 +204,8 @@ pub(super) fn cones_of(
 ) -> Result<Cones, BatchError> {
     match origin {
         Origin::Detector(options) => {
-            let mut found = detect_in(input, image, options)?;
+            let cut = job.windows.cut(image, window);
+            let mut found = detect_within(input, image, cut.as_ref(), options)?;
             let all = found.cones.len();
             found.cones.retain(|d| window.contains(d.centre));
             let (points, csv) = (found.centres(), formatted(&found.cones, scale));

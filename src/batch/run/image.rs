@@ -28,7 +28,7 @@ pub(super) fn one_image(input: &Input, job: &Job) -> Result<(Done, String), Batc
     let scale = plan.scales.scale_of(&input.path, image.ncols())?;
     let window = job.windows.of(&input.path, &image, scale)?;
     let label = plan.labels.of(&input.path, scale)?;
-    let origin = job.origin(input, &image)?;
+    let origin = job.origin(input, &image, &window)?;
     let options_sha256 = fingerprint(plan, scale, &window, &label, &origin)?;
     if !job.options.fresh
         && let Some(kept) = earlier(job, input, &sha256, &options_sha256)
@@ -45,7 +45,8 @@ pub(super) fn one_image(input: &Input, job: &Job) -> Result<(Done, String), Batc
         .map_err(|source| BatchError::Mosaic { file: input.path.clone(), source })?;
     let specimen =
         Specimen { input, mosaic, outside: cones.outside, image: Some(&image), found: cones.found.as_ref() };
-    let analysis = analyse(&specimen, plan, &job.references)?;
+    let mut analysis = analyse(&specimen, plan, &job.references)?;
+    analysis.warnings.extend(job.windows.warning(&image));
     let [measure, compare] = analysis.seconds;
     lap();
 

@@ -12,4 +12,4 @@ pub use of_coordinates::Region;
 pub use of_image::ImageWindow;
 
 pub(super) use of_coordinates::Regions;
-pub(super) use of_image::ImageWindows;
+pub(super) use of_image::{Cut, ImageWindows};

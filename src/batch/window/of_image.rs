@@ -1,9 +1,10 @@
 use super::Crop;
 use crate::batch::BatchError;
-use crate::geometry::Window;
-use crate::image::{Plane, imaged_area};
+use crate::geometry::{Point, Window};
+use crate::image::{Plane, crop, furniture_share, imaged_area};
 use crate::mosaic::io::{OutlineFile, ReadOptions, read_outline};
 use crate::mosaic::{LengthUnit, Scale};
+use crate::report::significant;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -111,6 +112,62 @@ impl<'a> ImageWindows<'a> {
     }
 }
 
+/// The part of an image that its window leaves to the detector: whole pixels, outward.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::batch) struct Cut {
+    /// First column.
+    pub left: usize,
+    /// First row.
+    pub top: usize,
+    /// Pixels of the part; those outside polygons that the user drew are black.
+    pub part: Plane,
+}
+
+impl ImageWindows<'_> {
+    /// Returns a warning if the window is the imaged area and something other than black was left
+    /// out of it.
+    pub(in crate::batch) fn warning(&self, image: &Plane) -> Option<String> {
+        let share = match self.asked {
+            ImageWindow::Auto => furniture_share(image),
+            _ => 0.,
+        };
+        (share > 0.).then(|| {
+            format!(
+                "{} % of the image were taken for a margin, a label or a bar and left out, although they are \
+                 not black: look at the overlay and, if this is retina, choose the whole image as the window",
+                significant(100. * share, 2)
+            )
+        })
+    }
+
+    /// Returns the part of an image that the detector may see, or `None` if that is all of it.
+    ///
+    /// `window` is that of [`of`](Self::of). Only a window or crop that the user gave cuts: the
+    /// imaged area is found by the detector itself.
+    pub(in crate::batch) fn cut(&self, image: &Plane, window: &Window) -> Option<Cut> {
+        let given = matches!(self.asked, ImageWindow::Rectangle(_) | ImageWindow::File(_));
+        if !given && self.crop.is_none() {
+            return None;
+        }
+        let bounds = window.bounds();
+        let (height, width) = image.dim();
+        let first = |edge: f64| (edge + 0.5).floor().max(0.) as usize;
+        let last = |edge: f64, side: usize| ((edge + 0.5).ceil().max(0.) as usize).min(side);
+        let (left, top) = (first(bounds.x0()), first(bounds.y0()));
+        let (right, bottom) = (last(bounds.x1(), width), last(bounds.y1(), height));
+        let size = (bottom.checked_sub(top)?, right.checked_sub(left)?);
+        let mut part = crop(image, top, left, size.0, size.1);
+        if matches!(self.asked, ImageWindow::File(_)) && !matches!(window, Window::Rectangle(_)) {
+            for ((y, x), v) in part.indexed_iter_mut() {
+                if !window.contains(Point::new((x + left) as f64, (y + top) as f64)) {
+                    *v = 0.;
+                }
+            }
+        }
+        (part.dim() != image.dim() || part != *image).then_some(Cut { left, top, part })
+    }
+}
+
 /// Converts the window that was read from a file of corners to px.
 fn pixels_of(outline: &OutlineFile, file: &Path, scale: Option<Scale>) -> Result<Window, BatchError> {
     let missing = || BatchError::NoScale { what: "the file of the window", file: file.to_owned() };
@@ -150,6 +207,24 @@ mod tests {
         assert_eq!(cropped.area(), 61. * 60. - 41. * 31.);
         let black = window("auto", Some("0,0,30,20"), &image).unwrap_err();
         assert!(matches!(black, BatchError::Nowhere { .. }), "{black:?}");
+    }
+
+    #[test]
+    fn the_detector_sees_whole_pixels_of_a_given_window_only() {
+        let image = Plane::from_shape_fn((60, 100), |(y, x)| (1 + y * 100 + x) as f32);
+        let cut = |asked: &str, crop: Option<&str>| {
+            let (asked, crop) = (asked.parse().unwrap(), crop.map(|c| c.parse::<Crop>().unwrap()));
+            let windows = ImageWindows::new(&asked, crop.as_ref()).unwrap();
+            let window = windows.of(Path::new("a.png"), &image, None).unwrap();
+            windows.cut(&image, &window)
+        };
+        assert_eq!(cut("auto", None), None);
+        assert_eq!(cut("image", None), None);
+        for (asked, crop) in [("10,20,39.5,49.5", None), ("image", Some("9.5,19.5,39.5,49.5"))] {
+            let cut = cut(asked, crop).unwrap();
+            assert_eq!((cut.left, cut.top, cut.part.dim()), (10, 20, (30, 30)));
+            assert_eq!(cut.part[[0, 0]], image[[20, 10]]);
+        }
     }
 
     #[test]

@@ -32,8 +32,9 @@ type Source<'a> = Decoder<Cursor<&'a [u8]>>;
 pub(in crate::image) fn decode(bytes: &[u8], name: &str) -> Result<Plane, ImageError> {
     let place = Place { name };
     let mut decoder = open(bytes).map_err(|e| place.failed(e))?;
+    let directory = decoder.ifd_pointer().map_or(0, |p| p.0);
     let pages = count_pages(&mut decoder);
-    if pages > 1 {
+    if pages > 1 && !is_next_missing(bytes, directory) {
         return Err(ImageError::SeveralPages { name: name.to_owned(), pages });
     }
     let mut decoder = open(bytes).map_err(|e| place.failed(e))?;
@@ -71,6 +72,73 @@ fn count_pages(decoder: &mut Source) -> usize {
         pages += usize::from(kind & NOT_AN_IMAGE == 0);
     }
     pages
+}
+
+/// Returns whether the file says nothing of a second page: the offset of the next directory, which
+/// follows the entries of the first one, is missing or lies beyond the end of the file.
+///
+/// Some instruments leave the field out: a value of the directory, or the pixels, are stored in its
+/// place.
+fn is_next_missing(bytes: &[u8], directory: u64) -> bool {
+    let fields = Fields::of(bytes);
+    let found = || {
+        let start = usize::try_from(directory).ok()?;
+        let (count_bytes, entry_bytes, value_at) = fields.sizes();
+        let value_bytes = entry_bytes - value_at;
+        let entries = usize::try_from(fields.number(start, count_bytes)?).ok()?;
+        let end = start.checked_add(count_bytes)?.checked_add(entries.checked_mul(entry_bytes)?)?;
+        let Some(next) = fields.number(end, value_bytes) else { return Some(true) };
+        if next >= bytes.len() as u64 {
+            return Some(true);
+        }
+        let field = end as u64..end as u64 + value_bytes as u64;
+        let taken = |at: usize| {
+            let [kind, tag] = [fields.number(at + 2, 2)?, fields.number(at, 2)?];
+            let count = fields.number(at + 4, value_at - 4)?;
+            let size = match kind {
+                1 | 2 | 6 | 7 => 1,
+                3 | 8 => 2,
+                4 | 9 | 11 | 13 => 4,
+                _ => 8u64,
+            };
+            let outside = count.checked_mul(size)? > value_bytes as u64;
+            // a single strip of pixels has its offset in the entry itself
+            let strip = tag == u64::from(Tag::StripOffsets.to_u16());
+            let offset = fields.number(at + value_at, if outside || size >= 4 { value_bytes } else { 2 })?;
+            Some((outside || strip && count == 1) && field.contains(&offset))
+        };
+        Some((0..entries).any(|i| taken(start + count_bytes + i * entry_bytes) == Some(true)))
+    };
+    found().unwrap_or(false)
+}
+
+/// Numbers in the bytes of a TIFF file, in its byte order.
+struct Fields<'a> {
+    bytes: &'a [u8],
+    little: bool,
+    big_tiff: bool,
+}
+
+impl<'a> Fields<'a> {
+    fn of(bytes: &'a [u8]) -> Self {
+        let little = bytes.starts_with(b"II");
+        // the version after the byte order is 42 (“*”) in a classic TIFF and 43 (“+”) in a BigTIFF
+        let big_tiff = bytes.get(if little { 2 } else { 3 }) == Some(&b'+');
+        Self { bytes, little, big_tiff }
+    }
+
+    /// Returns the number of bytes of the number of entries, of an entry, and of the part of an
+    /// entry before its value.
+    const fn sizes(&self) -> (usize, usize, usize) {
+        if self.big_tiff { (8, 20, 12) } else { (2, 12, 8) }
+    }
+
+    /// Returns the unsigned number of `length` bytes at `from`, or `None` beyond the end.
+    fn number(&self, from: usize, length: usize) -> Option<u64> {
+        let field = self.bytes.get(from..from.checked_add(length)?)?;
+        let join = |sum: u64, &byte: &u8| sum << 8 | u64::from(byte);
+        Some(if self.little { field.iter().rev().fold(0, join) } else { field.iter().fold(0, join) })
+    }
 }
 
 /// Returns the value of a tag, or `None` if the tag is missing or of another type.
@@ -205,17 +273,10 @@ fn palette_to_grey(bytes: &[u8], decoder: &mut Source, place: &Place) -> Result<
 ///
 /// Returns `None` if that directory has no photometric interpretation.
 fn called_grey(bytes: &[u8], offset: u64) -> Option<Vec<u8>> {
-    let little = bytes.starts_with(b"II");
-    // the version after the byte order is 42 (“*”) in a classic TIFF and 43 (“+”) in a BigTIFF
-    let big_tiff = bytes.get(if little { 2 } else { 3 }) == Some(&b'+');
-    let number = |from: usize, length: usize| -> Option<u64> {
-        let field = bytes.get(from..from.checked_add(length)?)?;
-        let join = |sum: u64, &byte: &u8| sum << 8 | u64::from(byte);
-        Some(if little { field.iter().rev().fold(0, join) } else { field.iter().fold(0, join) })
-    };
+    let fields = Fields::of(bytes);
+    let number = |from, length| fields.number(from, length);
     let start = usize::try_from(offset).ok()?;
-    // bytes of the number of entries, of an entry, and of the part of an entry before its value
-    let (count_bytes, entry_bytes, value_at) = if big_tiff { (8, 20, 12) } else { (2, 12, 8) };
+    let (count_bytes, entry_bytes, value_at) = fields.sizes();
     let entries = usize::try_from(number(start, count_bytes)?).ok()?;
     let wanted = u64::from(Tag::PhotometricInterpretation.to_u16());
     let entry = (0..entries)
@@ -224,7 +285,7 @@ fn called_grey(bytes: &[u8], offset: u64) -> Option<Vec<u8>> {
         .find(|&at| number(at, 2) == Some(wanted))?;
     // a value of type 4 has 32 bits, any other is taken for one of 16 bits
     let long = number(entry + 2, 2)? == 4;
-    let value: &[u8] = match (little, long) {
+    let value: &[u8] = match (fields.little, long) {
         (true, false) => &[1, 0],
         (false, false) => &[0, 1],
         (true, true) => &[1, 0, 0, 0],
@@ -275,5 +336,44 @@ impl Place<'_> {
             },
             other => self.damaged(one_line(other)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns a grey TIFF of 2 × 2 px. Its resolution is stored right after the entries if
+    /// `next` is `None`, and after the field for the next directory otherwise.
+    fn small(next: Option<u32>) -> Vec<u8> {
+        let entries = 7u16;
+        let values = 10 + 12 * u32::from(entries) + if next.is_some() { 4 } else { 0 };
+        let mut bytes = b"II*\0\x08\0\0\0".to_vec();
+        bytes.extend(entries.to_le_bytes());
+        for (tag, kind, count, value) in [
+            (256u16, 4u16, 1u32, 2u32),
+            (257, 4, 1, 2),
+            (258, 3, 1, 8),
+            (262, 3, 1, 1),
+            (273, 4, 1, values + 8),
+            (279, 4, 1, 4),
+            (282, 5, 1, values),
+        ] {
+            bytes.extend([tag.to_le_bytes(), kind.to_le_bytes()].concat());
+            bytes.extend([count.to_le_bytes(), value.to_le_bytes()].concat());
+        }
+        bytes.extend(next.into_iter().flat_map(u32::to_le_bytes));
+        bytes.extend([20u32.to_le_bytes(), 1u32.to_le_bytes()].concat());
+        bytes.extend([0, 51, 102, 255]);
+        bytes
+    }
+
+    #[test]
+    fn a_missing_offset_of_the_next_page_is_no_page() {
+        let plain = decode(&small(Some(0)), "a.tif").unwrap();
+        assert_eq!(decode(&small(None), "a.tif").unwrap(), plain);
+        assert_eq!(decode(&small(Some(u32::MAX)), "a.tif").unwrap(), plain);
+        let stack = decode(&small(Some(8 + 12)), "a.tif");
+        assert!(matches!(stack, Err(ImageError::SeveralPages { .. })), "{stack:?}");
     }
 }
