@@ -27,6 +27,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod axis;
 mod calibration;
 mod filter;
 mod finder;
@@ -59,6 +60,7 @@ pub use types::{Detection, Detections};
 pub use view::WIDEST_SPACING;
 
 use crate::image::{Plane, crop, imaged_part};
+use axis::Turn;
 use finder::{ConeFinder, Sought};
 use search::regularity;
 use spacing::Start;
@@ -150,6 +152,9 @@ pub enum DetectError {
     /// Cone spacing in the options, in px, that is outside the range 4–160 px.
     #[error("the spacing is {0} px: expected {low} to {high} px", low = SPACING_RANGE.0, high = WIDEST_SPACING)]
     Spacing(f64),
+    /// Direction of the derivative in the options, in degrees, that is not a finite number.
+    #[error("the angle of the split detector is {0}: expected a finite number of degrees")]
+    SplitAngle(f64),
     /// Side of the tiles of a spacing map, in spacings, that is outside the range 6–60.
     #[error("the side of the tiles is {0} spacings: expected 6 to 60 spacings")]
     TileSide(f64),
@@ -274,20 +279,40 @@ pub fn modality_features(image: &Plane) -> Result<ModalityFeatures, DetectError>
 
 /// Detects the cones in an image without a black margin.
 ///
+/// A split-detector image whose derivative runs in another direction than x is turned first.
+fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, DetectError> {
+    let view = View::suitable(image, options.spacing_start());
+    let (angle, confidence) = modality::direction(view.rings.sample(), view.rings.whole(), options);
+    if angle != 0. {
+        // filters and networks expect the derivative along x
+        let turn = Turn::whole(angle, view.field().image.dim());
+        let options = &DetectOptions { modality: Some(Modality::Split), ..options.clone() };
+        let mut found = detect_upright(&view.turned(&turn), options)?;
+        turn.scaled(view.block).restore(&mut found);
+        found.split_angle = Some(angle);
+        found.modality_confidence = confidence.unwrap_or(1.);
+        return Ok(found);
+    }
+    detect_upright(&view, options)
+}
+
+/// Detects the cones in an image whose derivative, if it shows one, runs along x.
+///
 /// If the user set no spacing and the spacing found has a confidence below [`SURE`], coarser pixels
 /// are tried: if they show a ring of higher confidence, the image is searched once more in them,
 /// and the better of the two results is kept.
-fn detect_imaged(image: &Plane, options: &DetectOptions) -> Result<Detections, DetectError> {
-    let view = View::suitable(image, options.spacing);
-    let mut found = detect_in(&view, options)?;
-    if options.spacing.is_none()
+fn detect_upright(view: &View<'_>, options: &DetectOptions) -> Result<Detections, DetectError> {
+    let (height, width) = view.field().image.dim();
+    let dim = (height * view.block, width * view.block);
+    let mut found = detect_in(view, options)?;
+    if options.spacing_start().is_none()
         && found.spacing_confidence < SURE
         && let Some(wider) = view.wider(found.spacing_confidence)
     {
         let other = detect_in(&wider, options)?;
         // the more regular mosaic is taken; if the spacing found first is hopeless, a wider one of
         // higher confidence is taken even if its mosaic is less regular
-        let regularity = |found: &Detections| regularity(&found.centres(), image.dim());
+        let regularity = |found: &Detections| regularity(&found.centres(), dim);
         let surer = other.spacing_confidence > found.spacing_confidence;
         if found.spacing_confidence < HOPELESS && surer || regularity(&other) > regularity(&found) {
             found = other;
@@ -303,11 +328,14 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
         modality::decide(rings.sample(), rings.whole(), options.modality, options.polarity);
     let ring = rings.whole().spacing();
     // until `enlarge` at the end, lengths are in px of the view
-    let given = options.spacing.map(|s| s / view.block as f64);
+    let given = options.spacing_start().map(|s| s / view.block as f64);
     let mut start = match given {
-        None => Start { map: rings.map(), least: ring.least },
-        Some(spacing) => Start { map: SpacingMap::constant(spacing), least: 0. },
+        None => Start { least: ring.least, ..Start::at(rings.map()) },
+        Some(spacing) => Start::at(SpacingMap::constant(spacing)),
     };
+    if options.spacing.is_some() {
+        start = start.kept();
+    }
     let clarity = |spacing: f64| rings.whole().clarity(spacing);
     let spec = spec(modality);
     // the user's model and its network, unless it is for another modality
@@ -363,6 +391,7 @@ fn detect_in(view: &View<'_>, options: &DetectOptions) -> Result<Detections, Det
         spacing_confidence: calibration::spacing(ring.confidence, moved, clarity),
         spacing,
         spacing_map: map,
+        split_angle: (modality == Modality::Split).then_some(0.),
     };
     if view.block > 1 {
         detections.enlarge(view.block as f64);

@@ -51,9 +51,15 @@ pub struct DetectOptions {
     pub polarity: Option<Polarity>,
     /// Family of filters that finds the cones.
     pub detector: Detector,
-    /// Cone spacing in px (4–160) to start from; `None` to start from the spacing that Yellott's
-    /// ring in the spectrum shows.
+    /// Cone spacing in px (4–160), from which the density of the cones found may move it by at most
+    /// 10 %; `None` to estimate it from the image.
     pub spacing: Option<f64>,
+    /// Cone spacing in px (4–160) to start from, instead of the one that Yellott's ring in the
+    /// spectrum shows; the density may move it as far as that one. Not used if `spacing` is set.
+    pub spacing_from: Option<f64>,
+    /// Direction of the derivative in split-detector images, in degrees counter-clockwise as seen
+    /// from x; `None` to find it in the image. Other modalities have no such direction.
+    pub split_angle: Option<f64>,
     /// User's own network, used instead of the built-in one on images of the modality that it was
     /// made for.
     pub model: Option<UserModel>,
@@ -63,7 +69,7 @@ impl DetectOptions {
     /// Checks that the options are in range and do not contradict each other.
     ///
     /// # Errors
-    /// Fails if the spacing is outside 4–160 px. Fails also if `model` is set but would not be
+    /// Fails if the spacing is outside 4–160 px or the angle is not a finite number. Fails also if `model` is set but would not be
     /// used, because the detector is classical or the modality is another than the model's.
     pub fn validate(&self) -> Result<(), DetectError> {
         if self.model.is_some() && self.detector == Detector::Classical {
@@ -75,9 +81,18 @@ impl DetectOptions {
         {
             return Err(DetectError::OtherModality { name: model.name().to_owned(), own, given });
         }
-        match self.spacing {
-            Some(s) if !(SPACING_RANGE.0..=WIDEST_SPACING).contains(&s) => Err(DetectError::Spacing(s)),
-            _ => Ok(()),
+        let range = SPACING_RANGE.0..=WIDEST_SPACING;
+        if let Some(angle) = self.split_angle.filter(|a| !a.is_finite()) {
+            return Err(DetectError::SplitAngle(angle));
         }
+        match self.spacing.into_iter().chain(self.spacing_from).find(|s| !range.contains(s)) {
+            Some(s) => Err(DetectError::Spacing(s)),
+            None => Ok(()),
+        }
+    }
+
+    /// Returns the spacing in px that the user set to be kept or to start from, if any.
+    pub(super) fn spacing_start(&self) -> Option<f64> {
+        self.spacing.or(self.spacing_from)
     }
 }

@@ -29,6 +29,11 @@ pub struct Detections {
     pub modality_confidence: f64,
     /// Sign of the cones' contrast, set by the user or decided from the image.
     pub polarity: Polarity,
+    /// Direction of the derivative that a split-detector image shows, in degrees counter-clockwise
+    /// as seen, from 0 (along x, to the right) to below 180; `None` for other modalities.
+    ///
+    /// With positive polarity, the image of a cone becomes brighter in this direction.
+    pub split_angle: Option<f64>,
     /// Kind of filters that found the cones: classical or learned.
     pub detector: Detector,
     /// Cone spacing estimated from Yellott's ring alone, in px.

@@ -3,6 +3,7 @@
 //! An image is searched in its own pixels or, if its cones are farther apart than the filters are
 //! made for, in coarser pixels, each of which is the mean over a square block.
 
+use super::axis::Turn;
 use super::search::Field;
 use super::spacing::{PERIODS, Rings};
 use super::{MIN_SIDE, SPACING_RANGE};
@@ -74,6 +75,14 @@ impl<'a> View<'a> {
             }
         }
         surest
+    }
+
+    /// Returns the view turned by `turn`, with the image around it mirrored.
+    pub(super) fn turned(&self, turn: &Turn) -> View<'static> {
+        let imaged = turn.mask(|x, y| self.empty.as_ref().is_none_or(|e| !e.contains(x, y)));
+        let image = turn.of(&self.image);
+        let empty = imaged.map(|mask| EmptyPixels::not(mask, image.nrows(), image.ncols()));
+        View::new(Cow::Owned(image), empty, self.block)
     }
 
     fn new(image: Cow<'a, Plane>, empty: Option<EmptyPixels>, block: usize) -> Self {

@@ -44,7 +44,7 @@ impl EmptyPixels {
 
     /// Returns the empty pixels of an image of `height` × `width` px: those outside the mask
     /// `imaged`.
-    fn not(imaged: Vec<bool>, height: usize, width: usize) -> Self {
+    pub(crate) fn not(imaged: Vec<bool>, height: usize, width: usize) -> Self {
         let mut sums = vec![0u32; (height + 1) * (width + 1)];
         for y in 0..height {
             let mut in_row = 0;

@@ -149,6 +149,9 @@ pub struct DetectionRecord {
     pub modality_confidence: f64,
     /// Polarity that was assumed for the contrast of the cones.
     pub polarity: Polarity,
+    /// Direction of the derivative in a split-detector image, degrees counter-clockwise from x.
+    #[serde(default)]
+    pub split_angle: Option<f64>,
     /// Number of cones found in the entire image.
     pub n: usize,
     /// Cone spacing from Yellott's ring in the spectrum of the image, px.
@@ -178,6 +181,7 @@ impl DetectionRecord {
             modality: found.modality,
             modality_confidence: found.modality_confidence,
             polarity: found.polarity,
+            split_angle: found.split_angle,
             n,
             ring_spacing_px: found.ring_spacing,
             ring_confidence: found.ring_confidence,

@@ -36,12 +36,25 @@ pub struct DetectArgs {
     ///            the type
     #[arg(long, verbatim_doc_comment, value_name = "D", default_value = "auto", value_parser = PossibleValuesParser::new(Detector::VARIANTS))]
     detector: String,
-    /// First estimate of the distance between neighbouring cones, in px (4–160)
+    /// Distance between neighbouring cones, in px (4–160)
     ///
-    /// Detection refines it. [default: measured from Yellott's ring in the power spectrum of the
-    /// image]
+    /// The density of the cones found may move it by at most 10 %. [default: measured in the image,
+    /// from Yellott's ring in its power spectrum and the density of the cones found]
     #[arg(long, value_name = "PX")]
     spacing: Option<f64>,
+    /// First estimate of that distance, in px (4–160), which the cones found may change more
+    ///
+    /// It takes the place of Yellott's ring only.
+    #[arg(long, value_name = "PX", conflicts_with = "spacing")]
+    spacing_from: Option<f64>,
+    /// Direction of the derivative in split-detector images
+    ///
+    /// An angle in degrees, counter-clockwise as seen: 0 if cones are dark on the
+    /// left and bright on the right or the reverse, 90 if they are bright on top
+    /// or below.
+    /// auto  found in each image
+    #[arg(long, verbatim_doc_comment, value_name = "DEG", default_value = "auto", value_parser = angle_or_auto)]
+    split_angle: Angle,
     /// Network of your own to use instead of the built-in one: .safetensors or .onnx
     ///
     /// The end of `conemosaic detect --help` describes both formats.
@@ -51,6 +64,21 @@ pub struct DetectArgs {
 
 /// Description of the files that `--model` accepts, for the end of a command's help.
 pub const MODELS: &str = include_str!("../help/models.txt").trim_ascii_end();
+
+/// Angle in degrees, or `None` for `auto`.
+#[derive(Clone, Copy)]
+struct Angle(Option<f64>);
+
+/// Reads an angle in degrees or `auto`.
+fn angle_or_auto(text: &str) -> Result<Angle, String> {
+    match text {
+        "auto" => Ok(Angle(None)),
+        _ => match text.parse::<f64>() {
+            Ok(angle) if angle.is_finite() => Ok(Angle(Some(angle))),
+            _ => Err("expected an angle in degrees, or auto".into()),
+        },
+    }
+}
 
 /// Reads the network of a file.
 fn read_model(path: &Path) -> Result<UserModel> {
@@ -83,6 +111,8 @@ impl DetectArgs {
                 .map_err(anyhow::Error::msg)?,
             detector: self.detector.parse::<Detector>().map_err(anyhow::Error::msg)?,
             spacing: self.spacing,
+            spacing_from: self.spacing_from,
+            split_angle: self.split_angle.0,
             model: self.model.as_deref().map(read_model).transpose()?,
         };
         options.validate()?;

@@ -11,9 +11,10 @@ mod network;
 
 pub(super) use network::weights;
 
+use super::axis::{self, CLEAR_AXIS, Turn};
 use super::spacing::RingProfile;
 use super::spec::{PolarityCue, spec};
-use super::{Modality, Polarity};
+use super::{DetectOptions, Modality, Polarity};
 use crate::geometry::Point;
 use crate::image::{Plane, gaussian};
 use features::{DIRECTION, Features, MODALITY};
@@ -24,6 +25,10 @@ const MIDDLE: f64 = 0.1;
 /// Standard deviation, in spacings, of the Gaussian that averages the brightness of a cut cell and
 /// of its surroundings beyond the walls.
 const CELL: f64 = 0.5;
+
+/// Smallest confidence (0–1) of the modality with which an image that is turned counts as a
+/// split-detector image.
+const SURELY_SPLIT: f64 = 0.8;
 
 /// Number of pixels of a flattened image from which on it is taken for one tile of a larger image,
 /// so that the ring of the tile itself is measured.
@@ -81,6 +86,36 @@ pub(super) fn decide(
     let polarity =
         polarity.unwrap_or_else(|| if evidence() >= 0. { Polarity::Positive } else { Polarity::Negative });
     (modality, confidence, polarity)
+}
+
+/// Returns the direction in which the image has to be searched for cones, and the confidence of the
+/// modality if that is why it is a split-detector image.
+///
+/// The direction is 0 (along x) unless the image is a split-detector image whose axis is clearly
+/// another. An image that does not look like one along x counts as one only if it certainly does
+/// along its axis.
+pub(super) fn direction(flat: &Plane, ring: &RingProfile, options: &DetectOptions) -> (f64, Option<f64>) {
+    let upright = (0., None);
+    if options.modality.is_some_and(|m| m != Modality::Split) {
+        return upright;
+    }
+    let angle = match options.split_angle {
+        Some(angle) => axis::wrapped(angle),
+        None => {
+            let (angle, strength) = axis::axis(flat, ring.spacing().spacing);
+            if strength < CLEAR_AXIS { 0. } else { axis::snapped(angle) }
+        }
+    };
+    if angle == 0. || options.modality.is_some() {
+        return (angle, None);
+    }
+    let turned = Turn::inside(angle, flat.dim()).of(flat);
+    let (modality, confidence, _) = decide(&turned, ring, None, None);
+    if modality == Modality::Split && confidence >= SURELY_SPLIT {
+        (angle, Some(confidence))
+    } else {
+        upright
+    }
 }
 
 /// Returns the features by which [`decide`] recognises the modality and the polarity.

@@ -98,6 +98,17 @@ impl SpacingMap {
         (self.log.iter().sum::<f64>() / self.log.len() as f64).exp()
     }
 
+    /// Returns the map multiplied by the factor nearest to 1 that brings the logarithm of its
+    /// typical spacing to within `trust` of that of `spacing` px.
+    pub(super) fn within(mut self, spacing: f64, trust: f64) -> Self {
+        let off = (self.typical() / spacing).ln();
+        let excess = off - off.clamp(-trust, trust);
+        if excess != 0. {
+            self.log.iter_mut().for_each(|log| *log -= excess);
+        }
+        self
+    }
+
     /// Returns the smallest and the largest spacing, in px.
     pub fn range(&self) -> (f64, f64) {
         let (low, high) =

@@ -24,6 +24,9 @@ pub const BORDER: f64 = 7.;
 /// Detections that suggest a larger change are not to be trusted.
 const TRUST: f64 = 0.35;
 
+/// Largest factor by which detections may change a spacing that the user set.
+const KEPT: f64 = 1.1;
+
 /// Approximate number of cones in a square in which a local density is counted.
 ///
 /// The count of a smaller square would scatter more, a larger square would blur the map.
@@ -58,9 +61,21 @@ pub(in crate::detect) struct Start {
     /// ([`RingEstimate::least`](super::RingEstimate::least)). If the cones counted show a
     /// smaller spacing, noise was probably counted as well.
     pub least: f64,
+    /// Largest change of the logarithm of the typical spacing that detections may cause.
+    pub trust: f64,
 }
 
 impl Start {
+    /// Returns the start from a spacing that detections may change as usual, without a lower limit.
+    pub(in crate::detect) const fn at(map: SpacingMap) -> Self {
+        Self { map, least: 0., trust: TRUST }
+    }
+
+    /// Returns the start from which detections may move the typical spacing by at most 10 %.
+    pub(in crate::detect) fn kept(self) -> Self {
+        Self { trust: KEPT.ln(), ..self }
+    }
+
     /// Returns another start if the density of `centres`, the cones found from this start,
     /// contradicts it.
     ///
@@ -76,7 +91,7 @@ impl Start {
         let (low, high) = SPACING_RANGE;
         let shown = density_spacing(centres, width, height, empty)?.clamp(low, high);
         let far = (shown / self.map.typical()).ln().abs() > TRUST;
-        far.then(|| Self { map: SpacingMap::constant(shown), least: 0. })
+        far.then(|| Self::at(SpacingMap::constant(shown)))
     }
 }
 
@@ -100,11 +115,11 @@ fn density_spacing(
     hexagonal_spacing(inside.max(1), area * imaged)
 }
 
-/// Returns the spacing by density, limited to within a factor of e^±0.35 of the ring's, or the
-/// ring's spacing if there is no density.
-fn trusted(by_density: Option<f64>, ring_spacing: f64) -> f64 {
+/// Returns the spacing by density, or the ring's spacing if there is no density; its logarithm is
+/// limited to within `trust` of that of the ring's.
+fn trusted(by_density: Option<f64>, ring_spacing: f64, trust: f64) -> f64 {
     let by_density = by_density.unwrap_or(ring_spacing);
-    ring_spacing * (by_density / ring_spacing).ln().clamp(-TRUST, TRUST).exp()
+    ring_spacing * (by_density / ring_spacing).ln().clamp(-trust, trust).exp()
 }
 
 /// Returns the map of the spacing by the local density of `centres`.
@@ -125,7 +140,7 @@ pub(in crate::detect) fn refined_map(
     let ring = &start.map;
     let shown = density_spacing(centres, width, height, empty);
     let raise = shown.map_or(1., |s| (start.least / s).max(1.));
-    let typical = trusted(shown.map(|s| raise * s), ring.typical());
+    let typical = trusted(shown.map(|s| raise * s), ring.typical(), start.trust);
     let constant = || SpacingMap::constant(typical);
     if centres.len() < ENOUGH_CONES {
         return constant();
@@ -147,12 +162,12 @@ pub(in crate::detect) fn refined_map(
             let imaged = empty.map_or(1., |e| square.imaged(e));
             let known = imaged >= IMAGED;
             let by_density = hexagonal_spacing(cells.count(&square).max(1), square.area() * imaged);
-            spacing.push(known.then(|| trusted(by_density.map(|s| raise * s), before)));
+            spacing.push(known.then(|| trusted(by_density.map(|s| raise * s), before, TRUST)));
         }
     }
     let map = SpacingMap::on_grid(x, y, &spacing, typical).smoothed();
     let (low, high) = map.range();
-    if high / low < EVEN { constant() } else { map }
+    if high / low < EVEN { constant() } else { map.within(ring.typical(), start.trust) }
 }
 
 /// A square of an image, in px, moved and if necessary shrunk to lie inside the border.
@@ -225,7 +240,7 @@ mod tests {
     use super::*;
 
     fn refined(centres: &[Point], width: usize, height: usize, ring_spacing: f64) -> f64 {
-        trusted(density_spacing(centres, width, height, None), ring_spacing)
+        trusted(density_spacing(centres, width, height, None), ring_spacing, TRUST)
     }
 
     fn lattice(step: f64, side: usize) -> Vec<Point> {
@@ -249,7 +264,7 @@ mod tests {
     }
 
     fn start(spacing: f64, least: f64) -> Start {
-        Start { map: SpacingMap::constant(spacing), least }
+        Start { least, ..Start::at(SpacingMap::constant(spacing)) }
     }
 
     #[test]

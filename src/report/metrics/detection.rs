@@ -53,6 +53,19 @@ pub(super) const DETECTION: &[Metric] = &[
         Detection,
         Plain,
         column(
+            "split_angle",
+            "degrees, counter-clockwise from the x axis",
+            "Direction of the derivative that a split-detector image shows, set or found: 0 (along x) \
+                to below 180, counter-clockwise as seen. With positive polarity, cones become brighter \
+                in this direction. Empty for other modalities.",
+        )
+        .only(Part::Images)
+        .of(|s| s.detection().and_then(|d| d.split_angle).into()),
+    ),
+    metric(
+        Detection,
+        Plain,
+        column(
             "expected_false_alarms",
             "count",
             "Expected number of detections that are not cones: sum of 1 − score over all \
