@@ -17,7 +17,7 @@ use std::collections::{BTreeMap, HashSet};
 
 /// Columns in the unit of the image or without a unit, with the location of their value in
 /// `metrics.json`.
-const COLUMNS: [(&str, &str); 77] = [
+const COLUMNS: [(&str, &str); 78] = [
     ("width_px", "/width_px"),
     ("height_px", "/height_px"),
     ("um_per_px", "/mosaic/um_per_unit"),
