@@ -87,14 +87,13 @@ pub fn turned(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
 
-    /// Returns 100 points that no turn of the image maps onto each other.
+    /// Returns 200 random points, which no turn of the image maps onto each other.
     fn scattered() -> Vec<Point> {
-        let place = |i: usize| {
-            let jitter = |k: usize| (i * i * k % 17) as f64 / 4. - 2.;
-            Point::new((i % 10 * 10 + 5) as f64 + jitter(7), (i / 10 * 10 + 5) as f64 + jitter(5))
-        };
-        (0..100).map(place).collect()
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        (0..200).map(|_| Point::new(rng.random_range(0. ..99.), rng.random_range(0. ..99.))).collect()
     }
 
     #[test]

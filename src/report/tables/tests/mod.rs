@@ -67,6 +67,7 @@ fn every_column_of_every_table_is_the_value_that_its_name_says() {
     scores::validation(&mut held);
     scores::curves_of_scores(&mut held);
     scores::agreement(&mut held);
+    scores::pairs(&mut held);
     paper::tables(&mut held);
     for table in TABLES.into_iter().map(|t| t.words()) {
         assert!(held.0.contains(&(table.file, table.commands)), "{} is not held to anything", table.file);
