@@ -194,9 +194,12 @@ impl DetectionRecord {
         }
     }
 
-    /// Returns the number of errors expected per cone found: false alarms and misses.
+    /// Returns the share (0–1) of errors, false alarms and misses, that is expected among the cones
+    /// found and missed.
     pub fn expected_error_rate(&self) -> f64 {
-        (self.expected_false_alarms + self.expected_misses) / self.n.max(1) as f64
+        // at most one false alarm per cone found, so the share cannot exceed 1
+        let all = self.n as f64 + self.expected_misses;
+        if all > 0. { (self.expected_false_alarms + self.expected_misses) / all } else { 0. }
     }
 }
 
@@ -223,12 +226,13 @@ impl ConesFrom {
     }
 }
 
-/// Need of an image that was decided otherwise than those beside it: more than any other.
+/// Need of an image that was decided otherwise than those beside it, which exceeds that of any other
+/// image: two shares.
 const ODD: f64 = 10.;
 
 /// Returns the indices of the records, sorted by how much a person should look at them, most first.
 ///
-/// The measure is the expected errors per cone, plus the doubt about modality and spacing. Records
+/// The measure is the expected share of errors, plus the doubt about modality and spacing. Records
 /// with equal measures keep their order.
 pub fn by_need(records: &[ImageRecord]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..records.len()).collect();

@@ -92,8 +92,9 @@ pub(super) const DETECTION: &[Metric] = &[
         column(
             "expected_error_rate",
             "0–1",
-            "Expected number of errors per detected cone: sum of expected_false_alarms and \
-                expected_misses, divided by the number of detected cones.",
+            "Expected share of errors among the cones detected and missed: sum of \
+                expected_false_alarms and expected_misses, divided by the number of detected cones \
+                plus expected_misses.",
         )
         .only(Part::Images)
         .of(|s| s.detection().map(|d| d.expected_error_rate()).into()),
