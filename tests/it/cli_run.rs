@@ -324,3 +324,26 @@ fn two_channels_of_a_field_are_compared() {
         place.refused(&[&run[..], &["c", "--pair", "confocal=a*"]].concat()).contains("names one channel")
     );
 }
+
+#[test]
+fn the_image_decided_otherwise_than_its_folder_is_named_first() {
+    let place = Place::new();
+    fs::create_dir_all(place.path("images")).unwrap();
+    let size = ["--width", "150", "--height", "150"];
+    for k in 1..=6 {
+        let (name, seed) = (format!("images/c{k}.png"), k.to_string());
+        let given = ["render", "--preset", "fovea", "--seed", &seed, "--out", &name, "-q"];
+        place.ok(&[&given[..], &size].concat());
+    }
+    place.ok(&[&["render", "--preset", "split", "--out", "images/s.png", "-q"][..], &size].concat());
+    let given = ["run", "images", "--samplers", "none", "--out", "out"];
+    place.ok(&given);
+    let rows = place.table("out/summary.csv");
+    let warned = |row: &BTreeMap<String, String>| row["warnings"].contains("6 of 7 images of this size");
+    let odd: Vec<&str> = rows.iter().filter(|row| warned(row)).map(|row| &*row["name"]).collect();
+    assert_eq!(odd, ["s"]);
+    // a modality that is stated is no mistake of the program
+    place.write("manifest.csv", "file,modality\ns.png,split\n");
+    place.ok(&[&given[..], &["--manifest", "manifest.csv", "--fresh"]].concat());
+    assert!(!place.table("out/summary.csv").iter().any(warned));
+}

@@ -13,6 +13,7 @@ use crate::report::tables::{ChannelPair, PAIRED_CONES, PAIRS, PairedCone};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
+use strum::VariantArray;
 
 /// Folder of the files of cones of pairs.
 const FOLDER: &str = "pairs";
@@ -192,12 +193,13 @@ pub(super) fn warn_of_odd_ones(done: &mut [Done], given: impl Fn(&Path) -> bool)
         }
     }
     for images in folders.values() {
+        let others = images.len() - 1;
+        let counts = |modality: Modality| images.iter().filter(|(_, m)| *m == modality).count();
+        let counts: Vec<(Modality, usize)> = Modality::VARIANTS.iter().map(|&m| (m, counts(m))).collect();
         for &(k, modality) in images {
-            let others = images.len() - 1;
-            let Some((most, n)) = most_of(images.iter().filter(|(other, _)| *other != k).map(|(_, m)| *m))
-            else {
-                continue;
-            };
+            // the most frequent modality of the others: an image does not agree with itself
+            let among_others = counts.iter().map(|&(m, n)| (m, n - usize::from(m == modality)));
+            let Some((most, n)) = among_others.max_by_key(|(_, n)| *n) else { continue };
             let agree = n as f64 >= AGREEING * others as f64;
             if others < SIBLINGS || !agree || most == modality || given(Path::new(&done[k].record.file)) {
                 continue;
@@ -213,16 +215,4 @@ pub(super) fn warn_of_odd_ones(done: &mut [Done], given: impl Fn(&Path) -> bool)
             );
         }
     }
-}
-
-/// Returns the modality that most images have, and their number; `None` without images.
-fn most_of(modalities: impl Iterator<Item = Modality>) -> Option<(Modality, usize)> {
-    let mut counts: Vec<(Modality, usize)> = Vec::new();
-    for modality in modalities {
-        match counts.iter_mut().find(|(m, _)| *m == modality) {
-            Some((_, n)) => *n += 1,
-            None => counts.push((modality, 1)),
-        }
-    }
-    counts.into_iter().max_by_key(|(_, n)| *n)
 }
