@@ -34,7 +34,9 @@ const POROUS_RUNS: usize = 4;
 /// on average.
 const POROUS_LENGTH: usize = 64;
 
-/// Smallest share of the image that other values must fill beside a constant one.
+/// Smallest share of the image that other values must fill for a constant to be left out.
+///
+/// Otherwise the constant is the picture itself, as in a drawn mask.
 const PICTURE: f64 = 0.02;
 
 /// Shortest run, in px, of one value that makes the value a candidate for page furniture.
@@ -220,8 +222,8 @@ fn leave_out(mask: &mut [bool], plane: &Plane, value: f32) -> bool {
     any
 }
 
-#[derive(Clone, Copy, Default)]
 /// Mean of values that arrive one after the other.
+#[derive(Clone, Copy, Default)]
 struct Mean {
     sum: f64,
     count: usize,
@@ -425,7 +427,8 @@ mod tests {
             v = (v ^ (v >> 31)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
             (v >> 40) % 3
         };
-        let cones = |y: usize, x: usize| 0.5 + 0.4 * ((x as f32 * 0.8).sin() * (y as f32 * 0.8).sin());
+        let wave = |k: usize| (0.8 * k as f32 + 0.3).sin();
+        let cones = |y: usize, x: usize| 0.5 + 0.4 * wave(x) * wave(y);
         let framed = |margin: &dyn Fn(usize, usize) -> f32| {
             Plane::from_shape_fn((200, 200), |(y, x)| {
                 if (50..150).contains(&x) && (50..150).contains(&y) { cones(y, x) } else { margin(y, x) }

@@ -28,7 +28,9 @@ const CELL: f64 = 0.5;
 
 /// Smallest confidence (0–1) of the modality with which an image that is turned counts as a
 /// split-detector image.
-const SURELY_SPLIT: f64 = 0.8;
+const SURELY_SPLIT: f64 = 0.9;
+/// Confidence (0–1) of the modality of an image as it is from which it is not turned.
+const SURE: f64 = 0.8;
 
 /// Number of pixels of a flattened image from which on it is taken for one tile of a larger image,
 /// so that the ring of the tile itself is measured.
@@ -108,6 +110,11 @@ pub(super) fn direction(flat: &Plane, ring: &RingProfile, options: &DetectOption
     };
     if angle == 0. || options.modality.is_some() {
         return (angle, None);
+    }
+    // streaks and lines out of place give other images an axis, too
+    let (upright_modality, upright_confidence, _) = decide(flat, ring, None, None);
+    if upright_modality != Modality::Split && upright_confidence >= SURE {
+        return upright;
     }
     let turned = Turn::inside(angle, flat.dim()).of(flat);
     let (modality, confidence, _) = decide(&turned, ring, None, None);

@@ -92,7 +92,8 @@ pub(super) fn leave_out(mask: &mut [bool], plane: &Plane) -> bool {
         let power: f64 = fresh.iter().map(|&k| blocks[k].power).sum();
         let product: f64 = fresh.iter().map(|&k| blocks[k].product).sum();
         let enough = fresh.len() as f64 >= SMALLEST * blocks.len() as f64;
-        if border && enough && product <= UNCORRELATED * power {
+        // a constant is no noise
+        if border && enough && power > 0. && product <= UNCORRELATED * power {
             continue_to_pixels(mask, width, plane, &fresh, (&blocks, columns));
             any = true;
         }

@@ -175,11 +175,11 @@ fn expected(record: &ImageRecord) -> BTreeMap<&'static str, Cell> {
     let cones = mosaic.expected_cones_per_mm2().unwrap();
     let found = record.detection.as_ref().unwrap();
     let errors = found.expected_false_alarms + found.expected_misses;
-    let all = found.n as f64 + found.expected_misses;
+    let found_or_missed = found.n as f64 + found.expected_misses;
     let mut all: BTreeMap<&str, Cell> = COLUMNS.iter().map(|(name, at)| (*name, cell(at))).collect();
     all.extend([
         ("warnings", "one; two".into()),
-        ("expected_error_rate", (errors / all).into()),
+        ("expected_error_rate", (errors / found_or_missed).into()),
         ("eccentricity_mm", 2.0.into()),
         ("density_expected_per_mm2", cones.into()),
         ("spacing_expected_um", mosaic.expected_spacing_um().into()),
