@@ -18,7 +18,7 @@ const SMOOTH: f64 = 0.15;
 /// isotropic mosaic is .5.
 pub(super) const CLEAR_AXIS: f64 = 0.15;
 /// Largest angle, in degrees, to x or y of an axis that counts as x or y.
-const SNAP: f64 = 12.;
+const SNAP: f64 = 20.;
 /// Number of pixels on either side of a place that its interpolated value depends on.
 const LOBES: isize = 3;
 

@@ -111,9 +111,10 @@ pub(super) fn direction(flat: &Plane, ring: &RingProfile, options: &DetectOption
     if angle == 0. || options.modality.is_some() {
         return (angle, None);
     }
-    // streaks and lines out of place give other images an axis, too
-    let (upright_modality, upright_confidence, _) = decide(flat, ring, None, None);
-    if upright_modality != Modality::Split && upright_confidence >= SURE {
+    // streaks and lines out of place give confocal images an axis, too; a split-detector image that
+    // is not along x looks like histology
+    let (as_it_is, sure, _) = decide(flat, ring, None, None);
+    if as_it_is == Modality::Confocal && sure >= SURE {
         return upright;
     }
     let turned = Turn::inside(angle, flat.dim()).of(flat);
