@@ -6,15 +6,15 @@ use std::str::FromStr;
 
 /// Names of the images of two channels: each a modality and a pattern with one `*`.
 ///
-/// Images whose names match the two patterns and share what the `*` stands for are a pair. A pattern
-/// is compared with the file name, and with the file name without its extension.
+/// Images whose names match the two patterns and share what the `*` stands for are a pair. A
+/// pattern is compared with the file name, and with the file name without its extension.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ChannelPatterns([(Modality, String, String); 2]);
 
 impl FromStr for ChannelPatterns {
     type Err = String;
 
-    /// Reads `MODALITY=PATTERN,MODALITY=PATTERN`.
+    /// Reads the patterns from `MODALITY=PATTERN,MODALITY=PATTERN`.
     fn from_str(text: &str) -> Result<Self, String> {
         let wrong = |why: String| format!("{why}: expected, for example, confocal=confocal_*,split=split_*");
         let channel = |part: &str| {

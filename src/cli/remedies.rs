@@ -33,7 +33,6 @@ const PHRASES: &[(&str, &str)] = &[
     ("group them by subject", "give --group-by or --group-table"),
     ("give a narrower border", "give a smaller --border"),
     ("read them with y flipped", "give --flip-y"),
-    ("choose the whole image as the window", "give --window image"),
     ("give the modality", "give --modality"),
     ("give the spacing if you know it", "give --spacing if you know it"),
 ];

@@ -69,8 +69,9 @@ impl DetectOptions {
     /// Checks that the options are in range and do not contradict each other.
     ///
     /// # Errors
-    /// Fails if the spacing is outside 4–160 px or the angle is not a finite number. Fails also if `model` is set but would not be
-    /// used, because the detector is classical or the modality is another than the model's.
+    /// Fails if the spacing is outside 4–160 px or the angle is not a finite number. Fails also if
+    /// `model` is set but would not be used, because the detector is classical or the modality is
+    /// another than the model's.
     pub fn validate(&self) -> Result<(), DetectError> {
         if self.model.is_some() && self.detector == Detector::Classical {
             return Err(DetectError::Unused);

@@ -226,8 +226,8 @@ impl ConesFrom {
     }
 }
 
-/// Need of an image that was decided otherwise than those beside it, which exceeds that of any other
-/// image: two shares.
+/// Need of an image that was decided otherwise than those beside it, which exceeds that of any
+/// other image: two shares.
 const ODD: f64 = 10.;
 
 /// Returns the indices of the records, sorted by how much a person should look at them, most first.

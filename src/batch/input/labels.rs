@@ -143,8 +143,8 @@ impl Labels {
         row.labels.get(k).map(|text| text.trim()).filter(|text| !text.is_empty())
     }
 
-    /// Returns the modality that the column `modality` of the manifest states for an image; `None` if
-    /// it states none, or “auto”.
+    /// Returns the modality that the column `modality` of the manifest states for an image; `None`
+    /// if it states none, or “auto”.
     ///
     /// # Errors
     /// Fails if the cell names no modality.

@@ -43,8 +43,8 @@ pub struct RunOptions {
     pub window: ImageWindow,
     /// A rectangle to which the window of each image is cut. `None` if the entire window counts.
     pub crop: Option<Crop>,
-    /// Names of the images of two channels of the same field, which are compared; `None` if the names
-    /// say nothing. Its modality overrules that of the manifest and of the image.
+    /// Names of the images of two channels of the same field, which are compared; `None` if the
+    /// names say nothing. Its modality overrules that of the manifest and of the image.
     pub pairs: Option<ChannelPatterns>,
     /// `true` to compute everything anew. `false` to keep the results of an earlier run for every
     /// image if neither the image nor the options nor the program have changed.

@@ -115,9 +115,9 @@ impl<'a> ImageWindows<'a> {
 /// The part of an image that its window leaves to the detector: whole pixels, outward.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::batch) struct Cut {
-    /// First column.
+    /// First column of the part, in px of the image.
     pub left: usize,
-    /// First row.
+    /// First row of the part, in px of the image.
     pub top: usize,
     /// Pixels of the part; those outside polygons that the user drew are black.
     pub part: Plane,
@@ -128,13 +128,13 @@ impl ImageWindows<'_> {
     /// out of it.
     pub(in crate::batch) fn warning(&self, image: &Plane) -> Option<String> {
         let share = match self.asked {
-            ImageWindow::Auto => furniture_share(image),
+            ImageWindow::Auto | ImageWindow::Image => furniture_share(image),
             _ => 0.,
         };
         (share > 0.).then(|| {
             format!(
-                "{} % of the image were taken for a margin, a label or a bar and left out, although they are \
-                 not black: look at the overlay and, if this is retina, choose the whole image as the window",
+                "{} % of the image, although not black, look like a margin, a label or a bar, and no cones were \
+                 looked for there: look at the overlay and, if this is retina, cut it out of the image",
                 significant(100. * share, 2)
             )
         })

@@ -48,7 +48,8 @@ pub struct Registration {
 /// not count, because the other channel may miss them there.
 ///
 /// # Errors
-/// Fails if a coordinate is not finite or beyond ±10⁹ px, or there are 4,294,967,295 points or more.
+/// Fails if a coordinate is not finite or beyond ±10⁹ px, or there are 4,294,967,295 points or
+/// more.
 pub fn register(
     first: &[Point],
     second: &[Point],

@@ -20,7 +20,8 @@ pub struct Summary {
     pub precision: f64,
     /// Mean of the images' Dice coefficients (F1).
     pub dice: f64,
-    /// Mean of the images' sensitivities at the strict reach, [`STRICT_REACH`](super::STRICT_REACH).
+    /// Mean of the images' sensitivities at the strict reach,
+    /// [`STRICT_REACH`](super::STRICT_REACH).
     pub sensitivity_strict: f64,
     /// Mean of the images' false discovery rates at the strict reach.
     pub fdr_strict: f64,

@@ -17,9 +17,9 @@ pub enum Turned {
     HalfTurn,
 }
 
-/// Least gain in the strict Dice coefficient that is needed to call marks turned over. Between points that
-/// have nothing to do with each other, the coefficient varies by less than 0.1 between one turn and
-/// another; of right marks it exceeds that of turned ones by about 0.5.
+/// Least gain in the strict Dice coefficient that is needed to call marks turned over. Between
+/// points that have nothing to do with each other, the coefficient varies by less than 0.1 between
+/// one turn and another; of right marks it exceeds that of turned ones by about 0.5.
 const CLEAR: f64 = 0.2;
 
 impl Turned {
